@@ -53,7 +53,7 @@ def test_files_without_end(ballscrew, case):
     one_line(ballscrew("run", "/dev/zero"), "/dev/zero: cannot be read (is larger than 4 MB)")
     row = '[screw]\ncatalogue = "x"\ncatalogue_file = "/dev/zero"\n'
     path = case(CASE[: CASE.index("[lubricant]")], row)
-    one_line(ballscrew("run", path), "/dev/zero: cannot be read (is larger than 200 MB)")
+    one_line(ballscrew("run", path), "/dev/zero: cannot be read (is larger than 50 MB)")
 
 
 def test_a_closed_output(case):

@@ -182,7 +182,7 @@ def test_designs_side_by_side_at_one_load(go, server):
     value = "one => Number(one.querySelector('data').value)"
     assert [torque.nth(place).evaluate(value) for place in (0, 1)] == [first, second]
     assert f"{100 * (second / first - 1):+.3g} %".replace("+-", "-") in torque.nth(1).inner_text()
-    assert "checks hold" in here.text("#compare tr:has(th:text-is('checks'))")
+    assert "checks hold" in here.text("#compare tr:has(th:text-is('checks at this load and speed, for ever'))")
     assert "4000 N and 600 rpm" in here.text("#compare caption")
     here.page.wait_for_function(
         "() => [...document.querySelectorAll('#compare td')].filter((one) => / to /.test(one.textContent)).length === 2"
@@ -221,7 +221,7 @@ def test_a_fault_is_said_once_in_words_of_the_page_and_in_sight(go):
     assert main.count(text) == 1
     seen = "one => { const at = one.getBoundingClientRect(); return at.top >= 0 && at.bottom <= innerHeight }"
     assert fault.evaluate(seen)
-    here.page.locator("#faults button", has_text="diameter speed product").click()
+    here.page.locator("#faults button", has_text="largest d·n").click()
     assert here.page.evaluate("document.activeElement.id") == "f-limits-diameter_speed_product"
 
 

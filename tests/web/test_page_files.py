@@ -83,7 +83,7 @@ def drawing_as_svg(here):
     assert "Contact of ball and screw" in "".join(root.itertext())
 
 
-CHARTS = {"torque-chart": 41, "map-chart": (21, 11), "film-chart": 41, "pressure-chart": (41, 15), "compare-chart": 2}
+CHARTS = {"torque-chart": 41, "map-chart": (20, 10), "film-chart": 41, "pressure-chart": (41, 15), "compare-chart": 2}
 
 
 def test_csv_and_svg_of_each_chart(visit):

@@ -1,6 +1,7 @@
 """The API against its own OpenAPI description, by schemathesis."""
 
 import json
+import re
 from collections import Counter
 
 import jsonschema_rs
@@ -141,9 +142,10 @@ def test_whatever_may_be_null_is_described():
 
 @pytest.mark.parametrize("method", ["DELETE", "PUT", "PATCH", "OPTIONS", "TRACE"])
 def test_other_methods(server, method):
-    paths = [path for path, methods in schema.raw_schema["paths"].items() if method.lower() not in methods]
-    for path in [*paths, "/", "/api", plotly_address()]:
-        found = server.client.request(method, path.replace("{name}", "x"))
+    known = [(re.sub(r"{\w+}", "x", path), methods) for path, methods in schema.raw_schema["paths"].items()]
+    taken = {path for path, methods in known if method.lower() in methods}
+    for path in [*{path for path, _ in known} - taken, "/", "/api", plotly_address()]:
+        found = server.client.request(method, path)
         assert found.status_code == 405
         assert found.headers["allow"]
         assert found.headers["content-type"] == problems.MEDIA_TYPE

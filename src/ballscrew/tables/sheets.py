@@ -20,8 +20,8 @@ from ballscrew.errors import Fault, InputError
 from ballscrew.files import read_bytes
 from ballscrew.tables import workbooks
 
-#: Bytes of a table at most.
-LARGEST_TABLE = 200_000_000
+#: Bytes of a table at most: its cells take some forty times as much memory.
+LARGEST_TABLE = 50_000_000
 #: Endings of files that are read as spreadsheets, and how such files begin whatever they are called.
 SPREADSHEETS = (".xlsx", ".xlsm", ".xlsb", ".xls", ".ods")
 _MAGIC = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")

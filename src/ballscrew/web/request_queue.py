@@ -214,6 +214,8 @@ class RequestQueue:
             return future.result()
         finally:
             deadline.stop()
+            if not future.cancel() and not future.cancelled():
+                future.exception()  # of a client that has disconnected at that moment: nobody asks for it any more
 
 
 def busy(waiting: int) -> Refused:
