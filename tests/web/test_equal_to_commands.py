@@ -50,7 +50,8 @@ def as_printed(display):
     def text(one):
         quantities = [Quantity("", q["unit"], Info("", "", q["shown_in"])) for q in one["quantities"]]
         numbers = [
-            units.shown(q["value"], known, q["digits"]) for q, known in zip(one["quantities"], quantities, strict=True)
+            units.shown(q["value"], known, q["digits"], q["toward"])
+            for q, known in zip(one["quantities"], quantities, strict=True)
         ]
         return one["text"].format(*numbers)
 
