@@ -13,6 +13,7 @@ import dataclasses
 import json
 import sys
 import time
+import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -56,7 +57,9 @@ class Box:
         fields = {
             name: np.asarray(value) for name, value in vars(self.screw).items() if not isinstance(value, bs.Material)
         }
-        return BallScrew(**{name: (value[i] if value.ndim else value).item() for name, value in fields.items()})
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", bs.ImplausibleInput)  # drawn from more than what is made
+            return BallScrew(**{name: (value[i] if value.ndim else value).item() for name, value in fields.items()})
 
 
 def box(size: int, seed: int) -> Box:

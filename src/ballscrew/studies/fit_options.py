@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any, cast, get_args
 
 from ballscrew import units
-from ballscrew.calibration.oil_temperature import TEMPERATURE_ERROR
 from ballscrew.cases.case import Case
 from ballscrew.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.evaluation.outputs import inputs_of
@@ -159,8 +158,12 @@ def _number(
 
 def _temperature_error(text: str | None, faults: list[Fault]) -> float | None:
     """A difference of temperatures in kelvin; None where none is given or it is a fault."""
+    if text is None:
+        return None
+    from ballscrew.calibration.oil_temperature import TEMPERATURE_ERROR  # loads xarray
+
     option = "--temperature-error"
-    if text is not None and units.unit_in(text) not in ("K", "kelvin", ""):
+    if units.unit_in(text) not in ("K", "kelvin", ""):
         # "2 degC" would be 275 K
         number = text.replace(units.unit_in(text), "").strip()
         faults.append(Fault(option, "is a difference of temperatures, in K", text, f'write {option} "{number} K"'))
