@@ -51,7 +51,7 @@ def test_rows_shipped_are_those_of_the_vendors(file, copy):
     )
 
 
-OF_OTHER_SOURCES = ("nut_outer_diameter", "nut_outer_diameter_source", "make", "recirculation")
+OF_OTHER_SOURCES = ("nut_outer_diameter", "nut_outer_diameter_source", "seal_torque_source", "make", "recirculation")
 
 
 @pytest.mark.parametrize("name", ["rexroth-double-nut", "rexroth-single-nut", "hiwin-ratings"])

@@ -1,7 +1,8 @@
 """Texts of a case file that could be two numbers: ``"3.000 N"`` is 3 N, and 3000 N where a point parts thousands.
 
 A point is that of decimals, in this package and in most programs, and trailing zeros are common: ``"6.350 mm"``. So
-nothing is refused, and nothing is said where the other number is one that no ball screw has.
+nothing is refused, and it is said only where the other number is plausible and the one that is read is not; of load,
+speed and preload, of which either may be, wherever the other is plausible.
 """
 
 from __future__ import annotations
@@ -13,7 +14,6 @@ from typing import Any, get_args
 from pydantic import BaseModel
 
 from ballscrew import units
-from ballscrew.case_schema.duty_schema import duty_sections
 from ballscrew.case_schema.schema import sections
 from ballscrew.components.ratings import PRELOAD_SHARES
 from ballscrew.errors import Fault
@@ -25,6 +25,8 @@ THOUSANDS = "inputs.thousands"
 #: One to three digits, a point, three digits, and a unit: as a number with its thousands parted, or three decimals.
 _EITHER = re.compile(r"\s*([-+]?[1-9]\d{0,2})\.(\d{3})(?![\d.,'])\s*(\D.*)?")
 _READ = Message('"{written}" is read as {plain}: write "{thousands}" if that is meant, else "{plain}"')
+#: What may be a thousand times as large on another screw.
+_OF_ANY_SIZE = ("operation.axial_load", "operation.screw_speed", "nut.preload")
 _FORCES = {"operation.axial_load": (0.0, 1.0), "nut.preload": PRELOAD_SHARES}
 
 
@@ -55,13 +57,10 @@ def _texts(where: str, model: type[BaseModel], table: Mapping[str, Any]) -> Iter
             yield f"{where}.{name}", value, quantity
         elif isinstance(value, dict) and inner is not None:
             yield from _texts(f"{where}.{name}", inner, value)
-        elif isinstance(value, list) and name == "segment":
-            for number, each in enumerate(value, start=1):
-                yield from _texts(f"{where}.{name} {number}", duty_sections()[name], each)
 
 
 def _doubt(where: str, text: str, quantity: Quantity, rating: float | None) -> Record | None:
-    match = _EITHER.fullmatch(text) if len(text) <= units.LONGEST_VALUE else None
+    match = _EITHER.fullmatch(units.in_ascii(text)) if len(text) <= units.LONGEST_VALUE else None
     if match is None:
         return None
     whole, thousandths, unit = match[1], match[2], match[3] or ""
@@ -69,6 +68,8 @@ def _doubt(where: str, text: str, quantity: Quantity, rating: float | None) -> R
         units.parse(where, f"{number} {unit}", quantity) for number in (_decimal(match), whole + thousandths)
     )
     if isinstance(read, Fault) or isinstance(other, Fault) or not _plausible(where, other, quantity, rating):
+        return None
+    if where not in _OF_ANY_SIZE and _plausible(where, read, quantity, rating):
         return None
     plain, with_thousands = (
         f"{number} {unit}".strip() for number in (f"{float(_decimal(match)):g}", whole + thousandths)

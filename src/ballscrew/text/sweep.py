@@ -38,7 +38,8 @@ def warning(case: Case, plan: Plan, dataset: xr.Dataset, to: Path | None = None)
     A store ``to`` knows the numbers block by block, so that it need not be read.
     """
     false = _false_in_store(dataset, to) if to is not None and is_store(to) else _false_in(dataset)
-    unusual = [f"beware  {record.name}: {record.text}" for record in (*implausible(case, plan), *starved(dataset))]
+    unusual = [f"beware  {record.name}: {record.text}" for record in implausible(case, plan)]
+    unusual += [f"beware  {record.text}" for record in starved(dataset)]
     if "valid" not in false:
         return "\n".join(unusual)
     reasons = {**reasons_of(case), **_OF_HEAT}
