@@ -15,6 +15,8 @@ from pathlib import Path
 
 from benchmarks.hostile.tally import Outcome, Tally
 
+from ballscrew import ImplausibleInput
+
 PROCESSES = 2
 #: Seconds for one attempt; it takes some at most.
 MOST_SECONDS = 30.0
@@ -50,9 +52,10 @@ def use(place: str) -> None:
 
 
 def prepare(place: str) -> None:
-    """Set up a process: warnings of NumPy are errors, and memory has a limit."""
+    """Set up a process: warnings of NumPy are errors, those of implausible input are not said, memory has a limit."""
     use(place)
     warnings.simplefilter("error", RuntimeWarning)
+    warnings.simplefilter("ignore", ImplausibleInput)
     _, hard = resource.getrlimit(resource.RLIMIT_AS)
     resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, hard))
 
