@@ -99,3 +99,42 @@ def test_a_speed_below_zero_is_dragged(visit):
     here.settle()
     moved = float(here.page.locator(here.id("operation.screw_speed")).input_value())
     assert found["x"][0] < moved < -600
+
+
+#: What plotly.js keeps of a plot: the figure, and a listener of the window that holds it.
+HELD = "(plot) => [plot._fullLayout, plot._responsiveChartHandler].map((one) => one !== undefined)"
+
+
+def test_a_plot_that_is_taken_away_is_ended(visit):
+    """Where its answer fails, and where a place of its name is made anew: nothing keeps its numbers in memory."""
+    here = visit()
+    here.expected = ("status of 422",)
+    here.open()
+    chart(here, "torque-chart")
+    plot = here.page.query_selector("#torque-chart .plot")
+    assert plot.evaluate(HELD) == [True, True]
+    problem = {"title": "too much", "status": 422, "lines": ["too much"], "faults": []}
+    here.page.route("**/api/v1/sweep", lambda route: route.fulfill(status=422, json=problem))
+    here.type("operation.axial_load", "5000")
+    here.page.wait_for_selector("#torque-chart > .warning")
+    assert plot.evaluate(HELD) == [False, False]
+    first = here.page.evaluate_handle(
+        """async () => {
+          const { draw, watch, layout } = await import("/page/plot.js");
+          const figure = (colours) => ({ traces: [{ x: [1, 2], y: [1, 2] }], layout: layout(colours, "x", "y") });
+          const nothing = { description: "", caption: "", legend: () => [], numbers: () => [[], []] };
+          const chart = { name: "made", figure, ...nothing };
+          const place = () => Object.assign(document.createElement("div"), { id: "made-chart", className: "chart" });
+          const holder = document.querySelector("#torque-chart").parentElement;
+          const one = place(), other = place();
+          holder.append(one);
+          watch(one);
+          await draw("made-chart", chart);
+          one.scrollIntoView();
+          while (!one.querySelector(".plot")._fullLayout) await new Promise((then) => setTimeout(then, 20));
+          one.replaceWith(other);
+          watch(other);
+          return one.querySelector(".plot");
+        }"""
+    )
+    assert first.evaluate(HELD) == [False, False]

@@ -35,6 +35,7 @@ declare global {
 
   var Plotly: {
     react(place: Element, traces: object[], layout: object, config: object): Promise<void>;
+    purge(place: Element): void;
     restyle(place: Element, changes: object, traces: number[]): Promise<void>;
     toImage(figure: object, options: object): Promise<string>;
   };

@@ -56,13 +56,33 @@ const observer = new IntersectionObserver(
 );
 for (const place of document.querySelectorAll(".chart")) observer.observe(place);
 
+/** Places that were made after the page was loaded, by their names. @type {Map<string, Element>} */
+const made = new Map();
+
 /**
- * Watch a place for a chart that was made after the page was loaded.
+ * Watch a place for a chart that was made after the page was loaded; one of the same name is done with.
  *
  * @param {Element} place
  */
 export function watch(place) {
+  const before = made.get(place.id);
+  if (before && before !== place) {
+    observer.unobserve(before);
+    purge(before);
+  }
+  made.set(place.id, place);
   observer.observe(place);
+}
+
+/**
+ * End the plot in a place before it is taken away: plotly.js listens to the window for it, and so keeps it and its
+ * numbers in memory.
+ *
+ * @param {Element} place
+ */
+function purge(place) {
+  const plot = place.querySelector(".plot");
+  if (plot) globalThis.Plotly?.purge(plot);
 }
 
 function colours() {
@@ -173,6 +193,7 @@ export function hide(id) {
 export function showFailure(id, reason) {
   charts.delete(id);
   pending.delete(id);
+  purge(byId(id));
   byId(id).replaceChildren(element("p", { class: "warning" }, text("chart.none", { reason })));
 }
 
