@@ -138,3 +138,26 @@ def test_a_plot_that_is_taken_away_is_ended(visit):
         }"""
     )
     assert first.evaluate(HELD) == [False, False]
+
+
+def test_answers_that_are_kept_are_bounded_by_their_size(visit):
+    """Of six answers of 4 MB the first is asked again, and one larger than all may be is never kept; not the rest."""
+    found = (
+        visit()
+        .open()
+        .page.evaluate(
+            """async () => {
+          const { ask } = await import("/page/server.js");
+          const asked = [];
+          const one = (n, size) => ask("run", { n }, new AbortController().signal, async () => {
+            asked.push(n);
+            return { text: "x".repeat(size) };
+          });
+          for (const n of [1, 2, 3, 4, 5, 6]) await one(n, 4e6);
+          await one(7, 21e6);
+          for (const n of [6, 5, 4, 3, 7, 1]) await one(n, n === 7 ? 21e6 : 4e6);
+          return asked;
+        }"""
+        )
+    )
+    assert found == [1, 2, 3, 4, 5, 6, 7, 7, 1]

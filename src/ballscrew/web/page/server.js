@@ -133,12 +133,15 @@ export async function sendJson(address, body, signal) {
   return (await send(address, body, signal)).json();
 }
 
-const MOST_CACHED = 50;
-/** Answers by their addresses and bodies, as text. @type {Map<string, any>} */
-const cache = new Map();
+/** Most answers that are kept, and most characters of JSON of all of them together. */
+const MOST_KEPT = 50;
+const MOST_CHARACTERS = 20e6;
+/** Answers by their addresses and bodies, with their characters of JSON. @type {Map<string, [any, number]>} */
+const kept = new Map();
+let characters = 0;
 
 /**
- * The answer of an address to a body; of the same body again it is not asked again.
+ * The answer of an address to a body; of the same body again it is not asked again while it is kept.
  *
  * @param {"run" | "check" | "band" | "duty" | "warm-up"} address
  * @param {object} body
@@ -147,11 +150,27 @@ const cache = new Map();
  */
 export async function ask(address, body, signal, compute = () => sendJson(address, body, signal)) {
   const key = `${address} ${JSON.stringify(body)}`;
-  const cached = cache.get(key);
-  if (cached) return cached;
+  const known = kept.get(key);
+  if (known) return known[0];
   const found = await compute();
-  const [oldest] = cache.keys();
-  if (cache.size > MOST_CACHED) cache.delete(oldest);
-  cache.set(key, found);
+  keep(key, found);
   return found;
+}
+
+/**
+ * Keep an answer in place of the oldest ones; one that is larger than all of them may be is not kept.
+ *
+ * @param {string} key
+ * @param {any} answer
+ */
+function keep(key, answer) {
+  const size = JSON.stringify(answer).length;
+  if (size > MOST_CHARACTERS || kept.has(key)) return;
+  kept.set(key, [answer, size]);
+  characters += size;
+  for (const [oldest, [, its]] of kept) {
+    if (kept.size <= MOST_KEPT && characters <= MOST_CHARACTERS) break;
+    kept.delete(oldest);
+    characters -= its;
+  }
 }
