@@ -229,3 +229,26 @@ def test_vectors_are_vectors():
     if not packed + single:
         pytest.skip("not an x86 processor")
     assert packed > 20 * single
+
+
+def test_compiling_that_takes_long_is_logged_before_it_starts(caplog, monkeypatch):
+    """Not what is compiled in an instant, and not what is kept already."""
+    started = []
+    whole = kernels._compile
+    monkeypatch.setattr(kernels, "_compile", lambda text: started.append(len(caplog.messages)) or whole(text))
+
+    def long(x, y):
+        for place in range(1, 3000):
+            x = x * y + 1 / place
+        return x
+
+    forget()
+    program = recorded(long, 2)
+    with caplog.at_level("INFO", "ballscrew"):
+        compiled(recorded(busy, 2))
+        compiled(program)
+        forget()
+        compiled(program)
+    lines = text_of(program).count("\n")
+    assert caplog.messages == [f"compiling a kernel of {lines} lines: some {lines * kernels.LINE_SECONDS:.0f} s, once"]
+    assert started == [0, 1]

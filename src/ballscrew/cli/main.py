@@ -43,7 +43,7 @@ from ballscrew.cli import (
     validate,
     warm_up,
 )
-from ballscrew.command_options.common_options import CALIBRATION_NAMES, MODEL_NAMES
+from ballscrew.command_options.common_options import CALIBRATION_NAMES, MODEL_NAMES, compiling_on_terminal
 
 app = typer.Typer(
     name="ballscrew",
@@ -58,7 +58,14 @@ app.add_typer(oils.app, name="oils")
 
 
 class _Command(TyperCommand):
-    """A command whose help names models and calibrations. Their source is slow to load: only when it is asked for."""
+    """A command that says on a terminal what it compiles, and whose help names models and calibrations.
+
+    Their source is slow to load: only when it is asked for.
+    """
+
+    def invoke(self, ctx: Any) -> Any:
+        with compiling_on_terminal():
+            return super().invoke(ctx)
 
     def format_help(self, ctx: Any, formatter: Any) -> None:
         from ballscrew.case_schema.schema import DEFAULT_MODEL, MODELS

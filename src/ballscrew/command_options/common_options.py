@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import sys
 from collections.abc import Generator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -111,16 +112,38 @@ def say_engine(attributes: Mapping[str, Any]) -> None:
     typer.echo(f"evaluated by {attributes['engine']}" + (f": {reason}" if reason else ""), err=True)
 
 
+#: What logs that something is compiled.
+_COMPILER = "ballscrew.kernels"
+
+
 @contextlib.contextmanager
 def log_on_stderr() -> Generator[None]:
-    """Show on the error stream what the package logs."""
+    """Show on the error stream what the package logs; compiling is for :func:`compiling_on_terminal`."""
+    with _echo("ballscrew", but=_COMPILER):
+        yield
+
+
+@contextlib.contextmanager
+def compiling_on_terminal() -> Generator[None]:
+    """Say on a terminal what is compiled, where that takes more than a second; silent where nobody looks."""
+    if not sys.stderr.isatty():
+        yield
+        return
+    with _echo(_COMPILER):
+        yield
+
+
+@contextlib.contextmanager
+def _echo(of: str, but: str | None = None) -> Generator[None]:
+    """Show on the error stream what a logger and those below it say, but for one of these."""
     import logging  # not for those who ask for help only
 
     class Echo(logging.Handler):
         def emit(self, record: logging.LogRecord) -> None:
-            typer.echo(record.getMessage(), err=True)
+            if but is None or not record.name.startswith(but):
+                sys.stderr.write(f"{record.getMessage()}\n")  # that of a bar, where there is one: above it
 
-    logger, handler = logging.getLogger("ballscrew"), Echo()
+    logger, handler = logging.getLogger(of), Echo()
     before = logger.level
     logger.addHandler(handler)
     logger.setLevel(logging.INFO)

@@ -61,8 +61,9 @@ def evaluator(
     ``d_y_d_x``.
 
     The model is recorded here, and compiled where the compiler is installed (the extra ``fast``); ``engine`` selects
-    ``"numpy"`` or ``"compiled"``. What a model holds is read now: an object that a law from outside changes
-    later has no effect. Copies and pickles record anew.
+    ``"numpy"`` or ``"compiled"``. The first time that takes seconds for a nut whose balls differ; compiling that takes
+    more than one is logged before it starts, as information of the logger ``ballscrew``. What a model holds is read
+    now: an object that a law from outside changes later has no effect. Copies and pickles record anew.
 
     Raises :class:`~ballscrew.errors.InputError` for unknown names, missing and bad fixed values, an engine that
     cannot be had, and derivatives of truth values or of a law that cannot be recorded.

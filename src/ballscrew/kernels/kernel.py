@@ -13,6 +13,7 @@ import functools
 import hashlib
 import importlib
 import importlib.util
+import logging
 import os
 import sys
 import tempfile
@@ -36,10 +37,14 @@ MOST_IN_MEMORY = MOST_ON_DISK = 256
 #: Levels of optimisation, of the assembly and of the code: beyond these, compiling takes longer and the code runs no
 #: faster. An assembly is written without repeated terms and with its vectors; only functions are left to insert.
 ASSEMBLY_OPTIMISATION, CODE_OPTIMISATION = 0, 2
+#: Seconds of one processor that a line of assembly takes to compile, about, and those from which it is logged before
+#: it starts: whoever waits is to know what for.
+LINE_SECONDS, LOGGED_SECONDS = 2e-4, 1.0
 
 #: Version of the calling convention of kernels.
 FORMAT = 1
 
+_log = logging.getLogger(__name__)
 _int64 = ctypes.c_int64
 _SIGNATURE = ctypes.CFUNCTYPE(
     None, *[_int64] * 7, ctypes.c_bool, ctypes.c_void_p, ctypes.c_void_p
@@ -67,12 +72,15 @@ class Kernel:
 
     @classmethod
     def of(cls, text: str, sources: Sequence[Source]) -> Kernel:
-        """The kernel of an assembly: from memory, from the disk, or compiled."""
+        """The kernel of an assembly: from memory, from the disk, or compiled; what takes long is logged before."""
         with _lock:
             name = _digest(text)
             if name not in _kernels:
                 machine_code = _load(name)
                 if machine_code is None:
+                    lines = text.count("\n")
+                    if lines * LINE_SECONDS > LOGGED_SECONDS:
+                        _log.info("compiling a kernel of %d lines: some %.0f s, once", lines, lines * LINE_SECONDS)
                     machine_code = _compile(text)
                     _save(name, machine_code)
                 _kernels[name] = cls(machine_code, sources)
