@@ -24,7 +24,7 @@ from ballscrew.selection.need import need_of
 from ballscrew.selection.pareto import front, hypervolume
 from ballscrew.studies.check import checked
 from ballscrew.table_files import row_tables, selection_tables
-from ballscrew.text.optimisation import text
+from ballscrew.text.optimisation import cost, text
 from support.commands import ROOT
 
 EXAMPLE = ROOT / "examples" / "needs" / "feed_axis.toml"
@@ -269,3 +269,21 @@ def test_twelve_thousand_designs_take_five_seconds():
     found = searches.search(model.costs, space.lower, space.upper, population=200, generations=60, seed=0)
     assert found.evaluations == 12_000
     assert time.perf_counter() - start < 5
+
+
+@needs_pymoo
+def test_the_search_tells_its_designs_and_what_it_costs():
+    """Generation by generation of both searches, then the members: to the end, within what was planned before."""
+    tables = {**NEED, "nut": {"type": "single"}, "need": {}}
+    options = {"population": 20, "generations": 4, "members": 3, "settings": ["optimise.elastic_generations=2"]}
+    planned = studies.plan(tables, **options)
+    assert (planned.rigid, planned.elastic, planned.members, planned.total) == (80, 40, 3, 123)
+    told = []
+    found = bs.optimise(tables, engine="numpy", done=lambda *numbers: told.append(numbers), **options)
+    assert told[:6] == [(20 * number, 123) for number in range(1, 7)]
+    total = 120 + len(found.members)
+    assert told[6:] == [(120 + number, total) for number in range(1, len(found.members) + 1)]
+    assert found.members
+    assert cost(planned).startswith("120 designs, then at most 3 in full: some ")
+    larger = studies.plan(tables, **{**options, "generations": 40_000})
+    assert larger.seconds > 10 * planned.seconds

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -51,26 +51,19 @@ def optimise(
     from ballscrew.command_options.progress import progress
     from ballscrew.documents import optimisation as documents
     from ballscrew.optimisation.optimisation import optimise as optimised
+    from ballscrew.optimisation.optimisation import plan
     from ballscrew.output.json_text import as_json as json_text
     from ballscrew.text import optimisation as text
 
     for path in to or []:
         check_file(path)
-    with progress("members") as done:
-        found = optimised(
-            need,
-            objectives=None if objectives is None else names_of(objectives),
-            population=population,
-            generations=generations,
-            members=members,
-            seed=seed,
-            quantile=quantile,
-            settings=settings or [],
-            model=model,
-            calibration=calibration,
-            allow_code=allow_code,
-            done=done,
-        )
+    asked: dict[str, Any] = {
+        "objectives": None if objectives is None else names_of(objectives), "population": population,
+        "generations": generations, "members": members, "quantile": quantile, "settings": settings or [],
+        "model": model, "calibration": calibration, "allow_code": allow_code,
+    }  # fmt: skip
+    with progress("designs", text.cost(plan(need, **asked))) as done:
+        found = optimised(need, seed=seed, done=done, **asked)
     typer.echo(json_text(documents.document(found)) if as_json else text.text(found))
     for path in to or []:
         from ballscrew.table_files import row_tables, selection_tables

@@ -29,11 +29,31 @@ from ballscrew.sizing.listed_nut import PRELOADED
 from ballscrew.studies.check import Checked, checked
 from ballscrew.studies.every_row import copied
 
-#: Told how many members of how many are evaluated in full.
+#: Told how many designs of how many are evaluated: those of the search, and members in full.
 Done = Callable[[int, int], None]
+#: Seconds of one processor: for recording and compiling, and for a design, of rigid bodies, of each sample of a
+#: quantile, of elastic bodies, and in full. They say what an optimisation costs and decide nothing.
+SECONDS: Mapping[str, float] = {"compiling": 5.0, "rigid": 6e-5, "sample": 2e-6, "elastic": 2e-3, "member": 0.04}
 #: Contact angle and conformity where the need gives none: those of a row that lists none.
 _ROW = CatalogueRow.__dataclass_fields__
 _ANGLE, _CONFORMITY = _ROW["contact_angle"].default, _ROW["conformity"].default
+
+
+@dataclasses.dataclass(frozen=True)
+class Plan:
+    """What an optimisation would do."""
+
+    #: Designs of the search, with rigid and with elastic bodies, and members in full, at most.
+    rigid: int
+    elastic: int
+    members: int
+    #: Seconds of one processor, about.
+    seconds: float
+
+    @property
+    def total(self) -> int:
+        """All that are evaluated, at most."""
+        return self.rigid + self.elastic + self.members
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -125,31 +145,24 @@ def optimise(
     ``ballscrew check`` and the requirements of the need, less a ``margin``. With a ``quantile`` the objectives are that
     quantile over the uncertain inputs, in place of their values at the central ones; constraints stay at these.
     Members of the front are then evaluated one by one as ``ballscrew check`` does; one that fails there is kept, and
-    says so. ``engine`` is that of :func:`~ballscrew.evaluation.evaluator.evaluator`.
+    says so. ``engine`` is that of :func:`~ballscrew.evaluation.evaluator.evaluator`. ``done(finished, total)`` is told
+    the designs evaluated, generation by generation, and then the members; fewer than planned lower the total.
 
     Raises :class:`~ballscrew.errors.InputError` for faults of the need, for one with a motion, and where pymoo (the
     extra ``optimise``) is not installed.
     """
-    asked = need_of(need, settings)
-    if asked.length_is_stroke:
-        note = "unsupported length: the stroke alone, too short; add the nut and what lies between it and the bearings"
-        asked = asked.with_note(note)
-    if asked.moves:
-        remedy = "give [operation] with the mean load and speed that ballscrew duty says"
-        raise InputError(Fault("motion", "is too much for a search", asked.name, remedy))
     chosen = {
         "population": population, "generations": generations, "members": members, "seed": seed, "quantile": quantile,
     }  # fmt: skip
-    space = design_space(asked, objectives, **chosen)
     options = {"model": model, "calibration": calibration, "allow_code": allow_code}
-    centre = {name: (low * high) ** 0.5 for name, (low, high) in space.bounds.items()}
-    case = _case(asked, space, centre, options)
-    length = _length(asked, case)
-    ready = DesignModel.of(case, asked, space, length, engine)
+    asked, space, case = _prepared(need, objectives, settings, chosen, options)
+    planned = _plan(space, case)
+    ready = DesignModel.of(case, asked, space, _length(asked, case), engine)
     own = space.options
+    told = done or _untold
     found = search(
         ready.costs, space.lower, space.upper, population=int(own.population), generations=int(own.generations),
-        seed=int(own.seed),
+        seed=int(own.seed), done=lambda finished: told(finished, planned.total),
     )  # fmt: skip
     elastic = ready.elastic
     evaluations = found.evaluations
@@ -157,14 +170,14 @@ def optimise(
         found = search(
             elastic.costs, space.lower, space.upper, population=int(own.population),
             generations=int(own.elastic_generations), seed=int(own.seed), start=found.population,
+            done=lambda finished: told(planned.rigid + finished, planned.total),
         )  # fmt: skip
         evaluations += found.evaluations
     places = spread(found.costs, int(own.members))
     made: list[Member] = []
     for number, place in enumerate(places, start=1):
         made.append(_member(asked, space, ready, found, place, options))
-        if done is not None:
-            done(number, len(places))
+        told(evaluations + number, evaluations + len(places))
     notes = [*asked.notes, *space.notes]
     if len(asked.oils) > 1:
         notes.append(f"oil {case.oil.get('grade', 'of the first table')}: the first of {len(asked.oils)}")
@@ -172,6 +185,63 @@ def optimise(
         asked, space, _marked(made, space.objectives), evaluations, found,
         (ready.friction.engine, ready.friction.engine_reason), notes,
     )  # fmt: skip
+
+
+def plan(
+    need: str | Path | Mapping[str, Any] | Need,
+    *,
+    objectives: Sequence[str] | None = None,
+    population: int | None = None,
+    generations: int | None = None,
+    members: int | None = None,
+    quantile: float | None = None,
+    settings: Sequence[str] = (),
+    model: str | None = None,
+    calibration: str | None = None,
+    allow_code: bool = False,
+) -> Plan:
+    """How many designs :func:`optimise` would evaluate, and in about what time.
+
+    Raises :class:`~ballscrew.errors.InputError` as :func:`optimise` does for faults of the need.
+    """
+    chosen = {"population": population, "generations": generations, "members": members, "quantile": quantile}
+    options = {"model": model, "calibration": calibration, "allow_code": allow_code}
+    _, space, case = _prepared(need, objectives, settings, chosen, options)
+    return _plan(space, case)
+
+
+def _prepared(
+    need: str | Path | Mapping[str, Any] | Need,
+    objectives: Sequence[str] | None,
+    settings: Sequence[str],
+    chosen: Mapping[str, Any],
+    options: Mapping[str, Any],
+) -> tuple[Need, DesignSpace, Case]:
+    """The need, its space of designs, and the case that stands for all of them."""
+    asked = need_of(need, settings)
+    if asked.length_is_stroke:
+        note = "unsupported length: the stroke alone, too short; add the nut and what lies between it and the bearings"
+        asked = asked.with_note(note)
+    if asked.moves:
+        remedy = "give [operation] with the mean load and speed that ballscrew duty says"
+        raise InputError(Fault("motion", "is too much for a search", asked.name, remedy))
+    space = design_space(asked, objectives, **chosen)
+    centre = {name: (low * high) ** 0.5 for name, (low, high) in space.bounds.items()}
+    return asked, space, _case(asked, space, centre, options)
+
+
+def _plan(space: DesignSpace, case: Case) -> Plan:
+    own = space.options
+    rigid = int(own.population * own.generations)
+    elastic = int(own.population * own.elastic_generations) if case.screw.nut.one_by_one else 0
+    samples = 0 if own.quantile is None else own.samples
+    seconds = SECONDS["compiling"] + rigid * SECONDS["rigid"] + (rigid + elastic) * samples * SECONDS["sample"]
+    seconds += elastic * SECONDS["elastic"] + own.members * SECONDS["member"]
+    return Plan(rigid, elastic, int(own.members), float(seconds))
+
+
+def _untold(*_: int) -> None:
+    """Nothing, for nobody asks."""
 
 
 def tables_of(need: Need, space: DesignSpace, variables: Mapping[str, float], **numbers: float) -> dict[str, Any]:

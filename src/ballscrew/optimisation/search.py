@@ -37,17 +37,20 @@ def search(
     generations: int,
     seed: int,
     start: Numbers | None = None,
+    done: Callable[[int], None] | None = None,
 ) -> Found:
     """The Pareto front of a constrained problem by NSGA-II.
 
     As pymoo has it (BlankDeb2020): designs that hold before those that do not, these by the sum of what they exceed.
     The same seed gives the same front; ``start`` has designs of the first generation. A design whose costs or
-    constraints are no numbers counts as one that does not hold.
+    constraints are no numbers counts as one that does not hold. ``done`` is told the designs that were evaluated, after
+    each generation.
 
     Raises :class:`~ballscrew.errors.InputError` where pymoo is not installed.
     """
     pymoo = _pymoo()
     costs, constraints = _sound(*evaluate((lower + upper)[np.newaxis] / 2))
+    count, evaluated = population * generations, 0
 
     class Problem(pymoo.Problem):
         def __init__(self) -> None:
@@ -55,13 +58,17 @@ def search(
             super().__init__(n_var=len(lower), xl=lower, xu=upper, **counts)
 
         def _evaluate(self, x: Numbers, out: dict[str, Any], *_: Any, **__: Any) -> None:
+            nonlocal evaluated
             out["F"], out["G"] = _sound(*evaluate(np.asarray(x, dtype=float)))
+            evaluated += len(x)
+            if done is not None:
+                done(min(evaluated, count))
 
     first = {} if start is None else {"sampling": start}
     found = pymoo.minimize(
         Problem(), pymoo.NSGA2(pop_size=population, **first), ("n_gen", generations), seed=seed, verbose=False
     )
-    last, count = np.asarray(found.pop.get("X"), dtype=float), population * generations
+    last = np.asarray(found.pop.get("X"), dtype=float)
     if found.X is None:
         return Found(np.empty((0, len(lower))), np.empty((0, costs.shape[1])), count, last)
     designs = np.atleast_2d(found.X).astype(float)
