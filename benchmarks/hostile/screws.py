@@ -12,6 +12,7 @@ from benchmarks.hostile.tally import Outcome, Tally
 from numpy.typing import NDArray
 
 from ballscrew.components.materials import Lubricant
+from ballscrew.components.operating_state import settled
 from ballscrew.components.screw import BallScrew
 from ballscrew.errors import InputError
 from ballscrew.friction.result import FrictionResult
@@ -121,7 +122,7 @@ def faults_of(name: str, result: FrictionResult, size: int) -> Iterator[tuple[st
     yield from faults_of_efficiency(result, size)
     if name in BALANCED:
         with np.errstate(all="ignore"):
-            power = result.screw_torque * np.abs(result.screw_speed)
+            power = result.screw_torque * np.abs(settled(result.screw_speed))  # what counts as rest has none
             gap, scale = np.abs(power - result.friction_power), sum(np.abs(part) for part in parts.values())
             yield "valid, and power in is not power lost", result.valid & ~(gap <= BALANCE * scale)
 
