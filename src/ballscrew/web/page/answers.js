@@ -58,6 +58,8 @@ const PAINT_TIMEOUT = 500;
 let mechanisms;
 let requests = new AbortController();
 let bandRequest = new AbortController();
+/** That of the checks: an edit of a card asks for them alone. */
+let checksRequest = new AbortController();
 /** @type {ReturnType<typeof setTimeout>} */
 let bandTimer;
 /** Adds the bands of the designs that stand side by side. */
@@ -96,6 +98,7 @@ export async function update(cases, { designs, show, band: wanted, own }, report
   const start = performance.now();
   clearTimeout(bandTimer);
   bandRequest.abort();
+  checksRequest.abort();
   /** @type {Body[]} */
   let bodies = [];
   displayed.starts = designs.map(titleOf);
@@ -122,7 +125,7 @@ export async function update(cases, { designs, show, band: wanted, own }, report
     bath.show(answer);
     stiffness.show(answer);
     measurePaint("numbers", start, signal);
-    const checking = showChecks(body, answer, signal);
+    const checking = showChecks(body, answer);
     await Promise.all([checking, drawCharts(body, answer, signal, start), showAll(bodies, own, wanted, signal)]);
     await measurePaint("all", start, signal);
     if (!signal.aborted) showBand(wanted);
@@ -138,15 +141,24 @@ export async function update(cases, { designs, show, band: wanted, own }, report
 }
 
 /**
- * Show the checks of an answer, and the verdict that they lead to.
+ * Show the checks of an answer, and the verdict that they lead to. Those that were asked for before are cancelled.
  *
  * @param {Body} body
  * @param {Run} answer
- * @param {AbortSignal} signal
  */
-async function showChecks(body, answer, signal) {
+async function showChecks(body, answer) {
+  checksRequest.abort();
+  checksRequest = new AbortController();
+  const { signal } = checksRequest;
   const { whole } = displayed;
-  const checked = whole && isMoving(whole) ? await checksOfCycle(whole, signal) : await checksOf(body, signal);
+  /** @type {checks.Judged | undefined} */
+  let checked;
+  try {
+    checked = whole && isMoving(whole) ? await checksOfCycle(whole, signal) : await checksOf(body, signal);
+  } catch (error) {
+    if (signal.aborted) return;
+    throw error;
+  }
   if (signal.aborted) return;
   displayed.checks = checked;
   results.show(answer, displayed);
@@ -383,9 +395,9 @@ export async function keepWhole(found) {
   const { answer, body, whole } = displayed;
   if (!answer || !body || !(isMoving(whole) || (before && isMoving(before)))) return;
   try {
-    await showChecks(body, answer, requests.signal);
+    await showChecks(body, answer);
   } catch (error) {
-    if (!requests.signal.aborted) results.fail(results.refusal(linesOf(error)));
+    results.fail(results.refusal(linesOf(error)));
   }
 }
 
