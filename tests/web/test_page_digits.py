@@ -23,6 +23,25 @@ def test_numbers_are_those_of_the_command_line(visit):
         assert [float(one) for one in ends] == [float(to_digits(start, toward=-1)), float(to_digits(end, toward=1))]
 
 
+#: Just below a power of ten a step of the end is one of the smaller decade.
+ROUNDED = """async (pairs) => {
+  const { digits } = await import("/page/units.js");
+  return pairs.map(([number, toward]) => digits(number, 4, toward));
+}"""
+NEAR_POWERS = [
+    (0.99996, -1, "0.9999"), (9.9996, -1, "9.999"), (99.996, -1, "99.99"), (-9.9996, 1, "-9.999"),
+    (0.99996, 1, "1"), (-9.9996, -1, "-10"), (1.00004, -1, "1"), (1.00004, 1, "1.001"), (-0.099996, 1, "-0.09999"),
+    (-0.12345, -1, "-0.1235"), (-0.12345, 1, "-0.1234"), (0, -1, "0"), (0, 1, "0"),
+]  # fmt: skip
+
+
+def test_an_end_near_a_power_of_ten_is_the_next_number(visit):
+    here = visit().open()
+    found = here.page.evaluate(ROUNDED, [list(one[:2]) for one in NEAR_POWERS])
+    assert found == [text for *_, text in NEAR_POWERS]
+    assert [float(one) for one in found] == [float(to_digits(number, toward=toward)) for number, toward, _ in NEAR_POWERS]
+
+
 def test_the_headline_does_not_change_when_its_band_comes(visit, server):
     """The value keeps its digits; headline, table and sentence of the band write one number alike."""
     here = visit().open("#A=paper&band=0")

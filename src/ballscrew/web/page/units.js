@@ -263,7 +263,9 @@ function directed(value, count, toward) {
   const exact = Number(value.toPrecision(EXACT));
   const nearest = Number(exact.toPrecision(count));
   if ((exact - nearest) * toward <= 0) return nearest;
-  const step = 10 ** (Math.floor(Math.log10(Math.abs(nearest || exact))) - count + 1);
+  // of the exact number: the nearest one may be a power of ten above it
+  const exponent = Number(exact.toExponential().split("e")[1]);
+  const step = 10 ** (exponent - count + 1);
   return Number((nearest + toward * step).toPrecision(count));
 }
 
