@@ -58,6 +58,35 @@ def test_undo_takes_one_edit_back(visit):
     assert value(here, "operation.screw_speed") != speed
 
 
+EDITS = """async (edits) => {
+  const { asOne, edit } = await import("/page/history.js");
+  const address = location.hash;
+  const one = ([value, path]) => edit(value ? `${address}&x=${value}` : address, path);
+  const place = () => history.state?.place ?? 0;
+  const before = place();
+  for (const step of edits) {
+    if (Array.isArray(step[0])) asOne(() => step.forEach(one));
+    else one(step);
+  }
+  return place() - before;
+}"""
+
+
+@pytest.mark.parametrize(
+    ("edits", "entries"),
+    [
+        ([("1", "a"), ("1", "b"), ("2", "b")], 2),
+        ([("1", "a"), [("1", "b"), ("2", "c"), ("3", "b")]], 2),
+        ([("1", "a"), ("2", "a"), ("3", "b")], 2),
+    ],
+    ids=["in one field", "in several at once", "of another address"],
+)
+def test_an_edit_that_changes_nothing_has_no_entry(visit, edits, entries):
+    """The next key in the same field overwrote the entry of the edit before it."""
+    here = visit().open()
+    assert here.page.evaluate(EDITS, edits) == entries
+
+
 @pytest.mark.parametrize(
     ("typed", "case", "kept"),
     [

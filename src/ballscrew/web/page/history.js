@@ -37,18 +37,20 @@ export function write() {
 }
 
 /**
- * A new entry, to which Back leads from the next one.
+ * A new entry, to which Back leads from the next one; none for the address that is there already.
  *
  * @param {string} fragment
+ * @returns {boolean} true where there is a new one
  */
 function push(fragment) {
   write();
-  if (fragment === location.hash) return;
+  if (fragment === location.hash) return false;
   place += 1;
   last = place;
   late.clear();
   history.pushState({ place }, "", fragment);
   showButtons();
+  return true;
 }
 
 /**
@@ -72,7 +74,7 @@ export function edit(fragment, path) {
     replace(fragment);
     return;
   }
-  push(fragment);
+  if (!push(fragment)) return;
   edited = path;
   if (together) together = "there";
 }
