@@ -1,5 +1,6 @@
 // Long work: a job of the server, which is asked how far it is, cancelled, and found again after the page was loaded again.
 
+import { own } from "./keeping.js";
 import { answerAt, get, Problem, sendJson } from "./server.js";
 
 const PREFIX = "ballscrew.job.";
@@ -8,9 +9,9 @@ const WAIT = 1;
 const NOT_FOUND = 404;
 
 /**
- * What the browser keeps of the job of a place: its name, of what it is, and what its answer is shown with.
+ * What the browser keeps of the job of a place: its name, whose it is, of what it is, and what its answer is shown with.
  *
- * @typedef {{ id: string, key: string, about?: any }} Kept
+ * @typedef {{ id: string, tab: string, key: string, about?: any }} Kept
  */
 /**
  * @typedef {object} Options
@@ -20,10 +21,18 @@ const NOT_FOUND = 404;
  * @property {(job: JobDocument) => void} [told] gets news: how far it is, and the rows that are new
  */
 
-/** @param {string} place @returns {Kept | undefined} */
+/**
+ * The job of a place in this tab. A tab that was duplicated has a copy of the job of the other one, who may need it.
+ *
+ * @param {string} place
+ * @returns {Kept | undefined}
+ */
 export function keptJob(place) {
   try {
-    return JSON.parse(sessionStorage.getItem(PREFIX + place) ?? "null") ?? undefined;
+    /** @type {Kept | null} */
+    const job = JSON.parse(sessionStorage.getItem(PREFIX + place) ?? "null");
+    // without HTTPS no tab has a name that stays
+    return job && (!navigator.locks || job.tab === own()) ? job : undefined;
   } catch {
     return undefined; // storage is forbidden: jobs are found until the page is loaded again
   }
@@ -58,7 +67,7 @@ export async function runJob(address, body, options) {
       if (signal.aborted || !(error instanceof Problem && error.status === NOT_FOUND)) throw error;
     }
   } else if (before) cancel(before);
-  const job = { id: await begun(address, body, signal), key, about };
+  const job = { id: await begun(address, body, signal), tab: own(), key, about };
   keep(place, job);
   return answerOf(job, options);
 }
