@@ -82,11 +82,18 @@ export async function runJob(address, body, options) {
  */
 function begun(address, body, signal) {
   return new Promise((resolve, reject) => {
-    signal.addEventListener("abort", () => reject(signal.reason));
-    sendJson(`jobs/${address}`, body).then((job) => {
-      if (signal.aborted) cancel(job);
-      else resolve(job.id);
-    }, reject);
+    const abort = () => reject(signal.reason);
+    if (signal.aborted) {
+      abort();
+      return;
+    }
+    signal.addEventListener("abort", abort);
+    sendJson(`jobs/${address}`, body)
+      .then((job) => {
+        if (signal.aborted) cancel(job);
+        else resolve(job.id);
+      }, reject)
+      .finally(() => signal.removeEventListener("abort", abort));
   });
 }
 
