@@ -18,6 +18,9 @@ const KINDS = {
   HTML: ["download.html", "report?kind=html"],
 };
 
+/** Of what each kind is being made, and what cancels that. @type {Map<string, { key: string, request: AbortController }>} */
+const making = new Map();
+
 /** @typedef {{ whole?: object, answer?: Run, alongSpeed?: Sweep }} Current */
 
 /**
@@ -54,13 +57,7 @@ async function saveAs(kind, { whole, answer, alongSpeed }) {
   const [, address] = KINDS[kind];
   try {
     if (address) {
-      say(text("download.making", { kind }));
-      const body = bodyOf(address, whole);
-      const { signal } = new AbortController();
-      const place = address.replace(/\W/, "-");
-      const isLong = address.startsWith("report");
-      const answer = isLong ? runJob(address, body, { place, signal }) : send(address, body);
-      save(`.${kind.toLowerCase()}`, await (await answer).blob());
+      if (!(await saveMade(kind, address, bodyOf(address, whole)))) return;
     } else if (kind === "JSON") {
       const { words, display, ...document } = answer;
       save(".json", new Blob([JSON.stringify(document, null, 2)], { type: "application/json" }));
@@ -69,6 +66,37 @@ async function saveAs(kind, { whole, answer, alongSpeed }) {
   } catch (error) {
     say(linesOf(error).join("; "));
   }
+}
+
+/**
+ * Save a file that the server makes. Of what it is made of already, a second click makes no other one.
+ *
+ * @param {string} kind
+ * @param {string} address
+ * @param {object} body
+ * @returns {Promise<boolean>} false where another one is on its way in its place
+ */
+async function saveMade(kind, address, body) {
+  const key = JSON.stringify(body);
+  const before = making.get(kind);
+  say(text("download.making", { kind }));
+  if (before?.key === key) return false;
+  before?.request.abort();
+  const request = new AbortController();
+  const { signal } = request;
+  making.set(kind, { key, request });
+  try {
+    const place = address.replace(/\W/, "-");
+    const isLong = address.startsWith("report");
+    const answer = await (isLong ? runJob(address, body, { place, signal }) : send(address, body, signal));
+    save(`.${kind.toLowerCase()}`, await answer.blob());
+  } catch (error) {
+    if (signal.aborted) return false;
+    throw error;
+  } finally {
+    if (!signal.aborted) making.delete(kind);
+  }
+  return true;
 }
 
 /**
