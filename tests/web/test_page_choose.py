@@ -29,7 +29,7 @@ def test_what_is_left_open_is_asked_about_first(visit, server):
     here.page.locator("#choose-start").click()
     here.page.wait_for_selector("#choose-anyway")
     said = here.text("#choose .card-line")
-    for words in ("running time", "buckling", "critical speed", "life", "1 candidates, 1 s of a processor at most"):
+    for words in ("running time", "buckling", "critical speed", "life", "Candidates: 1, 1 s of a processor at most"):
         assert words in said, said
     assert here.page.locator("#choose-result tbody tr").count() == 0
     here.page.locator("#choose-anyway").click()
