@@ -108,6 +108,14 @@ export function answerOfKept(options) {
   return job && answerOf(job, options);
 }
 
+/** Cancel and forget the job of a place. @param {string} place */
+export function drop(place) {
+  const job = keptJob(place);
+  if (!job) return;
+  cancel(job);
+  keep(place, undefined);
+}
+
 /**
  * @param {Kept} job
  * @param {Options} options

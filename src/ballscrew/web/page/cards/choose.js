@@ -4,7 +4,7 @@ import * as designs from "../designs.js";
 import { element, within } from "../dom.js";
 import { inWords, labelOf } from "../faults.js";
 import { choiceField, numberField } from "../fields.js";
-import { keptJob, runJob, answerOfKept } from "../jobs.js";
+import { answerOfKept, drop, keptJob, runJob } from "../jobs.js";
 import * as opening from "../opening.js";
 import * as schema from "../schema.js";
 import { get, linesOf, Problem, sendJson } from "../server.js";
@@ -176,19 +176,20 @@ export function setUp(holder) {
     const { signal } = request;
     const table = withTable ? opening.ownTable()?.file : undefined;
     progress.replaceChildren(element("p", {}, text("card.computing")));
-    const body = { need: await tables(need()), ...(table && { table }) };
-    await conclude(begun(body, signal), signal);
+    await conclude(begun(table, signal), signal);
   }
 
   /**
    * The answer; nothing where it is asked first whether to start.
    *
-   * @param {object} body
+   * @param {object | undefined} table
    * @param {AbortSignal} signal
    */
-  async function begun(body, signal) {
+  async function begun(table, signal) {
+    const about = await tables(need());
+    const body = { need: about, ...(table && { table }) };
     if (!(await isAgreed(body, signal))) return undefined;
-    return runJob("select", body, { place: PLACE, signal, told: say(signal) });
+    return runJob("select", body, { place: PLACE, signal, about, told: say(signal) });
   }
 
   /**
@@ -225,10 +226,17 @@ export function setUp(holder) {
     return false;
   }
 
-  /** Go on with what was begun before the page was loaded again. */
+  /** Go on with what was begun before the page was loaded again, unless the need has become another one. */
   async function resume() {
-    if (!keptJob(PLACE)) return;
     const { signal } = request;
+    const kept = keptJob(PLACE);
+    if (!kept) return;
+    const found = await tables(need());
+    if (signal.aborted) return; // somebody has asked meanwhile
+    if (JSON.stringify(found) !== JSON.stringify(kept.about)) {
+      drop(PLACE);
+      return;
+    }
     const coming = answerOfKept({ place: PLACE, signal, told: say(signal) });
     if (coming) await conclude(coming, signal);
   }
@@ -245,10 +253,12 @@ export function setUp(holder) {
       if (!answer) return;
       /** @type {Select} */
       const found = await answer.json();
+      signal.throwIfAborted();
       place([]);
       candidates(result, found);
       progress.replaceChildren(element("p", { role: "status" }, counts(found)));
     } catch (error) {
+      if (signal !== request.signal) return; // another question stands there
       if (signal.aborted) {
         progress.replaceChildren(element("p", {}, text("card.cancelled")));
         return;
@@ -318,10 +328,10 @@ export function setUp(holder) {
   };
   opening.follow(takeNeed);
   opening.follow(showSources);
-  const ready = get("need-schema").then((found) => {
+  const ready = get("need-schema").then(async (found) => {
     known = { ...found.$defs.Need.properties, ...OF_NEEDS };
     if (opening.openedNeed() && !Object.keys(need().texts).length) takeNeed();
-    else if (!Object.keys(need().texts).length) takeDesign();
+    else if (!Object.keys(need().texts).length) await takeDesign();
     else build();
     resume();
   });
