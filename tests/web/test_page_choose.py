@@ -137,3 +137,27 @@ def test_choose_a_screw(visit, server):
     here.page.locator("#choose .card-line button").click()
     here.page.wait_for_selector("#choose .card-line >> text=Cancelled")
     here.page.unroute("**/api/v1/jobs/select")
+
+
+def test_a_selection_of_another_need_is_not_resumed(visit):
+    """The card showed the candidates of what was asked, beside the need that had been changed since."""
+    here = visit()
+    texts = {**MASS, "feed": "24 m/min", "nut": "double", "preload": "5 %", "running_time": "5000 h",
+             "unsupported_length": "1 m", "ends": "fixed-supported"}  # fmt: skip
+    need = {"texts": texts, "units": {}, "rest": {"need": {"rows": "hiwin-40-20k4"}}}
+    here.open(f"#band=0&cards=choose&need={urllib.parse.quote(json.dumps(need))}")
+    page = here.page
+    page.wait_for_selector("#choose-start")
+    # of two clicks the second one counts
+    page.locator("#choose-start").evaluate("(one) => { one.click(); one.click(); }")
+    page.wait_for_selector("#choose [role=status]")
+    assert "Cancelled" not in here.text("#choose .card-line")
+    page.reload()
+    page.wait_for_selector("#choose-result tbody tr")  # the same need: its candidates are there again
+    here.settle()
+    page.locator("#f-need-running_time").fill("6000 h")
+    here.rest(500)
+    page.reload()
+    page.wait_for_selector("#choose-start")
+    page.wait_for_function("() => !sessionStorage.getItem('ballscrew.job.choose')")
+    assert page.locator("#choose-result tbody tr").count() == 0

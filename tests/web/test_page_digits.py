@@ -39,7 +39,9 @@ def test_an_end_near_a_power_of_ten_is_the_next_number(visit):
     here = visit().open()
     found = here.page.evaluate(ROUNDED, [list(one[:2]) for one in NEAR_POWERS])
     assert found == [text for *_, text in NEAR_POWERS]
-    assert [float(one) for one in found] == [float(to_digits(number, toward=toward)) for number, toward, _ in NEAR_POWERS]
+    assert [float(one) for one in found] == [
+        float(to_digits(number, toward=toward)) for number, toward, _ in NEAR_POWERS
+    ]
 
 
 def test_the_headline_does_not_change_when_its_band_comes(visit, server):

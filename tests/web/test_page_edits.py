@@ -251,3 +251,43 @@ def test_a_warning_is_said_once(visit):
     )
     assert "preload lost" in cells["verdict"]
     assert "preload lost" not in cells["beware"]
+
+
+#: The duty of the second edit is answered long after that of the third one.
+LATE = """async () => {
+  const { current, keepWhole } = await import("/page/answers.js");
+  const found = current().whole.case;
+  const of = (mass) => ({ ...found, axis: { ...found.axis, mass } });
+  const { fetch } = window;
+  const checks = () => JSON.stringify(current().checks);
+  await keepWhole(of("400 kg"));
+  const before = checks();
+  window.fetch = async (address, options) => {
+    const answer = await fetch(address, { ...options, signal: undefined });
+    if (String(options?.body).includes("4000 kg")) await new Promise((done) => setTimeout(done, 500));
+    return answer;
+  };
+  try {
+    const late = keepWhole(of("4000 kg"));
+    await keepWhole(of("400 kg"));
+    const then = checks();
+    await late;
+    return [before, then, checks()];
+  } finally {
+    window.fetch = fetch;
+  }
+}"""
+
+
+def test_checks_are_those_of_the_last_edit_of_a_card(visit):
+    """An edit that was taken back left the checks of what was taken back, where they came late."""
+    here = visit().open("#A=paper&A.screw.dynamic_load_rating=20+kN&band=0&cards=duty")
+    page = here.page
+    page.wait_for_selector("#duty .card-result[aria-busy=false]", state="attached")
+    page.locator("#segment-1-distance").fill("300")  # takes the example into the design
+    page.wait_for_selector("#duty .card-result[aria-busy=true]", state="attached")
+    page.wait_for_selector("#duty .card-result[aria-busy=false]", state="attached")
+    here.settle()
+    before, then, found = page.evaluate(LATE)
+    assert before == then == found
+    assert before

@@ -106,3 +106,52 @@ def test_a_limit_that_was_reached_is_said_as_it_is(visit, start):
     assert "Not computed." in said
     assert "marked field" not in said
     assert starts(here) == 1
+
+
+DUPLICATED = """async () => {
+  const jobs = await import("/page/jobs.js");
+  const { own } = await import("/page/keeping.js");
+  const asked = [];
+  const { fetch } = window;
+  window.fetch = async (address, { method = "GET" }) => {
+    asked.push(`${method} ${address.split("?")[0]}`);
+    return new Response(JSON.stringify({ id: "new", state: "finished", rows: [] }));
+  };
+  const { signal } = new AbortController();
+  const copy = (tab) => sessionStorage.setItem("ballscrew.job.test", JSON.stringify({ id: "old", tab, key: "" }));
+  try {
+    copy("another");
+    const found = jobs.keptJob("test");
+    await jobs.runJob("duty", {}, { place: "test", signal });
+    copy(own());
+    await jobs.runJob("duty", {}, { place: "test", signal });
+    const cancelled = await jobs.runJob("duty", { other: 1 }, { place: "test", signal: AbortSignal.abort() })
+      .catch((error) => error.name);
+    return [found === undefined, asked.map((one) => one.replace("/api/v1/", "")), cancelled];
+  } finally {
+    window.fetch = fetch;
+    sessionStorage.removeItem("ballscrew.job.test");
+  }
+}"""
+
+
+def test_a_duplicated_tab_leaves_the_job_of_the_other_one(visit):
+    """The browser copies what a tab keeps. A request that is cancelled already ends at once, and starts nothing."""
+    here = visit().open()
+    is_other, asked, cancelled = here.page.evaluate(DUPLICATED)
+    begun = ["POST jobs/duty", "GET jobs/new", "GET jobs/new/answer"]
+    assert is_other
+    assert asked == [*begun, "DELETE jobs/old", *begun, "DELETE jobs/new"]
+    assert cancelled == "AbortError"
+
+
+def test_two_clicks_on_a_report_make_it_once(visit):
+    here = visit().open()
+    page = here.page
+    button = page.locator("#downloads button:text-is('HTML')")
+    with page.expect_download():
+        button.evaluate("(one) => { one.click(); one.click(); }")
+    assert sum("/jobs/report" in url for url in here.requests) == 1
+    page.wait_for_function("() => !document.querySelector('#download-words').textContent.includes('…')")
+    with page.expect_download():
+        button.click()  # it can be made again
