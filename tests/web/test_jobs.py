@@ -2,6 +2,9 @@
 
 import asyncio
 import concurrent.futures
+import errno
+import subprocess
+import sys
 import threading
 import time
 
@@ -159,8 +162,87 @@ def test_without_forks(paper):
     assert answer == waited
 
 
+#: The first fork of a job fails, and the others do not; the second time fewer pipes arrive than were sent.
+FULL = """
+import errno, os, socket
+from ballscrew.web.job_process import Answer, Asked, Forks
+
+fork, receive, turns, received = os.fork, socket.recv_fds, [], []
+
+def failing():
+    turns.append(1)
+    if len(turns) == 2:
+        raise OSError(errno.EAGAIN, "no room")
+    return fork()
+
+def truncated(*given):
+    said, pipes, *rest = receive(*given)
+    received.append(1)
+    if len(received) == 2:
+        os.close(pipes.pop())
+    return said, pipes, *rest
+
+os.fork, socket.recv_fds = failing, truncated
+
+async def application(scope, receive, send):
+    await send({"type": "http.response.start", "status": 200, "headers": [(b"content-type", b"text/plain")]})
+    await send({"type": "http.response.body", "body": b"answered"})
+
+forks = Forks(lambda requests: application)
+for turn in range(3):
+    process = forks()
+    try:
+        process.ask(Asked("/", "", b"", 600.0, os.curdir))
+    except OSError:
+        pass  # nobody reads it
+    found = []
+    while (message := process.message()) is not None:
+        found.append(message)
+    process.close()
+    print(process.has_begun, found[-1].body if found else None)
+print("end")
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="forks are made on Linux only")
+def test_a_fork_that_fails_ends_one_job_only():
+    """Defect: the process of which jobs are forked then left its loop, and no job could be started any more."""
+    found = subprocess.run([sys.executable, "-c", FULL], capture_output=True, text=True, timeout=LONG, check=True)
+    assert found.stdout.splitlines() == ["False None", "False None", "True b'answered'", "end"]
+    assert found.stderr == "ballscrew: cannot fork a process for a job: no room\n"
+
+
+def test_a_job_whose_process_cannot_be_started(monkeypatch):
+    """It starts from nothing; where that is not possible either, or it never begins, the job says so."""
+
+    def none():
+        raise BrokenPipeError(errno.EPIPE, "Broken pipe")
+
+    never = Told()
+    never.has_begun = False
+    never.end()
+
+    async def scene():
+        for start, other, state, words in (
+            (none, lambda: Told(Answer(200, "text/plain", b"x")), "finished", b"x"),
+            (none, none, "failed", b"server: cannot start a process (Broken pipe)"),
+            (lambda: never, none, "failed", b"server: cannot start a process"),
+        ):
+            monkeypatch.setattr(jobs_of, "spawned", other)
+            jobs = Jobs(start=start)
+            job = jobs.begin("select", "", b"{}")
+            while not job.has_ended:
+                await job.changed(0.01)
+            assert (job.state, words in job.answer.body) == (state, True), job.answer
+            jobs.close()
+
+    run_scene(scene())
+
+
 class Told:
     """A process that says what the test lets it say."""
+
+    has_begun = True
 
     def __init__(self, *messages):
         self.messages, self.is_killed = list(messages), threading.Event()

@@ -20,7 +20,7 @@ import threading
 import time
 import traceback
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any, NoReturn
@@ -116,6 +116,11 @@ class Process:
             return None
         return found
 
+    @property
+    def has_begun(self) -> bool:
+        """Test whether the process has said who it is: one that could not be forked has not."""
+        return self._pid != 0
+
     def end(self) -> None:
         """Kill the process and those that it has started."""
         with self._lock:
@@ -172,36 +177,61 @@ class Forks:
         self._control, self._lock = here, threading.Lock()
 
     def __call__(self) -> Process:
-        """A new process. Raises ``OSError`` where there can be none."""
-        theirs, requests = os.pipe()
-        messages, said = os.pipe()
-        try:
+        """A new process. Raises ``OSError`` where there can be none.
+
+        Where it cannot be forked its pipes are closed, and it never begins.
+        """
+        with contextlib.ExitStack() as ours, contextlib.ExitStack() as theirs:
+            reading, requests = os.pipe()
+            theirs.callback(os.close, reading)
+            ours.callback(os.close, requests)
+            messages, writing = os.pipe()
+            theirs.callback(os.close, writing)
+            ours.callback(os.close, messages)
             with self._lock:
-                socket.send_fds(self._control, [b"1"], [theirs, said])
-        finally:
-            os.close(theirs)
-            os.close(said)
+                socket.send_fds(self._control, [b"1"], [reading, writing])
+            ours.pop_all()
         return Process(os.fdopen(requests, "wb"), os.fdopen(messages, "rb"), _kill_group)
 
 
 def _fork_for_each(control: socket.socket, application: Application) -> NoReturn:
-    """Fork a process for each pair of pipes that comes, until the server ends."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C ends the server, and that ends this
-    signal.signal(signal.SIGTERM, signal.SIG_DFL)
-    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nobody asks how they ended
-    while True:
-        said, pipes, _, _ = socket.recv_fds(control, 1, 2)
-        if not said:
-            os._exit(0)
+    """Fork a process for each pair of pipes that comes, until the server ends.
+
+    It never returns into what the server was doing when it forked this, whatever happens.
+    """
+    try:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C ends the server, and that ends this
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nobody asks how they ended
+        while True:
+            said, pipes, _, _ = socket.recv_fds(control, 1, 2)
+            if not said:
+                os._exit(0)
+            if len(pipes) == 2:  # fewer come where this has too many files open
+                _fork_one(control, application, pipes)
+            for pipe in pipes:
+                os.close(pipe)
+    except BaseException:
+        traceback.print_exc()
+        sys.stderr.flush()
+    finally:
+        os._exit(1)
+
+
+def _fork_one(control: socket.socket, application: Application, pipes: Sequence[int]) -> None:
+    """Fork a process with these pipes; where the system has no room for it the server learns so as they are closed."""
+    try:
         with warnings.catch_warnings(action="ignore"):
             pid = os.fork()
-        if pid == 0:
-            control.close()
-            signal.signal(signal.SIGCHLD, signal.SIG_DFL)
-            os.setsid()
-            answer_one(application, *(os.fdopen(pipe, mode) for pipe, mode in zip(pipes, ("rb", "wb"), strict=True)))
-        for pipe in pipes:
-            os.close(pipe)
+    except OSError as error:
+        sys.stderr.write(f"ballscrew: cannot fork a process for a job: {error.strerror}\n")
+        sys.stderr.flush()
+        return
+    if pid == 0:
+        control.close()
+        signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+        os.setsid()
+        answer_one(application, *(os.fdopen(pipe, mode) for pipe, mode in zip(pipes, ("rb", "wb"), strict=True)))
 
 
 def _kill_group(pid: int) -> None:

@@ -79,9 +79,9 @@ class Job:
         messages: asyncio.Queue[Message | None] = asyncio.Queue()
         with tempfile.TemporaryDirectory(prefix="ballscrew-", ignore_cleanup_errors=True) as folder:
             try:
-                process = self._process = start()
+                process = self._process = _process(start)
             except OSError as error:
-                self.end("failed", _problem(500, Fault("server", "cannot start a process", str(error.strerror), "")))
+                self.end("failed", _no_process(str(error.strerror)))
                 return
 
             def listen() -> None:
@@ -98,7 +98,9 @@ class Job:
             threading.Thread(target=listen, name="ballscrew job", daemon=True).start()
             while (message := await messages.get()) is not None:
                 self._take(message, limit)
-        if not self.has_ended:
+        if not self.has_ended and not process.has_begun:
+            self.end("failed", _no_process(""))
+        elif not self.has_ended:
             fault = Fault("server", "has a defect", "", "please report your request")
             self.end("failed", _problem(500, fault))
 
@@ -209,6 +211,18 @@ class Jobs:
             if time.monotonic() > job.asked + KEPT or size > MOST_KEPT or number > MOST_JOBS:
                 del self._jobs[job.id]
                 size, number = size - job.size, number - 1
+
+
+def _process(start: Callable[[], Process]) -> Process:
+    """A process; where it cannot be started in the usual way it starts from nothing. Raises ``OSError``."""
+    try:
+        return start()
+    except OSError:  # the process of which others are forked has ended, or takes no more
+        return spawned()
+
+
+def _no_process(given: str) -> Answer:
+    return _problem(500, Fault("server", "cannot start a process", given, "try again when the machine has room for it"))
 
 
 def _refused(refused: Refused) -> Answer:
