@@ -289,6 +289,88 @@ def test_no_more_rows_than_there_is_room_for(monkeypatch):
     run_scene(scene())
 
 
+def test_what_is_dropped_takes_no_room_and_a_cancelled_job_gets_no_rows(monkeypatch):
+    monkeypatch.setattr(jobs_of, "MOST_ROWS", 3)
+
+    async def scene():
+        jobs = Jobs(start=lambda: Told(Row(b"1"), Row(b"too long"), Row(b"23"), Computed(1.0)))
+        job = jobs.begin("select", "", b"{}")
+        while not job.computed:
+            await job.changed(0.01)
+        assert (job.rows, job.size) == ([b"1", b"23"], 3)
+        late = Told(Row(b"2"))
+        late.end = lambda: None  # it says one more row before it is dead
+        jobs.start = lambda: late
+        other = jobs.begin("select", "", b"{}")
+        while other.state == "waiting":
+            await asyncio.sleep(0)
+        other.cancel()
+        late.is_killed.set()
+        await other.task
+        assert (other.rows, other.size - len(other.answer.body)) == ([], 0)
+        jobs.close()
+
+    run_scene(scene())
+
+
+def test_a_cancelled_job_waits_no_more():
+    """Its place in the queue is free at once: those that are cancelled before their turn leave nothing behind."""
+
+    async def scene():
+        jobs = Jobs(start=Told)
+        running = [jobs.begin("select", "", b"{}") for _ in range(2)]
+        await asyncio.sleep(0.05)
+        for _ in range(3):
+            for job in [jobs.begin("select", "", b"{}") for _ in range(16)]:
+                job.cancel()
+            await asyncio.sleep(0.05)
+            assert jobs._limiter.statistics().tasks_waiting == 0
+            assert len(jobs._tasks) == len(running)
+        last = jobs.begin("select", "", b"{}")
+        running[0].cancel()
+        while last.state == "waiting":
+            await asyncio.sleep(0.01)
+        jobs.close()
+        await asyncio.sleep(0.05)
+
+    run_scene(scene())
+
+
+def test_an_answer_that_is_larger_than_all_that_are_kept_can_be_asked_for(monkeypatch):
+    monkeypatch.setattr(jobs_of, "MOST_KEPT", 250)
+
+    async def scene():
+        jobs = Jobs(start=lambda: Told(Answer(200, "text/plain", b"x" * 200)))
+        made = []
+        for size in (200, 300):
+            jobs.start = lambda size=size: Told(Answer(200, "text/plain", b"x" * size))
+            made.append(jobs.begin("select", "", b"{}"))
+            while not made[-1].has_ended:
+                await made[-1].changed(0.01)
+            await asyncio.sleep(0.05)
+        assert len(jobs.named(made[1].id).answer.body) == 300
+        assert set(jobs._jobs) == {made[1].id}  # forgotten as the next one ended
+        jobs.close()
+
+    run_scene(scene())
+
+
+def test_what_is_old_is_forgotten_though_nobody_asks(monkeypatch):
+    monkeypatch.setattr(jobs_of, "KEPT", 0.05)
+
+    async def scene():
+        jobs = Jobs(start=lambda: Told(Answer(200, "text/plain", b"x")))
+        jobs.begin("select", "", b"{}")
+        end = time.monotonic() + LONG
+        await asyncio.sleep(0.02)
+        while jobs._jobs:
+            assert time.monotonic() < end
+            await asyncio.sleep(0.05)
+        jobs.close()
+
+    run_scene(scene())
+
+
 def test_a_job_that_nobody_asks_about_is_cancelled(monkeypatch):
     monkeypatch.setattr(jobs_of, "LEFT_ALONE", 0.2)
 

@@ -52,6 +52,8 @@ class Job:
         self._changed = asyncio.Event()
         self._process: Process | None = None
         self._size = 0
+        #: What waits for its turn and runs it.
+        self.task: asyncio.Task[None] | None = None
 
     @property
     def has_ended(self) -> bool:
@@ -111,8 +113,8 @@ class Job:
             case Computed():
                 self.computed = message.seconds
             case Row():
-                self._size += len(message.document)
-                if self._size <= MOST_ROWS:
+                if not self.has_ended and self._size + len(message.document) <= MOST_ROWS:
+                    self._size += len(message.document)
                     self.rows.append(message.document)
                     self._wake()
             case OutOfTime():
@@ -126,10 +128,13 @@ class Job:
             self._process.end()
         if not self.has_ended:
             self.state, self.answer, self._body = state, answer, b""
+            self.asked = time.monotonic()  # it is kept from now on
             self._wake()
 
     def cancel(self) -> None:
-        """Kill the work and forget what it has found."""
+        """Kill the work and forget what it has found; one that waits leaves its place at once."""
+        if self.state == "waiting" and self.task is not None:
+            self.task.cancel()
         self.end("cancelled", _problem(404, Fault("job", "was cancelled", "", "start it again")))
         self.rows, self._size = [], 0
 
@@ -149,6 +154,7 @@ class Jobs:
         self._jobs: dict[str, Job] = {}
         self._tasks: set[asyncio.Task[None]] = set()
         self._closed = False
+        self._forget_next: asyncio.TimerHandle | None = None
 
     def begin(self, address: str, query: str, body: bytes) -> Job:
         """A new job; it runs when those before it have. Raises :class:`Refused` where too many wait."""
@@ -160,7 +166,7 @@ class Jobs:
             raise busy(waiting)
         job = Job(address, query, body)
         self._jobs[job.id] = job
-        task = asyncio.ensure_future(self._run(job))
+        task = job.task = asyncio.ensure_future(self._run(job))
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
         return job
@@ -184,6 +190,8 @@ class Jobs:
     def close(self) -> None:
         """End all jobs."""
         self._closed = True
+        if self._forget_next is not None:
+            self._forget_next.cancel()
         for job in self._jobs.values():
             job.end("failed", _refused(closing()))
         self._limiter.total_tokens = math.inf
@@ -195,6 +203,7 @@ class Jobs:
                 await job.run(self.start, self.limit)
         finally:
             watch.cancel()
+            self._forget_old()
 
     async def _watch(self, job: Job) -> None:
         """Cancel a job that nobody asks about."""
@@ -204,13 +213,23 @@ class Jobs:
                 job.cancel()
 
     def _forget_old(self) -> None:
-        """Forget the answers that are old, and the oldest where they are too many or too large."""
+        """Forget the answers that are old, and the oldest where they are too many or too large, but for the newest.
+
+        It is done again by itself when the next one will be old.
+        """
         ended = sorted((job for job in self._jobs.values() if job.has_ended), key=lambda job: job.asked)
         size, number = sum(job.size for job in ended), len(ended)
         for job in ended:
-            if time.monotonic() > job.asked + KEPT or size > MOST_KEPT or number > MOST_JOBS:
+            is_too_much = job is not ended[-1] and (size > MOST_KEPT or number > MOST_JOBS)
+            if time.monotonic() > job.asked + KEPT or is_too_much:
                 del self._jobs[job.id]
                 size, number = size - job.size, number - 1
+        if self._forget_next is not None:
+            self._forget_next.cancel()
+            self._forget_next = None
+        if number and not self._closed:
+            until = max(0.0, ended[-number].asked + KEPT - time.monotonic())
+            self._forget_next = asyncio.get_running_loop().call_later(until + 1.0, self._forget_old)
 
 
 def _process(start: Callable[[], Process]) -> Process:
