@@ -1,14 +1,19 @@
 """``POST /api/v1/select``: the document of the command; paths and too many choices are refused."""
 
+import asyncio
+import concurrent.futures
 import json
 from collections import OrderedDict
 from types import SimpleNamespace
+
+import httpx
 
 from ballscrew.documents.selection import document
 from ballscrew.output.json_text import plain
 from ballscrew.selection.selection import select
 from ballscrew.web import progress
-from ballscrew.web.request_queue import HEAVY, MOST_WAITING, TIME_LIMIT
+from ballscrew.web import server as servers
+from ballscrew.web.request_queue import HEAVY, MOST_WAITING, TIME_LIMIT, RequestQueue
 
 NEED = {
     "force": "2 kN",
@@ -55,6 +60,20 @@ def test_what_a_need_leaves_open_is_said_before_it_starts(server):
     found = server.post("select/plan", {"need": {**moving, "stroke": "600 mm"}}).json()
     assert [one["input"] for one in found["unasked"]] == ["limits.running_time", "installation.ends"]
     assert 1 < found["seconds"] < 60
+
+
+def test_a_plan_with_a_table_is_no_quick_request():
+    """A table of a megabyte is read for seconds: it waits with the heavy requests, of which none may wait here."""
+
+    async def statuses():
+        transport = httpx.ASGITransport(servers.application(requests=RequestQueue(waiting=0)))
+        async with httpx.AsyncClient(transport=transport, base_url="http://localhost", timeout=60) as client:
+            table = {"table": {"name": "own.csv", "text": "name,lead [mm]\n"}}
+            bodies = ({"need": NEED, "words": "rexroth 32x10", **more} for more in ({}, table))
+            return [(await client.post("/api/v1/select/plan", json=body)).status_code for body in bodies]
+
+    with concurrent.futures.ThreadPoolExecutor(1) as pool:
+        assert pool.submit(asyncio.run, statuses()).result() == [200, 429]
 
 
 def _not_judged(candidate):

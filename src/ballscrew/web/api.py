@@ -262,7 +262,9 @@ async def select_plan(request: Request) -> Response:
             found = planned_selection(need, rows=paths.get("table"), words=body.words or None, keep_going=bool(paths))
         return as_json(selection_documents.plan_document(found))
 
-    return await queue_of(request).quick(work)
+    if body.table is None:
+        return await queue_of(request).quick(work)
+    return await heavy(request, lambda _: work())  # a large table takes longer to be read
 
 
 @router.post(
