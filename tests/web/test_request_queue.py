@@ -251,3 +251,16 @@ def test_a_disconnect_stops_the_work(monkeypatch, paper):
         assert await asyncio.to_thread(stopped.wait, LONG / 2)
 
     run_scene(scene())
+
+
+def test_the_samples_of_a_sweep_are_refused_before_it_waits(paper):
+    """Defect: they were counted after the sweep was computed. No heavy request may wait here: it would be a 429."""
+
+    async def scene():
+        transport = httpx.ASGITransport(server.application(requests=RequestQueue(waiting=0)))
+        async with httpx.AsyncClient(transport=transport, base_url="http://localhost", timeout=60) as client:
+            body = {"case": paper, "vary": {"axial_load": "1:2:9 kN"}, "band": True, "samples": 10**9}
+            found = await client.post("/api/v1/sweep", json=body)
+            assert (found.status_code, "--samples: too many" in found.text) == (422, True), found.text[:300]
+
+    run_scene(scene())

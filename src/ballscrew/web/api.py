@@ -114,24 +114,23 @@ async def check(request: Request) -> Response:
 async def sweep(request: Request) -> Response:
     """Friction over ranges of load, speed or any other field: the document of ``ballscrew sweep --json``."""
     body: SweepBody = await read(request, SweepBody)
-    limits.check_size(body.vary, len(body.outputs))
+    limits.check_size(body.vary, len(body.outputs), banded=body.band)
 
-    def planned() -> tuple[case_file.Case, sweeps.Plan]:
+    def planned() -> tuple[case_file.Case, sweeps.Plan, int | None]:
         case = case_of(body.case)
         if not body.vary:
-            limits.check_size(case.sweep, len(body.outputs))
+            limits.check_size(case.sweep, len(body.outputs), banded=body.band)
         vary = [f"{name}={text}" for name, text in body.vary.items()]
         plan = sweeps.plan(case, vary, body.outputs, None, banded=body.band)
         limits.check_sweep(case, plan)
-        return case, plan
+        return case, plan, limits.samples_of_sweep(case, plan, body.samples) if plan.banded else None
 
     queue = queue_of(request)
-    case, plan = await queue.quick(planned)
+    case, plan, samples = await queue.quick(planned)
 
     def work(done: Deadline) -> Response:
         found = sweeps.sweep(case, plan, done)
         if plan.banded:
-            samples = limits.samples_of_sweep(case, plan, body.samples)
             found = with_band(case, plan, found, bands.Options(samples, body.level, body.only_given), done)
         return as_json(sweep_documents.document(case, plan, found))
 

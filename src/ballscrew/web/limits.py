@@ -39,18 +39,21 @@ MOST_COLUMNS, _FIRST_LINES = 1_000, 5_000
 MOST_MORE = 8
 #: Balls with two contacts that take as long as one with four.
 _FOUR_CONTACTS = 3
+#: Values of an output with the ends of its band.
+_WITH_ENDS = 3
 
 
-def check_size(vary: Mapping[str, str], outputs: int) -> None:
+def check_size(vary: Mapping[str, str], outputs: int, *, banded: bool = False) -> None:
     """Refuse a sweep that is too large for any case, before its axes are made."""
     points = _points(vary)
+    values = points * outputs * (_WITH_ENDS if banded else 1)
     faults: list[Fault] = []
     if len(vary) > MOST_AXES:
         faults.append(Fault("sweep", "too many axes", str(len(vary)), f"{MOST_AXES} at most here"))
     elif points > MOST_POINTS:
         faults.append(_too_many_points(points, MOST_POINTS))
-    elif points * outputs > MOST_RETURNED:
-        faults.append(Fault("sweep", "too many values", f"{points * outputs:,}", f"{MOST_RETURNED:,} at most here"))
+    elif values > MOST_RETURNED:
+        faults.append(Fault("sweep", "too many values", f"{values:,}", f"{MOST_RETURNED:,} at most here"))
     raise_if_any(faults)
 
 
