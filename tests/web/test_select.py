@@ -3,17 +3,14 @@
 import asyncio
 import concurrent.futures
 import json
-from collections import OrderedDict
-from types import SimpleNamespace
 
 import httpx
 
 from ballscrew.documents.selection import document
 from ballscrew.output.json_text import plain
 from ballscrew.selection.selection import select
-from ballscrew.web import progress
 from ballscrew.web import server as servers
-from ballscrew.web.request_queue import HEAVY, MOST_WAITING, TIME_LIMIT, RequestQueue
+from ballscrew.web.request_queue import RequestQueue
 
 NEED = {
     "force": "2 kN",
@@ -91,24 +88,3 @@ def test_what_is_refused(server):
         found = server.post("select", {"need": need})
         assert found.status_code == 422, found.text[:500]
         assert any(words in line for line in found.json()["lines"]), found.json()["lines"]
-
-
-def test_all_who_wait_go_on_where_they_stopped(monkeypatch):
-    """As many as may compute and wait at once, in turn, with tables that are not kept; what is left is forgotten."""
-    now = 0.0
-    monkeypatch.setattr(progress, "_unfinished", OrderedDict())
-    monkeypatch.setattr(progress, "time", SimpleNamespace(monotonic=lambda: now))
-    tickets = [f"ticket {i}" for i in range(HEAVY + MOST_WAITING)]
-    for turn in range(3):
-        for ticket in tickets:
-            known = progress.unfinished(ticket, "body" * 9_000)
-            assert known == dict.fromkeys(range(turn)), (ticket, turn)
-            known[turn] = None
-            now += TIME_LIMIT / HEAVY
-    assert "body" not in str(progress._unfinished)
-    assert progress.unfinished(tickets[0], "another") == {}
-    progress.finish(tickets[-1], "body" * 9_000)
-    assert progress.unfinished(tickets[-1], "body" * 9_000) == {}
-    now += progress.OLDEST + 1
-    progress.unfinished("last", "")
-    assert len(progress._unfinished) == 1

@@ -1,4 +1,4 @@
-"""Response models of the API for files that are opened, for progress, and for jobs."""
+"""Response models of the API for files that are opened, and for jobs."""
 
 from __future__ import annotations
 
@@ -38,10 +38,3 @@ class Job(Closed):
     computed: float = Field(description="seconds of processor")
     limit: float = Field(description="seconds of processor that it may take")
     rows: list[Any] = Field(description="parts of the answer that are there before the rest, from the place asked for")
-
-
-class Progress(Closed):
-    """How far a request is."""
-
-    finished: int
-    total: int = Field(description="zero of a ticket that nothing is known of")

@@ -73,7 +73,6 @@ from ballscrew.web.endpoint_parts import (
     sent,
 )
 from ballscrew.web.problems import Refused
-from ballscrew.web.progress import finish, reported, unfinished
 from ballscrew.web.request_queue import Deadline
 from ballscrew.web.sent_files import written
 from ballscrew.web.templates import template
@@ -219,10 +218,9 @@ async def warm_up(request: Request) -> Response:
 async def select(request: Request) -> Response:
     """Screws of the catalogue for a need, ranked: the document of ``ballscrew select --json``.
 
-    Where it takes longer than a request may, the same body with its ``ticket`` goes on where it stopped.
+    As a job it may take longer than a request that is waited for, tells how far it is, and shows candidates meanwhile.
     """
     body: NeedBody = await read(request, NeedBody)
-    key = body.model_dump_json()
 
     def work(done: Deadline) -> Response:
         refuse_paths(body.need)
@@ -230,18 +228,12 @@ async def select(request: Request) -> Response:
         with written({} if body.table is None else {"table": body.table}) as paths:
             found = selected(
                 need, rows=paths.get("table"), words=body.words or None, keep_going=bool(paths),
-                complete=body.complete, done=reported(body.ticket, done), known=unfinished(body.ticket, key),
+                complete=body.complete, done=done,
                 found_one=lambda one: done.row(as_bytes(selection_documents.row_document(one))),
             )  # fmt: skip
-        finish(body.ticket, key)
         return as_json(selection_documents.document(found))
 
-    try:
-        return await heavy(request, work)
-    except Refused as refused:
-        if refused.status == 400:  # the client has left, and will not go on
-            finish(body.ticket, key)
-        raise
+    return await heavy(request, work)
 
 
 @router.post(

@@ -39,7 +39,6 @@ READ_TIMEOUT = 10.0
 
 #: Bytes of a request with a project or a table of screws.
 MOST_FILE_BYTES = 1_048_576
-LONGEST_TICKET = 40
 
 Tables = dict[str, Any]
 #: A file: its ``name``, which says what kind it is, and its content as ``text``, or any bytes in ``base64``.
@@ -91,7 +90,7 @@ class WarmUpBody(CaseBody):
 class NeedBody(Body):
     """A need: the tables of a file of ``ballscrew select`` as JSON, and words that rows must have.
 
-    ``table`` is a table of one's own in place of the catalogue, ``ticket`` a word of the client to ask for progress by.
+    ``table`` is a table of one's own in place of the catalogue.
     A ``complete`` list has the full model also of those that their loads alone rule out.
     """
 
@@ -102,7 +101,6 @@ class NeedBody(Body):
     words: str = Field(default="", strict=True)
     table: SentFile | None = None
     complete: bool = Field(default=False, strict=True)
-    ticket: str = Field(default="", strict=True, max_length=LONGEST_TICKET)
 
 
 class OpenBody(Body):

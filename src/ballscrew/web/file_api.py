@@ -1,10 +1,10 @@
-"""Addresses of the API for files: those that are opened, those that are saved, and the progress of long work."""
+"""Addresses of the API for files: those that are opened, and those that are saved."""
 
 from __future__ import annotations
 
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Path, Query, Request
+from fastapi import APIRouter, Query, Request
 from starlette.responses import Response
 
 from ballscrew.api_answers import file as file_answers
@@ -16,7 +16,6 @@ from ballscrew.output.json_text import as_json as json_text
 from ballscrew.web import openapi
 from ballscrew.web.bodies import CaseBody, OpenBody, ProjectBody, case_of, read, refuse_nulls
 from ballscrew.web.endpoint_parts import as_json, heavy, queue_of
-from ballscrew.web.progress import progress_of
 from ballscrew.web.sent_files import written
 
 #: Media types of a project, by its ``kind``.
@@ -70,12 +69,3 @@ async def project(
         return Response(as_toml(tables) if kind == "toml" else json_text(tables), media_type=KINDS[kind])
 
     return await heavy(request, work)
-
-
-@router.get("/progress/{ticket}", response_model=file_answers.Progress, responses=openapi.problems_of())
-async def progress(
-    ticket: Annotated[str, Path(description="of the request", examples=["4f0c"])],
-) -> Response:
-    """How far the work of a request is that was sent with this ticket."""
-    finished, total = progress_of(ticket)
-    return as_json({"finished": finished, "total": total})
