@@ -26,7 +26,10 @@ def serve(
     time_limit: Annotated[
         float | None,
         typer.Option(
-            "--time-limit", metavar="SECONDS", min=0.1, help="Of processor, for one request; 20. Jobs: 30 times."
+            "--time-limit",
+            metavar="SECONDS",
+            min=0.1,
+            help="Seconds of processor time that one request may take, 20; a job may take 30 times as long.",
         ),
     ] = None,
 ) -> None:
