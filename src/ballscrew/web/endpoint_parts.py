@@ -27,7 +27,8 @@ from ballscrew.web.request_queue import Deadline, RequestQueue
 def own_site(request: Request) -> None:
     """Refuse requests that a browser sends for a page of another site: it could not read the answer, only cause work.
 
-    Browsers say so by themselves, and no page can change it; other programs do not say it.
+    Browsers say so by themselves, and no page can change it, but only to https and to localhost: over plain http from
+    another machine, which ``--host`` allows, nothing is said and nothing is refused. Other programs do not say it.
     """
     site = request.headers.get("sec-fetch-site", "none").lower()
     if site not in ("none", "same-origin"):
