@@ -93,6 +93,7 @@ def test_points_that_cannot_be_have_no_band_and_the_samples_are_counted():
     found = swept(case, ["lead=5, 10, 20 mm"], ["screw_torque"], done=lambda *numbers: told.append(numbers))
     assert np.isnan(found["screw_torque_low"].to_numpy()).tolist() == [True, False, False]
     assert not found["valid_high"][0]
+    assert found["invalid_share"].to_numpy()[0] == 1 > found["invalid_share"].to_numpy()[1]
     assert told[-1] == (2 * 256, 2 * 256)
 
 

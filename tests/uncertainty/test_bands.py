@@ -260,6 +260,21 @@ def test_axes_have_the_band_of_each_point(drive):
             assert float(here[name]) == pytest.approx(one[name].value, rel=1e-9)
 
 
+def test_axes_have_the_share_of_invalid_samples_of_each_point(drive):
+    """From a load at which most samples are valid to one at which none is, and between."""
+    inputs = {name: one.distribution for name, one in uncertain_inputs.all_of(drive).items()}
+    loads = [1000.0, 90_000.0, 110_000.0, 130_000.0, 160_000.0]
+    options = {"uncertain": inputs, "samples": 128, "screw_speed": 60.0}
+    found = bs.band(drive.model, drive.screw, drive.lubricant, **options, axial_load=loads)["invalid_share"]
+    ones = [
+        bs.band(drive.model, drive.screw, drive.lubricant, **options, axial_load=load).invalid_share for load in loads
+    ]
+    assert found.dims == ("axial_load",)
+    assert found.attrs["units"] == "1"
+    assert found.values.tolist() == ones
+    assert len(set(ones)) > 2, ones
+
+
 def test_an_axis_is_exact(of_seed, seed_screw, seed_oil):
     both = {"viscosity": LogNormal(0.1, 1.3), "axial_load": Normal(4000.0, 100.0)}
     found = of_seed(uncertain=both, axial_load=[2000.0, 4000.0], samples=128)

@@ -80,7 +80,7 @@ def with_band(
         outside[places] = found.invalid_share
         before += len(places) * count
     complete = {name: (low.reshape(shape), high.reshape(shape)) for name, (low, high) in ends.items()}
-    found = with_ends(dataset.transpose(*dims), complete, level=level, count=count, seed=_SEED)
+    found = with_ends(dataset.transpose(*dims), complete, outside, level=level, count=count, seed=_SEED)
     # a mask has an interval, too: its least and its greatest value in as many of the samples
     attributes = dataset["valid"].attrs
     masks = {

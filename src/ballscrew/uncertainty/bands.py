@@ -188,8 +188,9 @@ def band(
 
     A load, a speed or ``varied`` inputs of several values are axes, as of :func:`~ballscrew.sweeps.sweep.sweep`. Then
     the result is a dataset over them that has of each output ``x`` the value ``x`` and the ends ``x_low`` and
-    ``x_high``, and its attributes ``band_level``, ``band_samples`` and ``band_seed``. At each point they are those of
-    the band there: all points have the same random numbers. What is an axis is exact there.
+    ``x_high``, the ``invalid_share`` of the samples, and its attributes ``band_level``, ``band_samples`` and
+    ``band_seed``. At each point they are those of the band there: all points have the same random numbers. What is an
+    axis is exact there.
 
     Raises :class:`~ballscrew.errors.InputError` for unknown names, numbers out of bounds and an engine that cannot
     be had.
@@ -267,13 +268,22 @@ def _band_over(
     found = bands_of(group, axes.outputs, count=count, seed=seed, level=level, engine=engine, done=told)
     ends = {name: found.both[name] for name in axes.outputs}
     dataset = axes.dataset({name: np.array(found.value[name]) for name in axes.outputs})
-    return with_ends(dataset, ends, level=level, count=count, seed=seed)
+    return with_ends(dataset, ends, found.invalid_share, level=level, count=count, seed=seed)
 
 
 def with_ends(
-    dataset: xr.Dataset, ends: Mapping[str, tuple[Values, Values]], *, level: float, count: int, seed: int
+    dataset: xr.Dataset,
+    ends: Mapping[str, tuple[Values, Values]],
+    invalid_share: Values,
+    *,
+    level: float,
+    count: int,
+    seed: int,
 ) -> xr.Dataset:
-    """A dataset with the ends of the intervals of its variables beside them, as ``x_low`` and ``x_high``."""
+    """A dataset with the ends of the intervals of its variables beside them, as ``x_low`` and ``x_high``.
+
+    ``invalid_share`` is, at each point, the share of the samples that lie outside the validity of the model.
+    """
     found = dict[str, Any]()
     for name, both in ends.items():
         variable = dataset[name]
@@ -281,6 +291,11 @@ def with_ends(
             words = f"{variable.attrs['long_name']}, {end} end of the band"
             attributes = {**variable.attrs, "long_name": words}
             found[f"{name}_{end}"] = (variable.dims, np.asarray(values).reshape(variable.shape), attributes)
+    any_of_them = dataset[next(iter(ends))]
+    words = "share of the samples outside the validity of the model"
+    found["invalid_share"] = (
+        any_of_them.dims, np.asarray(invalid_share).reshape(any_of_them.shape), {"units": "1", "long_name": words}
+    )  # fmt: skip
     return dataset.assign(found).assign_attrs(band_level=level, band_samples=count, band_seed=seed)
 
 
