@@ -252,8 +252,8 @@ def test_a_vertical_axis_lists_its_motor_and_its_brake(ballscrew, tmp_path):
     with table.open(encoding="utf-8") as stream:
         row = next(csv.DictReader(stream))
     for heading, number in (
-        ("motor torque peak [N m]", mine["duty"]["torque_peak"]),
-        ("motor torque rms [N m]", mine["duty"]["torque_rms"]),
+        ("motor torque peak [N m]", mine["motor_torque"]["torque_peak"]),
+        ("motor torque rms [N m]", mine["motor_torque"]["torque_rms"]),
         ("brake holding torque [N m]", mine["brake"]["holding_torque"]),
     ):
         assert float(row[heading]) == pytest.approx(number, rel=1e-9)
@@ -262,6 +262,30 @@ def test_a_vertical_axis_lists_its_motor_and_its_brake(ballscrew, tmp_path):
     assert "motor, RMS" in lines[2]
     assert "brake holds" in lines[2]
     assert lines[3].count("N m") == 3
+
+
+def test_the_motor_of_a_starved_cycle_is_listed_by_the_larger_torque(ballscrew, tmp_path):
+    """Largest and RMS torque are those in a full bath of cold oil, in all forms of the list."""
+    need, table = tmp_path / "need.toml", tmp_path / "list.csv"
+    cold = {"oil": "ISO VG 220", "temperature": "5 degC", "preload": "8 %", "rows": "rexroth-40x10x6-6"}
+    lines = [f"{key} = {json.dumps(value)}\n" for key, value in {**MOVING, "feed": "24 m/min", **cold}.items()]
+    need.write_text("".join(lines), encoding="utf-8")
+    document = json.loads(ballscrew("select", need, "--complete", "--json", "--to", table).stdout)
+    mine, units = document["candidates"][0], document["units"]
+    given, full, larger = mine["duty"], mine["full_bath"], mine["motor_torque"]
+    assert mine["starved"]
+    assert (given["torque_peak"], given["torque_rms"]) == pytest.approx((10.2, 6.33), rel=0.01)
+    assert (full["torque_peak"], full["torque_rms"]) == pytest.approx((15.92, 9.60), rel=0.01)
+    assert larger == {name: full[name] for name in ("torque_peak", "torque_rms")}
+    assert mine["objectives"]["drive_torque"] == larger["torque_peak"]
+    assert units["motor_torque"]["torque_rms"] == units["full_bath"]["torque_rms"] == "N m"
+    with table.open(encoding="utf-8") as stream:
+        row = next(csv.DictReader(stream))
+    assert float(row["motor torque peak [N m]"]) == pytest.approx(full["torque_peak"], rel=1e-9)
+    assert float(row["motor torque rms [N m]"]) == pytest.approx(full["torque_rms"], rel=1e-9)
+    line = ballscrew("select", need, "--complete").stdout.splitlines()[3]
+    shown = [f"{full[name]:.4g} N m" for name in ("torque_peak", "torque_rms")]
+    assert [cell.strip() for cell in line.split("  ") if cell.strip() in shown] == shown
 
 
 def test_the_larger_torque_of_a_starved_oil_ranks():

@@ -221,6 +221,18 @@ class DutyReport:
         }
         return {name: float(found[name]) for name in OF_BATH}
 
+    @lazy
+    def motor_torque(self) -> Mapping[str, Torque]:
+        """Largest and RMS torque that a motor is chosen by, N m: ``torque_peak`` and ``torque_rms``.
+
+        Where the screw is starved of oil, each is the larger of that with the inlet as it is given and that in a full
+        bath of oil; the rule of catalogues knows no oil.
+        """
+        found = {name: abs(self.numbers[name]) for name in ("torque_peak", "torque_rms")}
+        if self.by_rule or not self.duty.starved:
+            return found
+        return {name: max(torque, self.full_bath[name]) for name, torque in found.items()}
+
     @property
     def life_revolutions(self) -> Ratio:
         """Turns that nine of ten outlive; by the larger mean load alone where the case asks for the rule."""

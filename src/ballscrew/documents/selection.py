@@ -8,7 +8,7 @@ from typing import Any
 
 from ballscrew import units
 from ballscrew.axis.brake import Brake
-from ballscrew.axis_studies.duty import NUMBERS
+from ballscrew.axis_studies.duty import NUMBERS, OF_BATH
 from ballscrew.cases import provenance
 from ballscrew.components.operating_state import OperatingState
 from ballscrew.documents import check as check_documents
@@ -48,9 +48,19 @@ def document(found: Selection) -> dict[str, Any]:
         "units": {
             **known,
             "objectives": {name: each.quantity.unit for name, each in OBJECTIVES.items()},
-            **({"duty": {name: each.unit for name, each in NUMBERS.items()}, "brake": dict(BRAKE)} if moves else {}),
+            **(_of_motion() if moves else {}),
         },
         "provenance": provenance.of_case(found.ranked[0].candidate.case) if found.ranked else None,
+    }
+
+
+def _of_motion() -> dict[str, dict[str, str]]:
+    """Units of what a candidate with a motion has beside the others."""
+    return {
+        "duty": {name: each.unit for name, each in NUMBERS.items()},
+        "full_bath": {name: each.unit for name, each in OF_BATH.items()},
+        "motor_torque": {name: NUMBERS[name].unit for name in ("torque_peak", "torque_rms")},
+        "brake": dict(BRAKE),
     }
 
 
@@ -119,7 +129,12 @@ def candidate_document(ranked: Ranked, need: Need) -> dict[str, Any]:
             whole["warnings"] = [*documents(found.starved), *whole["warnings"]]
     duty: dict[str, Any] = {}
     if found.duty is not None:
-        duty = {"duty": dict(found.duty.numbers), "brake": brake_document(found.duty.brake)}
+        duty = {
+            "duty": dict(found.duty.numbers),
+            "full_bath": None if found.duty.by_rule else dict(found.duty.full_bath),
+            "motor_torque": dict(found.duty.motor_torque),
+            "brake": brake_document(found.duty.brake),
+        }
     return {
         "rank": ranked.rank,
         "name": found.name,

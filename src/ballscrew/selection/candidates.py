@@ -397,10 +397,9 @@ def _of_point(found: Checked, *, starves: bool) -> dict[str, float]:
 def _of_cycle(report: DutyReport, *, starves: bool) -> dict[str, float]:
     numbers, full = report.numbers, report.full_bath
     lost = max(numbers["energy_lost"], full["energy_lost"]) if starves else numbers["energy_lost"]
-    torque = abs(numbers["torque_peak"])
     return {
         "loss": lost / numbers["cycle_time"],
-        "drive_torque": max(torque, full["torque_peak"]) if starves and not report.by_rule else torque,
+        "drive_torque": report.motor_torque["torque_peak"] if starves else abs(numbers["torque_peak"]),
         "life": numbers["life_time"],
     }
 

@@ -33,8 +33,8 @@ def of_selection(ranked: Sequence[Ranked]) -> RowTable:
         for name, objective in OBJECTIVES.items():
             put(cells, objective.quantity, found.objectives[name])
         if found.duty is not None:
-            for name in ("torque_peak", "torque_rms"):
-                put(cells, NUMBERS[name], found.duty.numbers[name], f"motor {name}")
+            for name, torque in found.duty.motor_torque.items():
+                put(cells, NUMBERS[name], torque, f"motor {name}")
             for name in BRAKE:
                 put(cells, NUMBERS["torque_peak"], getattr(found.duty.brake, name), f"brake {name}")
         for check in found.checks:

@@ -26,8 +26,8 @@ LABELS = {
 
 #: Torques of a need with a motion, by their headings.
 OF_MOTION: Mapping[str, Callable[[DutyReport], float]] = {
-    "motor, largest": lambda report: report.numbers["torque_peak"],
-    "motor, RMS": lambda report: report.numbers["torque_rms"],
+    "motor, largest": lambda report: report.motor_torque["torque_peak"],
+    "motor, RMS": lambda report: report.motor_torque["torque_rms"],
     "brake holds": lambda report: report.brake.holding_torque,
 }
 

@@ -34,10 +34,10 @@ const OBJECTIVES = {
   motor_rms: "N m",
   brake: "N m",
 };
-/** Where a candidate with a motion has its torques. @type {Record<string, ["duty" | "brake", string]>} */
+/** Where a candidate with a motion has its torques. @type {Record<string, ["motor_torque" | "brake", string]>} */
 const OF_MOTION = {
-  motor_peak: ["duty", "torque_peak"],
-  motor_rms: ["duty", "torque_rms"],
+  motor_peak: ["motor_torque", "torque_peak"],
+  motor_rms: ["motor_torque", "torque_rms"],
   brake: ["brake", "holding_torque"],
 };
 const IN_LIST = ["loss", "inertia", "life", "rigidity", "drive_torque", ...Object.keys(OF_MOTION), "price_index"];
