@@ -320,6 +320,25 @@ def test_the_larger_torque_of_a_starved_oil_ranks():
     assert not document(warm)["warnings"]
 
 
+def test_what_must_drive_back_is_judged_by_the_larger_friction():
+    """Starved of oil the load turns the screw at its speed, in a full bath not; forbidden counts the smaller."""
+    need = {
+        "force": "0.2 kN", "speed": "3000 rpm", "temperature": "20 degC", "oil": "ISO VG 220", "nut": "single",
+        "rows": "hiwin-20-6", "bodies": {},
+    }  # fmt: skip
+    found = {}
+    for wanted in ("needed", "forbidden"):
+        candidate = bs.select({**need, "need": {"back_driving": wanted}}).ranked[0].candidate
+        found[wanted] = next(check for check in candidate.checks if check.name == "back_driving")
+    friction = candidate.checked.run.friction
+    ideal = float(friction.ideal_torque)
+    assert (ideal, float(friction.flooded_torque)) == pytest.approx((0.191, 0.221), rel=5e-3)
+    assert found["needed"].holds is False
+    assert found["needed"].value == pytest.approx(ideal - float(friction.flooded_torque))
+    assert found["forbidden"].holds is False
+    assert found["forbidden"].value >= ideal - float(friction.screw_torque) > 0
+
+
 def test_without_a_life_what_lives_short_is_ranked_last():
     """A small screw loses least and lives some hundred hours: nothing fails, and it comes after the others."""
     need = {"force": "3 kN", "feed": "12 m/min", "nut": "single", "rows": "hiwin", "bodies": {}}

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 from ballscrew.axis_studies.duty import DutyReport
 from ballscrew.cases.case import Case
+from ballscrew.friction import directions
 from ballscrew.quantities import Force, quantities_of
 from ballscrew.records import Measured, Message
 from ballscrew.selection.objectives import shaft_length
@@ -123,7 +124,8 @@ def step(required: Requirements, lead: float) -> Check | None:
 def back_driving(required: Requirements, found: Checked) -> Check | None:
     """Whether the load turns the screw, at rest and at the speed.
 
-    The value is the torque that the load has left over friction, negative where friction holds it; of both states the
+    The value is the torque that the load has left over friction, negative where friction holds it: at rest, at the
+    speed, and at the speed in a full bath of oil, as it is not measured whether a ball screw is starved; of these the
     one that is worse for the need. At the ends of the band of friction the answer may be another.
     """
     if required.back_driving == ALLOWED:
@@ -131,9 +133,10 @@ def back_driving(required: Requirements, found: Checked) -> Check | None:
     load = found.run.at_rest.axial_load
     if not load:
         return Check.saying(Message("not judged: no load"), "back_driving", None, None, "N m", None, None)
-    left = math.copysign(1.0, load) * found.run.at_rest.holding_torque
-    moving = math.copysign(1.0, load) * float(found.run.friction.holding_torque)
-    known = [value for value in (left, moving) if not math.isnan(value)]
+    friction, way = found.run.friction, math.copysign(1.0, load)
+    flooded = directions.holding_torque(friction.ideal_torque, friction.flooded_torque)
+    left = (way * float(torque) for torque in (found.run.at_rest.holding_torque, friction.holding_torque, flooded))
+    known = [value for value in left if not math.isnan(value)]
     if not known:
         return Check.saying(
             Message("not judged: outside of what the model knows"), "back_driving", None, 0.0, "N m", None, None
