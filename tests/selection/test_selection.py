@@ -320,6 +320,27 @@ def test_the_larger_torque_of_a_starved_oil_ranks():
     assert not document(warm)["warnings"]
 
 
+def test_the_torque_without_load_is_starved_by_itself():
+    """Under 40 kN oil hardly matters; without load the torque in a full bath is larger by a quarter, and it counts."""
+    need = {
+        "force": "40 kN", "speed": "1500 rpm", "temperature": "40 degC", "oil": "ISO VG 220", "nut": "double",
+        "preload": "2 %", "rows": "rexroth-40x10x6-6", "bodies": {}, "need": {"largest_preload_torque": "1 N m"},
+    }  # fmt: skip
+    found = bs.select(need, complete=True)
+    mine = found.ranked[0].candidate
+    assert not mine.checked.run.friction.starvation
+    assert mine.checked.nut.preload_drag == pytest.approx(0.922, rel=2e-3)
+    assert mine.objectives["preload_torque"] == pytest.approx(1.164, rel=2e-3)
+    assert mine.objectives["loss"] == float(mine.checked.run.friction.friction_power)
+    assert next(check for check in mine.checks if check.name == "preload_torque").holds is False
+    assert [record.id for record in mine.starved] == ["lubricant.starved"]
+    assert mine.starved[0].value == pytest.approx(1.164, rel=2e-3)
+    assert "torque of the nut without load" in mine.starved[0].text
+    answer = document(found)["candidates"][0]
+    assert answer["starved"]
+    assert [one["id"] for one in answer["warnings"]].count("lubricant.starved") == 1
+
+
 def test_what_must_drive_back_is_judged_by_the_larger_friction():
     """Starved of oil the load turns the screw at its speed, in a full bath not; forbidden counts the smaller."""
     need = {

@@ -10,7 +10,7 @@ from ballscrew.optimisation.design_space import VARIABLES
 from ballscrew.optimisation.optimisation import Member, Optimisation
 from ballscrew.quantities import fields_of
 from ballscrew.records import documents
-from ballscrew.selection.candidates import starved
+from ballscrew.selection.candidates import Starved
 from ballscrew.selection.objectives import OBJECTIVES
 from ballscrew.sizing.checks import judged
 
@@ -40,7 +40,9 @@ def document(found: Optimisation) -> dict[str, Any]:
         },
         "candidates": [_member(each) for each in found.members],
         "notes": list(found.notes),
-        "warnings": documents(next(filter(None, (starved(each.checked, None) for each in found.members)), [])),
+        "warnings": documents(
+            next(filter(None, (Starved.of(each.checked, None).records for each in found.members)), [])
+        ),
         "units": {
             **units,
             "variables": {name: quantity.unit for name, quantity in VARIABLES.items()},

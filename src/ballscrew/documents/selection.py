@@ -126,6 +126,8 @@ def candidate_document(ranked: Ranked, need: Need) -> dict[str, Any]:
         if found.duty is not None:  # of the cycle, and not of steady travel
             for name in ("verdicts", "warnings"):
                 whole[name] = [one for one in whole[name] if one["id"] != STARVED]
+        if not any(one["id"] == STARVED for name in ("verdicts", "warnings") for one in whole[name]):
+            # of the cycle, or of the nut without load
             whole["warnings"] = [*documents(found.starved), *whole["warnings"]]
     duty: dict[str, Any] = {}
     if found.duty is not None:

@@ -294,7 +294,7 @@ def _member(
     preload, balls = float(designs.preload[0]), float(designs.loaded_balls[0])
     case = _built(need, tables_of(need, space, variables, balls=balls, preload=preload), options)
     whole = checked(f"design {place + 1}", case, need.notes)
-    numbers = objectives_of(need, whole, None, variables["pitch_circle_diameter"], as_given=True)
+    numbers = objectives_of(need, whole, None, variables["pitch_circle_diameter"])
     searched = {
         name: OBJECTIVES[name].sign * float(cost)
         for name, cost in zip(space.objectives, found.costs[place], strict=True)

@@ -8,7 +8,7 @@ import math
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from ballscrew import units
 from ballscrew.axis_studies import duty as duties
@@ -17,9 +17,11 @@ from ballscrew.axis_studies.duty import DutyReport
 from ballscrew.cases import case_file
 from ballscrew.cases.case import Case
 from ballscrew.errors import Fault, InputError
+from ballscrew.friction import starvation
 from ballscrew.friction.loaded_balls import loads_of
-from ballscrew.quantities import Duration, Force, Length, Torque, fields_of
-from ballscrew.records import Record
+from ballscrew.friction.starvation import BothTorques
+from ballscrew.quantities import Duration, Force, Length, fields_of
+from ballscrew.records import Message, Record
 from ballscrew.screw_tables.catalogue import assumed, case_text
 from ballscrew.selection import requirement_checks
 from ballscrew.selection.need import Need
@@ -101,7 +103,8 @@ class Candidate:
     duty: DutyReport | None = None
     #: The least life that is looked for where the need asks for none, s: it ranks, and fails nothing.
     life_looked_for: Duration | None = None
-    #: That loss and torques are larger in a full bath of oil; the objectives then have the larger.
+    #: That loss and torques, or that without load alone, are larger in a full bath of oil; the objectives then have
+    #: the larger.
     starved: Sequence[Record] = ()
 
     @property
@@ -298,7 +301,8 @@ def judged(need: Need, variant: Variant, case: Case, *, recorded: bool = False) 
         notes.append(f"unsupported length {length}: {LENGTH_OF_STROKE}")
     found = checked(row.name, case, [*need.notes, *notes])
     report = duties.duty(case, recorded=recorded) if need.moves else None
-    numbers = objectives(need, found, report, row.nominal_diameter, _price(need, variant))
+    starves = Starved.of(found, report)
+    numbers = objectives(need, found, report, row.nominal_diameter, _price(need, variant), starves)
     own = found.checks if report is None else report.checks
     balls = found.nut.loads if report is None else report.balls_under_largest_load
     load = float(case.operation.axial_load) if report is None else report.largest_load
@@ -319,7 +323,7 @@ def judged(need: Need, variant: Variant, case: Case, *, recorded: bool = False) 
         found,
         report,
         _looked_for(need),
-        starved(found, report),
+        starves.records,
     )
 
 
@@ -349,36 +353,53 @@ def _of_shaft(need: Need, case: Case, diameter: Length) -> dict[str, float]:
     return {"inertia": inertia, "reflected_mass": reflected_mass(inertia, case.screw.lead)}
 
 
+class Starved(NamedTuple):
+    """Where oil that comes back late makes friction smaller than in a full bath of oil."""
+
+    #: The record of the torque under load, of a motion that of its cycle; none where it hardly differs.
+    under_load: Sequence[Record]
+    #: The torque of the nut without load, as it is given and in a full bath; None where they hardly differ.
+    without_load: BothTorques | None
+
+    @classmethod
+    def of(cls, found: Checked, report: DutyReport | None) -> Starved:
+        """Under load and without, each judged by itself: under load oil may matter little, and without it much."""
+        loaded = found.run.friction.starvation if report is None else duty_records.starved(report)
+        return cls(units.in_display_units_of(loaded), _without_load(found))
+
+    @property
+    def records(self) -> list[Record]:
+        """The record under load; where there is none that of the torque without load."""
+        if self.under_load or self.without_load is None:
+            return [*self.under_load]
+        remark = Message("torque of the nut without load")
+        return units.in_display_units_of(starvation.records([self.without_load], remark))
+
+
 def objectives(
     need: Need,
     found: Checked,
     report: DutyReport | None,
     diameter: float,
     price_index: float = math.nan,
-    *,
-    as_given: bool = False,
+    starved: Starved | None = None,
 ) -> dict[str, float]:
     """The numbers compared, in SI. The shaft is a cylinder of this diameter, 1 m long where no length is known.
 
-    Loss and torques are the larger of those with the inlet as it is given, which oil that comes back late starves, and
-    those in a full bath of oil: which of them a ball screw has is not measured. ``as_given`` keeps to the former.
+    Where they are ``starved``, loss and torques are the larger of those with the inlet as it is given, which oil that
+    comes back late starves, and those in a full bath of oil: which of them a ball screw has is not measured. None
+    keeps to the former.
     """
-    starves = not as_given and bool(starved(found, report))
+    starves = starved is not None and bool(starved.under_load)
+    idle = None if starved is None else starved.without_load
     return {
         **dict.fromkeys(OBJECTIVES, math.nan),
         **(_of_point(found, starves=starves) if report is None else _of_cycle(report, starves=starves)),
         **_of_shaft(need, found.case, diameter),
         "rigidity": float(found.nut.loads.rigidity),
-        "preload_torque": _without_load(found) if starves else float(found.nut.preload_drag),
+        "preload_torque": float(found.nut.preload_drag) if idle is None else idle.flooded,
         "price_index": float(price_index),
     }
-
-
-def starved(found: Checked, report: DutyReport | None) -> list[Record]:
-    """The record of a torque that differs from that in a full bath of oil; of a motion that of its cycle."""
-    if report is not None:
-        return duty_records.starved(report)
-    return units.in_display_units_of(found.run.friction.starvation)
 
 
 def _of_point(found: Checked, *, starves: bool) -> dict[str, float]:
@@ -404,8 +425,12 @@ def _of_cycle(report: DutyReport, *, starves: bool) -> dict[str, float]:
     }
 
 
-def _without_load(found: Checked) -> Torque:
-    """Torque of the nut without load in a full bath of oil, or as it is given where that is larger."""
-    case = found.run.case
-    idle = case.model.in_full_bath(case.screw, case.lubricant, axial_load=0.0, screw_speed=case.operation.screw_speed)
-    return max(float(idle.screw_torque), float(found.nut.preload_drag))
+def _without_load(found: Checked) -> BothTorques | None:
+    """Torque of the nut without load as it is given and in a full bath of oil; None where they hardly differ."""
+    case, given = found.run.case, float(found.nut.preload_drag)
+    speed = case.operation.screw_speed
+    if starvation.least_replenished(case.model, case.screw, case.lubricant, speed) >= starvation.NEARLY_ALL:
+        return None
+    idle = case.model.in_full_bath(case.screw, case.lubricant, axial_load=0.0, screw_speed=speed)
+    both = BothTorques(OBJECTIVES["preload_torque"].quantity, given, float(idle.screw_torque))
+    return both if starvation.differs(both.given, both.flooded) else None
