@@ -20,6 +20,7 @@ from ballscrew.optimisation import search as searches
 from ballscrew.optimisation.design_model import DesignModel
 from ballscrew.optimisation.design_space import design_space, makeable_ratios
 from ballscrew.output.json_text import plain
+from ballscrew.selection import requirement_checks
 from ballscrew.selection.need import need_of
 from ballscrew.selection.pareto import front, hypervolume
 from ballscrew.studies.check import checked
@@ -70,11 +71,17 @@ def test_constraints_and_objectives_are_those_of_the_check(nut):
     elastic = rigid.elastic
     assert elastic is not None
     x = some_designs(space, 4)
+    if "preload" in space.names:
+        column = list(space.names).index("preload")
+        x[:2, column] = space.lower[column] / 10  # so little that the load takes it all
     designs = elastic.designs(x)
     speed = elastic.speed(designs)
     at = elastic._at(designs, 6000.0, speed)
     numbers = elastic.objectives(designs, speed, at)
     used = elastic.utilisations(designs, speed, at, numbers)
+    if nut == "double":
+        assert set(at["remaining_preload"] > 0) == {True, False}
+        assert np.all((used["preload"] > 1) == (at["remaining_preload"] <= 0))
     for place in range(len(x)):
         variables = {name: float(values[place]) for name, values in space.columns(x).items()}
         balls, preload = float(designs.loaded_balls[place]), float(designs.preload[place])
@@ -83,6 +90,10 @@ def test_constraints_and_objectives_are_those_of_the_check(nut):
         for check in found.checks:
             if check.name in used:
                 assert used[check.name][place] == pytest.approx(check.utilisation, rel=1e-6), check.name
+        kept = requirement_checks.kept_preload(found.nut.preload, 6000.0, found.nut.loads)
+        assert ("preload" in used) is (kept is not None)
+        if kept is not None:
+            assert used["preload"][place] == pytest.approx(kept.utilisation, rel=1e-6)
         assert numbers["loss"][place] == pytest.approx(float(found.run.friction.friction_power), rel=1e-6)
         assert numbers["rigidity"][place] == pytest.approx(float(found.nut.loads.rigidity), rel=1e-6)
         assert numbers["preload_torque"][place] == pytest.approx(float(found.nut.preload_drag), rel=1e-6, abs=1e-12)

@@ -1,6 +1,7 @@
 """``bs.select`` and ``ballscrew select``: equal to brute force by the public check, ranked, and refused in words."""
 
 import csv
+import dataclasses
 import json
 import math
 import sys
@@ -19,6 +20,7 @@ from ballscrew.selection.candidates import BY_LOADS, NEARLY, USUAL_LIFE
 from ballscrew.selection.need import need_of
 from ballscrew.selection.need_motion import OF_MOTION
 from ballscrew.selection.pareto import front, hypervolume
+from ballscrew.selection.requirement_checks import kept_preload
 from ballscrew.text.selection import cost, text
 from support.commands import ROOT
 
@@ -458,6 +460,19 @@ def test_a_load_that_takes_the_preload_away_is_a_check_that_fails():
     assert cycle.preload_lost_above == pytest.approx(limit)
     assert not cycle.checked.nut.preload_is_lost
     assert [check.name for check in cycle.failed] == ["preload"]
+
+
+@pytest.mark.parametrize("share", [0.5, 1.0, 2.0])
+def test_a_lost_preload_is_above_one_and_names_no_load_beyond_the_one_applied(share):
+    """Bodies may lose the preload below the load at which rigid ones do: it fails by more than nothing, and says so."""
+    need = {"force": "8 kN", "feed": "15 m/min", "nut": "double", "preload": "2 %", "rows": "hiwin-40-20k4"}
+    found = bs.select(need, complete=True).ranked[0].candidate
+    assert float(found.balls.remaining_preload) <= 0
+    limit = 8000.0 / share
+    check = kept_preload(found.preload, 8000.0, dataclasses.replace(found.balls, lift_off_load=limit))
+    assert check.holds is False
+    assert 1 < check.utilisation == pytest.approx(max(share, 1), rel=1e-12)
+    assert ("rigid bodies" in check.text) is (share >= 1)
 
 
 MOVING = {

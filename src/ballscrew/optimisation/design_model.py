@@ -18,6 +18,7 @@ from ballscrew.optimisation.design_space import RATIOS, DesignSpace
 from ballscrew.optimisation.designs import Designs, Numbers
 from ballscrew.selection.need import Need
 from ballscrew.selection.objectives import OBJECTIVES, reflected_mass, shaft_inertia, shaft_length
+from ballscrew.selection.requirement_checks import preload_used
 from ballscrew.selection.requirements import ALLOWED, FORBIDDEN, Requirements
 from ballscrew.sizing.installation import Installation
 from ballscrew.sizing.listed_nut import PRELOADED
@@ -28,7 +29,7 @@ _SIZES = ("pitch_circle_diameter", "lead", "ball_diameter", "loaded_balls")
 _POINT = ("axial_load", "screw_speed")
 _OUTPUTS = (
     "screw_torque", "drive_torque", "holding_torque", "friction_power", "rigidity", "remaining_preload",
-    "maximum_pressure", "valid",
+    "lift_off_load", "maximum_pressure", "valid",
 )  # fmt: skip
 #: The objectives that the model has a say in, which uncertain inputs move.
 OF_MODEL = ("loss", "rigidity", "drive_torque", "preload_torque")
@@ -141,8 +142,9 @@ class DesignModel:
             installation=case.installation, limits=case.limits,
         )  # fmt: skip
         if self.space.nut in PRELOADED:
-            # the share of the preload that the load takes: all of it, and it is lost
-            found["preload"] = np.where(at["remaining_preload"] > 0, 1 - at["remaining_preload"] / designs.preload, 2.0)
+            found["preload"] = preload_used(
+                designs.preload, at["remaining_preload"], float(case.operation.axial_load), at["lift_off_load"]
+            )
         if required.largest_drive_torque is not None:
             found["drive_torque"] = numbers["drive_torque"] / required.largest_drive_torque
         if required.largest_preload_torque is not None:

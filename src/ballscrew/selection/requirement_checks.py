@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
+import numpy as np
+
 from ballscrew.axis_studies.duty import DutyReport
 from ballscrew.cases.case import Case
 from ballscrew.friction import directions
-from ballscrew.quantities import Force, quantities_of
+from ballscrew.quantities import Force, Ratio, quantities_of
 from ballscrew.records import Measured, Message
 from ballscrew.selection.objectives import shaft_length
 from ballscrew.selection.requirements import ALLOWED, FORBIDDEN, Requirements
@@ -19,6 +21,7 @@ from ballscrew.studies.check import Checked
 #: The checks of :func:`by_loads`.
 BY_LOADS = ("preload", "remaining_preload", "inertia", "step")
 _LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
+_LEFT = Message("preload that the largest load leaves on the relieved half or flank")
 _NOT_KNOWN = Message("{what}: not known here")
 
 
@@ -39,7 +42,7 @@ def by_loads(
         kept_preload(preload, largest_load, balls),
         at_least(
             "remaining_preload", float(balls.remaining_preload), required.least_remaining_preload, "N",
-            Message("preload that the largest load leaves on the relieved half or flank"),
+            _LEFT,
         ),
         _inertia(required, case, numbers["inertia"]),
         step(required, float(case.screw.lead)),
@@ -70,21 +73,29 @@ def of_friction(
 
 
 def kept_preload(preload: Force, largest_load: Force, balls: BallLoads) -> Check | None:
-    """Whether the largest load leaves some of the preload; of a nut that has one.
-
-    The utilisation is the share of the preload that the load takes, and where it takes all of it, the load over that at
-    which the balls of a rigid nut lift off the other half or flank.
-    """
+    """Whether the largest load leaves some of the preload, with :func:`preload_used`; of a nut that has one."""
     if not preload > 0:
         return None
     left, limit = float(balls.remaining_preload), float(balls.lift_off_load)
     holds = left > 0
-    used = 1 - left / preload if holds else max(abs(largest_load) / limit, 1.0)
     message = Message(
         "preload that the largest load leaves on the relieved half or flank: some; rigid bodies lose it above {load}",
         {"load": Measured(limit, _LIFT_OFF)},
     )
+    if not holds and not limit <= abs(largest_load):  # what rigid bodies would bear says nothing here
+        message = _LEFT
+    used = float(preload_used(preload, left, largest_load, limit))
     return Check.saying(message, "preload", left, 0.0, "N", used, holds)
+
+
+def preload_used(preload: Force, left: Force, load: Force, lift_off_load: Force) -> Ratio:
+    """Share of the preload that a load takes; where it takes all of it, always above one.
+
+    It is then the load over that at which the balls of a rigid nut lift off the other half or flank. Bodies may lose
+    the preload below that load, too: then it is the next number above one.
+    """
+    lost = np.fmax(abs(load) / np.asarray(lift_off_load), np.nextafter(1.0, 2.0))
+    return np.where(np.asarray(left) > 0, 1 - np.asarray(left) / preload, lost)
 
 
 def at_most(name: str, value: float, limit: float | None, unit: str, message: Message) -> Check | None:
