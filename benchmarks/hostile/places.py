@@ -156,7 +156,7 @@ def attempt(_: int, number: int, __: int) -> Outcome:
         after = root / "folder.after"
         shutil.rmtree(folder, ignore_errors=True)
         after.rename(folder)
-    wrong = _wrong(done, before, _files(root), file.relative_to(root).as_posix())
+    wrong = _wrong(done, before, _files(root), file.relative_to(root).as_posix(), can_write=bool(place.after))
     shutil.rmtree(root, ignore_errors=True)
     if wrong:
         return Outcome(wrong=[f"{name}, {place.name}: {'; '.join(wrong)}"])
@@ -164,9 +164,14 @@ def attempt(_: int, number: int, __: int) -> Outcome:
 
 
 def _wrong(
-    done: subprocess.CompletedProcess[str], before: dict[str, bytes | str], after: dict[str, bytes | str], file: str
+    done: subprocess.CompletedProcess[str],
+    before: dict[str, bytes | str],
+    after: dict[str, bytes | str],
+    file: str,
+    *,
+    can_write: bool,
 ) -> list[str]:
-    """Words on what a command has done wrong."""
+    """Words on what a command has done wrong; where it ``can_write``, the file may be there before it is refused."""
     found: list[str] = []
     if "Traceback" in done.stderr:
         found.append(f"traceback: {done.stderr.strip().splitlines()[-1]}")
@@ -178,7 +183,11 @@ def _wrong(
     elsewhere = {name for name in {*before, *after} - own if before.get(name) != after.get(name)}
     if elsewhere:
         found.append(f"left or changed beside it: {', '.join(sorted(elsewhere))}")
-    if done.returncode == 2 and {name: before.get(name) for name in own} != {name: after.get(name) for name in own}:
+    if (
+        done.returncode == 2
+        and not can_write
+        and {name: before.get(name) for name in own} != {name: after.get(name) for name in own}
+    ):
         found.append(f"refused, and {', '.join(sorted(own))} changed")
     if done.returncode == 0 and not any(after.get(name) not in (None, b"", OLD) for name in own):
         found.append("accepted, and nothing written")

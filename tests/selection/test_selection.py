@@ -383,7 +383,7 @@ def test_without_a_life_what_lives_short_is_ranked_last():
 def test_what_it_costs_and_leaves_open_is_said_before_it_starts(monkeypatch, capsys):
     planned = selection.plan({**MOVING, "rows": ""})
     said = cost(planned)
-    assert said.startswith(f"{planned.candidates} candidates: ")
+    assert said.startswith(f"candidates: {planned.candidates}, ")
     assert "s of a processor at most" in said
     assert "buckling, critical speed" in said
     assert "running time" not in said

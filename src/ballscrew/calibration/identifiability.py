@@ -106,7 +106,7 @@ class Identifiability:
             found.singular_values, found.directions.T, found.identifiable, strict=True
         ):
             powers = direction * np.sign(direction[np.argmax(np.abs(direction))])
-            with np.errstate(divide="ignore"):
+            with np.errstate(divide="ignore", over="ignore"):
                 error = float(1 / s)
             # rounding gives a direction components of parameters that are not in it
             kept = {n: float(power) for n, power in zip(names, powers, strict=True) if abs(power) > ROUNDING_COMPONENT}

@@ -56,7 +56,8 @@ def most_starved(given: Any, flooded: Any) -> tuple[float, float] | None:
     apart = differs(given, flooded)
     if not np.any(apart):
         return None
-    ratio = np.where(apart, flooded / np.maximum(given, np.finfo(float).tiny), 0.0)
+    with np.errstate(over="ignore"):  # infinite where there is no friction as given
+        ratio = np.where(apart, flooded / np.maximum(given, np.finfo(float).tiny), 0.0)
     place = np.unravel_index(int(np.argmax(ratio)), ratio.shape)
     return float(given[place]), float(flooded[place])
 

@@ -76,7 +76,7 @@ class SlipField:
             return sorted({-self.offset, self.offset}) if 0 <= self.offset <= 1 else []
         t = np.linspace(-1, 1, _HEIGHTS)
         s = self.along(t)
-        places = np.flatnonzero(s[:-1] * s[1:] < 0)
+        places = np.flatnonzero(np.sign(s[:-1]) * np.sign(s[1:]) < 0)
         between = [t[i] + (t[i + 1] - t[i]) * s[i] / (s[i] - s[i + 1]) for i in places]
         return sorted([*map(float, between), *map(float, t[s == 0])])
 

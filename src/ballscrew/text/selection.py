@@ -38,8 +38,8 @@ def title(found: Selection) -> str:
 
 
 def cost(plan: Plan) -> str:
-    """``104 candidates: 16 s at most; …``: what a selection costs, and what it could not judge, before it starts."""
-    lines = [f"{plan.candidates} candidates: {max(1.0, plan.seconds):.2g} s of a processor at most"]
+    """``candidates: 104, 16 s of a processor at most``: what a selection costs and could not judge, before it starts."""
+    lines = [f"candidates: {plan.candidates}, {max(1.0, plan.seconds):.2g} s of a processor at most"]
     if plan.unasked:
         checks = dict.fromkeys(check.replace("_", " ") for one in plan.unasked for check in one.checks)
         inputs = ", ".join(one.input for one in plan.unasked)

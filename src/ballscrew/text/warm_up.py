@@ -67,7 +67,8 @@ def band_text(found: WarmUpBandReport) -> str:
         central = float("nan") if stopped else report.series[name][report.last_at_work]
         numbers = (shown_or_dash(float(value), quantity) for value in (central, one.median[last]))
         at_work = ends_or_dashes(float(one.low[last]), float(one.high[last]), quantity)
-        rows.append([f"  {quantity.info.meaning}", *numbers, *at_work, *ends_or_dashes(*map(float, steady), quantity)])
+        low, high = map(float, steady)
+        rows.append([f"  {quantity.info.meaning}", *numbers, *at_work, *ends_or_dashes(low, high, quantity)])
     given = sum(one.given for one in found.inputs.values())
     said = (
         f"at the end of work, of {len(found.inputs)} uncertain inputs of surroundings, screw, oil and model, "
