@@ -38,7 +38,7 @@ def title(found: Selection) -> str:
 
 
 def cost(plan: Plan) -> str:
-    """``candidates: 104, 16 s of a processor at most``: what a selection costs and could not judge, before it starts."""
+    """``candidates: 104, 16 s of a processor at most``: what a selection costs and cannot judge, before it starts."""
     lines = [f"candidates: {plan.candidates}, {max(1.0, plan.seconds):.2g} s of a processor at most"]
     if plan.unasked:
         checks = dict.fromkeys(check.replace("_", " ") for one in plan.unasked for check in one.checks)
