@@ -9,6 +9,7 @@ import argparse
 import datetime
 import faulthandler
 import os
+import re
 import sys
 import tempfile
 import time
@@ -77,17 +78,43 @@ def table(found: Sequence[tuple[Tally, float]], heading: str) -> str:
         "| section | tried | seconds | answered | refused or flagged | wrong |",
         "|---|---|---|---|---|---|",
     ]
-    for tally, seconds in found:
-        counts = tally.counts
-        tried = f"{counts.tried:,}" + (f" of {tally.wanted:,}" if counts.tried < tally.wanted else "")
-        numbers = f"{counts.answered:,} | {counts.refused:,} | {len(counts.wrong):,}"
-        lines.append(f"| {tally.name} | {tried} | {seconds:.0f} | {numbers} |")
+    lines += [row(tally, seconds) for tally, seconds in found]
     for tally, _ in found:
-        module = SECTIONS[tally.name]
-        lines += ["", f"**{tally.name}**: {module.TRIED}. *Wrong*: {module.WRONG}."]
-        if tally.notes:
-            lines += ["", *tally.notes]
+        lines += ["", *description(tally)]
     return "\n".join(lines) + "\n"
+
+
+def row(tally: Tally, seconds: float) -> str:
+    """The row of a section."""
+    counts = tally.counts
+    tried = f"{counts.tried:,}" + (f" of {tally.wanted:,}" if counts.tried < tally.wanted else "")
+    numbers = f"{counts.answered:,} | {counts.refused:,} | {len(counts.wrong):,}"
+    return f"| {tally.name} | {tried} | {seconds:.0f} | {numbers} |"
+
+
+def description(tally: Tally) -> list[str]:
+    """What a section tries, what is wrong, and its notes."""
+    module = SECTIONS[tally.name]
+    first = f"**{tally.name}**: {module.TRIED}. *Wrong*: {module.WRONG}."
+    return [first, "", *tally.notes] if tally.notes else [first]
+
+
+def with_section(text: str, tally: Tally, seconds: float, scale: float) -> str:
+    """The page with another row and another description of a section, and when it was run again."""
+    before, rest = text.split(BEGIN)
+    block, after = rest.split(END)
+    name, today = re.escape(tally.name), datetime.date.today().isoformat()
+    heading, table = block.lstrip("\n").split("\n", 1)
+    again = f" {tally.name} again on {today}, scale {scale:g}."
+    heading = re.sub(rf" {name} again on [^.]*\.", "", heading) + again
+    table = re.sub(rf"^\| {name} \|.*$", lambda _: row(tally, seconds), table, flags=re.MULTILINE)
+    table = re.sub(
+        rf"^\*\*{name}\*\*.*?(?=^\*\*|\Z)",
+        lambda _: "\n".join(description(tally)) + "\n\n",
+        table,
+        flags=re.MULTILINE | re.DOTALL,
+    )
+    return f"{before}{BEGIN}\n{heading}\n{table.rstrip()}\n{END}{after}"
 
 
 def with_table(text: str, block: str) -> str:
@@ -113,15 +140,19 @@ def main() -> None:
     begun = time.monotonic()
     print(f"seed {options.seed}, scale {options.scale:g}")
     found = [section(name, options.scale, options.seed) for name in options.sections or SECTIONS]
-    minutes, seconds = divmod(round(time.monotonic() - begun), 60)
+    minutes, rest = divmod(round(time.monotonic() - begun), 60)
     heading = (
         f"ballscrew {__version__}, {datetime.date.today().isoformat()}, seed {options.seed}, scale {options.scale:g}, "
-        f"{os.cpu_count()} processors, {minutes} min {seconds} s."
+        f"{os.cpu_count()} processors, {minutes} min {rest} s."
     )
     block = table(found, heading)
     print(block)
+    page = options.page.read_text(encoding="utf-8")
     if not options.sections:
-        options.page.write_text(with_table(options.page.read_text(encoding="utf-8"), block), encoding="utf-8")
+        page = with_table(page, block)
+    for tally, seconds in found if options.sections else ():
+        page = with_section(page, tally, seconds, options.scale)
+    options.page.write_text(page, encoding="utf-8")
     sys.exit(any(tally.counts.wrong for tally, _ in found))
 
 
