@@ -7,6 +7,7 @@ shipped, with the inlet as it is given (a low oil bath) and in a full bath of oi
 - *duty, torque* and *duty, energy lost*: the largest torque of the motor and the energy lost in a cycle of that axis.
 - *warm-up, start* and *warm-up, end*: the mean friction torque of ``examples/warm_up.toml`` in a hall of this
   temperature, at the start and in the steady state; below -15 °C the oil of a warm-up is not known.
+- *select, loss*: the loss of the screw of that axis as a candidate at 4 kN and 1500 rpm; it is ranked by the larger.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
+import ballscrew as bs
 from ballscrew.axis_studies.duty import duty
 from ballscrew.axis_studies.warm_up import load, warmed_up
 from ballscrew.cases import case_file
@@ -27,6 +29,11 @@ EXAMPLES = Path(__file__).parents[1] / "examples"
 #: Temperatures of the oil, or of the hall, °C.
 TEMPERATURES = (-20, -10, 0, 10, 20, 40, 60)
 ZERO = 273.15
+#: A need that the screw of the vertical axis alone is held against.
+CANDIDATE = {
+    "force": "4 kN", "speed": "1500 rpm", "oil": "ISO VG 100", "nut": "double", "preload": "5 %",
+    "rows": "hiwin-40-20k4", "life": "20000 h",
+}  # fmt: skip
 
 
 class Cell(NamedTuple):
@@ -70,8 +77,15 @@ def of_warm_up(degrees: float) -> Answers:
     }
 
 
+def of_select(degrees: float) -> Answers:
+    """The loss of a candidate."""
+    [found] = bs.select({**CANDIDATE, "temperature": f"{degrees} degC"}, complete=True).ranked
+    given = float(found.candidate.checked.run.friction.friction_power)
+    return {"select, loss": Cell(given, found.candidate.objectives["loss"], "W")}
+
+
 #: What is asked, in the order of the columns.
-QUESTIONS: tuple[Callable[[float], Answers], ...] = (of_run, of_duty, of_warm_up)
+QUESTIONS: tuple[Callable[[float], Answers], ...] = (of_run, of_duty, of_warm_up, of_select)
 
 
 def answers(degrees: float) -> Answers:
