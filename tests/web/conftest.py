@@ -156,7 +156,8 @@ class Visit:
             page.on(event, listener)
 
     def leave(self) -> None:
-        """The page is for somebody else."""
+        """The page is for somebody else: with what it asks for, as without this visitor."""
+        self.page.unroute_all()
         self.page.goto("about:blank")
         for event, listener in self._listeners.items():
             self.page.remove_listener(event, listener)
