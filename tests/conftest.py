@@ -35,6 +35,10 @@ MODELS = {
 }
 
 
+#: Folders of tests with random parts, many of which no ball screw has.
+RANDOM = (ROOT / "tests" / "oracles", ROOT / "tests" / "properties")
+
+
 @pytest.fixture(scope="session", autouse=True)
 def kernel_cache(tmp_path_factory):
     """One folder of compiled kernels for all tests of a run, on all workers: never the user's own."""
@@ -117,7 +121,13 @@ def pytest_collection_finish():
 
 
 def pytest_collection_modifyitems(items):
-    """Without the compiler, the tests that need it say so."""
+    """Warnings of parts that no ball screw has are errors, but in tests that mean them.
+
+    Without the compiler, the tests that need it say so.
+    """
+    for item in items:
+        if item.get_closest_marker("implausible") or item.path.parent in RANDOM:
+            item.add_marker(pytest.mark.filterwarnings("ignore::ballscrew.ImplausibleInput"))
     if importlib.util.find_spec("llvmlite") is None:
         for item in items:
             if "compiles" in item.keywords:

@@ -9,8 +9,8 @@ from __future__ import annotations
 import importlib
 from typing import Any
 
-from ballscrew._moved import serve_old_paths
-from ballscrew._version import __version__ as __version__
+from ballscrew.basis import displayed
+from ballscrew.basis.version import __version__ as __version__
 
 # one line each: from MODULE import NAME as NAME; to parse them with ast would take as long as all else here
 with open(f"{__file__}i", encoding="utf-8") as _stub:  # noqa: PTH123  (pathlib is slow to load)
@@ -24,6 +24,8 @@ def __getattr__(name: str) -> Any:
     if module is None:
         raise AttributeError(f"module 'ballscrew' has no attribute {name!r}")
     value = getattr(importlib.import_module(module), name)
+    if isinstance(value, type):
+        importlib.import_module("ballscrew.basis.field_docs").show_fields(value)
     globals()[name] = value
     return value
 
@@ -32,4 +34,5 @@ def __dir__() -> list[str]:
     return list(__all__)
 
 
-serve_old_paths()
+# what a notebook shows of a value is decided by a face, which is loaded when somebody looks
+displayed.shown_by(lambda module: importlib.import_module(f"ballscrew.faces.notebook.{module}"))

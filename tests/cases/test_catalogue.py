@@ -10,11 +10,11 @@ import openpyxl
 import pytest
 
 import ballscrew as bs
-from ballscrew.cases import case_file
-from ballscrew.errors import InputError
-from ballscrew.screw_tables import catalogue as people
-from ballscrew.screw_tables.nut_kinds import NUTS, kind_in, kind_of
-from ballscrew.sizing.catalogue import SMALLEST_BALL, CatalogueRow, catalogue
+from ballscrew.basis.errors import InputError
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.screw_tables import catalogue as people
+from ballscrew.cases.screw_tables.nut_kinds import NUTS, kind_in, kind_of
+from ballscrew.physics.sizing.catalogue import SMALLEST_BALL, CatalogueRow, catalogue
 
 DATA = Path(__file__).parents[1] / "data"
 ROWS = catalogue()

@@ -5,13 +5,13 @@ import tomllib
 
 import pytest
 
-from ballscrew.axis.motor import Motor
-from ballscrew.axis_studies.duty import duty
-from ballscrew.case_schema import schema
-from ballscrew.cases import case_file
-from ballscrew.errors import InputError
-from ballscrew.motion.profiles import SCurve, Segments, Sine, Trapezoid
-from ballscrew.solvers import load_distribution
+from ballscrew.axis.duty_cycle.motor import Motor
+from ballscrew.axis.motion.profiles import SCurve, Segments, Sine, Trapezoid
+from ballscrew.basis.errors import InputError
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.schema import schema
+from ballscrew.physics.solvers import load_distribution
+from ballscrew.questions.duty.compute import duty
 from support.commands import ROOT
 
 SCREW = """

@@ -5,11 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from ballscrew import units
-from ballscrew.components.screw import MATERIALS
-from ballscrew.errors import Fault
-from ballscrew.quantities import within_bounds
-from ballscrew.screw_tables.catalogue import COLUMNS
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault
+from ballscrew.basis.quantities import within_bounds
+from ballscrew.cases.screw_tables.catalogue import COLUMNS
+from ballscrew.physics.components.screw import MATERIALS
 
 ROOT = Path(__file__).parents[2]
 

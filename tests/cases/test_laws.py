@@ -10,14 +10,14 @@ import tomllib
 import pytest
 
 import ballscrew as bs
-from ballscrew.case_schema import schema
-from ballscrew.cases import case_file
-from ballscrew.components import laws, lubrication, mixed_friction
-from ballscrew.errors import InputError
-from ballscrew.evaluation.comparison import same_law
-from ballscrew.friction.model import presets
-from ballscrew.solvers.ellipse_slip import ellipse_slip
-from ballscrew.solvers.pure_rolling import curvature_slip
+from ballscrew.basis.errors import InputError
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.schema import schema
+from ballscrew.engine.evaluation.comparison import same_law
+from ballscrew.physics.components import laws, lubrication, mixed_friction
+from ballscrew.physics.friction.model import presets
+from ballscrew.physics.solvers.ellipse_slip import ellipse_slip
+from ballscrew.physics.solvers.pure_rolling import curvature_slip
 
 EVERY_LAW = [(slot, name) for slot, known in schema.LAWS.items() for name in known]
 WITH_COEFFICIENTS = [(slot, name) for slot, name in EVERY_LAW if schema.coefficients_of(slot, name)]

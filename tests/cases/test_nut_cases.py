@@ -12,14 +12,14 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.case_schema.schema import NUT_TABLES, json_schema, validated
-from ballscrew.cases import case_file
-from ballscrew.components.nut import Bodies, Deviations
-from ballscrew.components.nut_losses import LipSeals, Seals
-from ballscrew.errors import InputError
-from ballscrew.screw_tables.nut_kinds import NUTS, kind_of
-from ballscrew.sizing.ratings import ratings_of
-from ballscrew.studies.run import run
+from ballscrew.basis.errors import InputError
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.schema.schema import NUT_TABLES, json_schema, validated
+from ballscrew.cases.screw_tables.nut_kinds import NUTS, kind_of
+from ballscrew.physics.components.nut import Bodies, Deviations
+from ballscrew.physics.components.nut_losses import LipSeals, Seals
+from ballscrew.physics.sizing.ratings import ratings_of
+from ballscrew.questions.run.compute import run
 
 ROOT = Path(__file__).parents[2]
 EXAMPLE = ROOT / "examples" / "catalogue_screw.toml"
@@ -288,7 +288,8 @@ def test_run_for_people(ballscrew):
 
 def test_lost_preload_is_said(ballscrew):
     settings = ["--set", "nut.preload=500 N", "--set", "operation.axial_load=10 kN"]
-    assert "preload lost: the balls lift off the other flank" in ballscrew("run", EXAMPLE, *settings).stdout
+    said = " ".join(ballscrew("run", EXAMPLE, *settings).stdout.split())
+    assert "preload lost: the balls lift off the other flank; between rigid bodies they do above " in said
     document = json.loads(ballscrew("run", EXAMPLE, *settings, "--json").stdout)
     assert document["loads"]["preload_is_lost"] is True
     assert document["loads"]["relieved_flank"] is None
@@ -307,7 +308,7 @@ def test_four_contacts_and_no_load(ballscrew):
     assert document["results"]["screw_torque"] == pytest.approx(document["results"]["preload_drag"])
     assert document["results"]["efficiency"] is None  # no load is driven
     assert document["results"]["back_driving_efficiency"] is None
-    assert "no load: nothing to hold" in ballscrew("run", EXAMPLE, "--set", "operation.axial_load=0 N").stdout
+    assert "no axial load" in ballscrew("run", EXAMPLE, "--set", "operation.axial_load=0 N").stdout
     band = ballscrew("run", EXAMPLE, "--set", "operation.axial_load=0 N", "--band", "--samples", "64").stdout
     assert "power dissipated by friction" in band
     assert "torque that holds the load" not in band

@@ -4,14 +4,14 @@ import math
 
 import pytest
 
-from ballscrew.case_schema.schema import json_schema
-from ballscrew.cases import case_file
-from ballscrew.errors import InputError
-from ballscrew.studies.run import run
-from ballscrew.studies.sweep import plan, sweep
-from ballscrew.table_files import sweep_files
-from ballscrew.uncertainty.default_uncertainties import NORMAL_95
-from ballscrew.uncertainty.distributions import Normal
+from ballscrew.basis.errors import InputError
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.schema.schema import json_schema
+from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
+from ballscrew.engine.uncertainty.distributions import Normal
+from ballscrew.questions.run.compute import run
+from ballscrew.questions.sweep import table as sweep_files
+from ballscrew.questions.sweep.compute import plan, sweep
 
 RPM = 2 * math.pi / 60
 

@@ -7,9 +7,9 @@ from importlib import resources
 import pytest
 
 import ballscrew as bs
-from ballscrew.cases import case_file, descriptions
-from ballscrew.errors import InputError
-from ballscrew.web.bodies import case_of
+from ballscrew.basis.errors import InputError
+from ballscrew.cases.case_files import case_file, descriptions
+from ballscrew.faces.web.bodies import case_of
 
 TABLES = {
     "screw": {"catalogue": "rexroth-40x10x6-6-double"},

@@ -4,12 +4,12 @@ import openpyxl
 import pytest
 
 import ballscrew as bs
-from ballscrew.cases import case_file
-from ballscrew.components.nut import Bodies
-from ballscrew.errors import InputError
-from ballscrew.screw_tables import catalogue as people
-from ballscrew.sizing.catalogue import CatalogueRow
-from ballscrew.sizing.ratings import ratings_of
+from ballscrew.basis.errors import InputError
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.screw_tables import catalogue as people
+from ballscrew.physics.components.nut import Bodies
+from ballscrew.physics.sizing.catalogue import CatalogueRow
+from ballscrew.physics.sizing.ratings import ratings_of
 
 HEAD = "Part number;d0 [mm];Ph [mm];Dw [mm];i;starts;Ca [kN];Preload;Seals;D1 [mm];Nut;log;Gewinderichtung\n"
 OWN = f"""{HEAD}\

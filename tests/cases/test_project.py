@@ -6,11 +6,11 @@ import tomllib
 import pytest
 import tomlkit
 
-from ballscrew.cases import case_file, project
-from ballscrew.cases.opened_file import opened
-from ballscrew.cases.project import Design
-from ballscrew.cases.toml_text import as_toml
-from ballscrew.errors import InputError
+from ballscrew.basis.errors import InputError
+from ballscrew.cases.case_files import case_file, project
+from ballscrew.cases.case_files.opened_file import opened
+from ballscrew.cases.case_files.project import Design
+from ballscrew.cases.case_files.toml_text import as_toml
 
 CASE = {
     "screw": {"catalogue": "hiwin-40-20k4", "contact_angle": "45 ± 2 deg"},

@@ -6,12 +6,12 @@ import json
 import pytest
 
 import ballscrew as bs
-from ballscrew.cases import case_file, descriptions, nut_tables
-from ballscrew.errors import InputError
-from ballscrew.screw_tables import catalogue as people
-from ballscrew.sizing.catalogue import CatalogueRow
-from ballscrew.sizing.ratings import ratings_of
-from ballscrew.studies import own_screws
+from ballscrew.basis.errors import InputError
+from ballscrew.cases.case_files import case_file, descriptions, nut_tables
+from ballscrew.cases.screw_tables import catalogue as people
+from ballscrew.physics.sizing.catalogue import CatalogueRow
+from ballscrew.physics.sizing.ratings import ratings_of
+from ballscrew.questions.shared import own_screws
 from support.drive_case import drive_case
 
 TABLE = """\

@@ -7,21 +7,25 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.axis_studies import self_heating, warm_up
-from ballscrew.axis_studies.duty import duty as duty_of
-from ballscrew.cases import case_file
-from ballscrew.components.lubrication import Inlet
-from ballscrew.documents import band as band_documents
-from ballscrew.documents import duty as duty_documents
-from ballscrew.documents import run as run_documents
-from ballscrew.documents import service as service_documents
-from ballscrew.documents import sweep as sweep_documents
-from ballscrew.documents import warm_up as warm_up_documents
-from ballscrew.documents.self_heating import with_self_heating
-from ballscrew.report import duty_section, warm_up_section
-from ballscrew.studies import band, service, sweep
-from ballscrew.studies.run import run
-from ballscrew.thermal.surroundings import Surroundings
+from ballscrew.axis.thermal.surroundings import Surroundings
+from ballscrew.cases.case_files import case_file
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.faces.report import duty_section, warm_up_section
+from ballscrew.physics.components.lubrication import Inlet
+from ballscrew.questions.band import compute as band
+from ballscrew.questions.band import document as band_documents
+from ballscrew.questions.duty import document as duty_documents
+from ballscrew.questions.duty.compute import duty as duty_of
+from ballscrew.questions.run import document as run_documents
+from ballscrew.questions.run.compute import run
+from ballscrew.questions.service import compute as service
+from ballscrew.questions.service import document as service_documents
+from ballscrew.questions.sweep import compute as sweep
+from ballscrew.questions.sweep import document as sweep_documents
+from ballscrew.questions.warm_up import compute as warm_up
+from ballscrew.questions.warm_up import document as warm_up_documents
+from ballscrew.questions.warm_up import self_heating
+from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 from support.commands import ROOT
 
 COLD = {
@@ -243,6 +247,38 @@ def test_a_fit_says_that_its_log_is_of_a_starved_model():
         assert [r.id for r in found.warning_records if r.id == "lubricant.starved"] == ["lubricant.starved"] * starved
 
 
+@pytest.mark.parametrize("count", [5000, 50_000])
+def test_one_starved_row_of_a_long_log_is_found(count):
+    """Neither the fastest row nor the coldest is starved: one that is rather fast and rather cold is."""
+    case = case_with("60 degC")
+    subject = Configuration(case.model, case.screw, case.lubricant)
+    rows = {
+        "axial_load": np.full(count, 3e3),
+        "screw_speed": np.full(count, 1.0),
+        "temperature": np.full(count, 333.15),
+    }
+    for place, speed, temperature in ((10, 150.0, 353.15), (20, 0.01, 263.15)):
+        rows["screw_speed"][place], rows["temperature"][place] = speed, temperature
+    assert subject.starvation(rows) == []
+    rows["screw_speed"][1234], rows["temperature"][1234] = 100.0, 278.15
+    (record,) = subject.starvation(rows)
+    here = case.model(case.screw, case.lubricant.at(278.15), axial_load=3e3, screw_speed=100.0)
+    assert (record.limit, record.value) == pytest.approx((here.screw_torque, here.flooded_torque), rel=1e-9)
+
+
+def test_of_more_starved_rows_than_are_solved_the_most_starved_is_named():
+    case = case_with("60 degC")
+    subject = Configuration(case.model, case.screw, case.lubricant)
+    random = np.random.default_rng(4)
+    rows = {"axial_load": np.full(50_000, 3e3), "screw_speed": random.uniform(20.0, 60.0, 50_000)}
+    rows["temperature"] = np.full(50_000, 278.15)
+    rows["screw_speed"][1234] = 100.0
+    rows["screw_speed"][2345], rows["temperature"][2345] = 140.0, 353.15
+    (record,) = subject.starvation(rows)
+    here = case.model(case.screw, case.lubricant.at(278.15), axial_load=3e3, screw_speed=100.0)
+    assert record.value == pytest.approx(float(here.flooded_torque), rel=1e-9)
+
+
 def test_a_torque_without_load_says_that_the_nut_is_starved_of_oil():
     for temperature, starved in (("0 degC", True), ("60 degC", False)):
         case = case_with(temperature)
@@ -277,6 +313,17 @@ def test_the_readme_of_an_export_says_that_its_range_is_starved_of_oil(target):
         assert bool(said) == starved
         words = b"in a full bath of oil; which of them a ball screw has is not measured"
         assert any(words in content for content in made.files.values()) == starved
+
+
+def test_an_export_is_judged_without_load_too():
+    """Where a double nut is starved the most, as there is least besides the rolling."""
+    case = case_with("25 degC")
+    made = bs.hand_over(case.model, case.screw, case.lubricant, "c", ranges={"temperature": (298.15, 300.15)})
+    (record,) = [one for one in made.warnings if one.id == "lubricant.starved"]
+    speeds = np.array([0.1, 1.0]) * np.max(np.abs(made.measured_range["screw_speed"]))
+    idle = case.model(case.screw, case.lubricant.at(298.15), axial_load=0.0, screw_speed=speeds)
+    place = int(np.argmax(idle.flooded_torque / idle.screw_torque))
+    assert record.value == pytest.approx(float(idle.flooded_torque[place]), rel=1e-6)
 
 
 def test_the_report_has_both_torques_of_a_cycle_and_of_warming_up(monkeypatch):

@@ -6,12 +6,12 @@ import tomllib
 import pytest
 
 import ballscrew as bs
-from ballscrew.case_schema import schema
-from ballscrew.cases import case_file
-from ballscrew.errors import InputError
-from ballscrew.supports.makers_bearing import KnownBearing, SKFBearing
-from ballscrew.supports.rows import guide_rows, support_units
-from ballscrew.web.bodies import case_of
+from ballscrew.axis.supports.makers_bearing import KnownBearing, SKFBearing
+from ballscrew.axis.supports.rows import guide_rows, support_units
+from ballscrew.basis.errors import InputError
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.schema import schema
+from ballscrew.faces.web.bodies import case_of
 
 CASE = """
 [screw]

@@ -9,12 +9,12 @@ from pathlib import Path
 
 import pytest
 
-from ballscrew.cases import case_file
-from ballscrew.documents import validation as documents
-from ballscrew.errors import InputError
-from ballscrew.studies import validation
-from ballscrew.text import validation as text
-from ballscrew.torque_cards import torque_card, torque_card_log
+from ballscrew.basis.errors import InputError
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.torque_cards import torque_card, torque_card_log
+from ballscrew.questions.validate import compute as validation
+from ballscrew.questions.validate import document as documents
+from ballscrew.questions.validate import text
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "torque_cards" / "synthetic_40x10.toml"
 TEXT = EXAMPLE.read_text(encoding="utf-8")

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from ballscrew.errors import InputError
-from ballscrew.motion.trajectory_file import read_trajectory
+from ballscrew.axis.motion.trajectory_file import read_trajectory
+from ballscrew.basis.errors import InputError
 
 TIME = np.arange(60) * 0.01
 POSITION = 0.1 * (1 - np.cos(2 * np.pi * TIME))

@@ -2,10 +2,10 @@
 
 import pytest
 
-from ballscrew.cases import case_file
-from ballscrew.cases.uncertain_inputs import all_of
-from ballscrew.errors import InputError
-from ballscrew.uncertainty.distributions import Normal, Uniform, scaled
+from ballscrew.basis.errors import InputError
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.uncertain_inputs import all_of
+from ballscrew.engine.uncertainty.distributions import Normal, Uniform, scaled
 from support.drive_case import drive_case
 
 

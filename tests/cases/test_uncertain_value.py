@@ -7,15 +7,15 @@ import re
 import pytest
 
 import ballscrew as bs
-from ballscrew.case_schema import schema
-from ballscrew.cases import case_file, uncertain_inputs
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.components.mixed_friction import LoadSharing
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.errors import Fault, InputError
-from ballscrew.quantities import fields_of
-from ballscrew.uncertainty.distributions import LogNormal, Normal, Triangular, Uniform
-from ballscrew.uncertainty.uncertain_value import UncertainValue, describe_distribution, parse_uncertain
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.quantities import fields_of
+from ballscrew.cases.case_files import case_file, uncertain_inputs
+from ballscrew.cases.schema import schema
+from ballscrew.engine.uncertainty.distributions import LogNormal, Normal, Triangular, Uniform
+from ballscrew.engine.uncertainty.uncertain_value import UncertainValue, describe_distribution, parse_uncertain
+from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.mixed_friction import LoadSharing
+from ballscrew.physics.components.operating_state import OperatingState
 
 SCREW, OIL = fields_of(bs.BallScrew), fields_of(bs.Lubricant)
 Z = 1.959963984540054

@@ -1,6 +1,6 @@
 """Finds the equations, and says what is special about a few of them.
 
-An equation is a public function defined in a module of ``ballscrew.equations``, or in one of ``ELSEWHERE``.
+An equation is a public function defined in a module of ``ballscrew.physics.equations``, or in one of ``ELSEWHERE``.
 A new one is tested here without being listed; only an exception has to be listed, with its reason.
 """
 
@@ -14,13 +14,13 @@ from typing import Any, get_type_hints
 
 import numpy as np
 
-import ballscrew.equations
-from ballscrew.quantities import unit_of
+import ballscrew.physics.equations
+from ballscrew.basis.quantities import unit_of
 
 
 @dataclasses.dataclass(frozen=True)
 class Equation:
-    """A public function of ``ballscrew.equations``."""
+    """A public function of ``ballscrew.physics.equations``."""
 
     name: str
     function: Callable[..., Any]
@@ -62,13 +62,16 @@ class Equation:
 
 
 #: Modules of equations in the room that alone has a use for them.
-ELSEWHERE = ("ballscrew.supports.formulas",)
+ELSEWHERE = ("ballscrew.axis.supports.formulas",)
 
 
 def discover() -> dict[str, Equation]:
     """All equations by ``module.function``."""
     found: dict[str, Equation] = {}
-    names = [f"ballscrew.equations.{each.name}" for each in pkgutil.iter_modules(ballscrew.equations.__path__)]
+    names = [
+        f"ballscrew.physics.equations.{each.name}"
+        for each in pkgutil.iter_modules(ballscrew.physics.equations.__path__)
+    ]
     for path in (*names, *ELSEWHERE):
         module = importlib.import_module(path)
         for name, function in inspect.getmembers(module, inspect.isfunction):

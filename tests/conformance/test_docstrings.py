@@ -4,7 +4,7 @@ import inspect
 
 import pytest
 
-from ballscrew.references import bibliography
+from ballscrew.basis.references import bibliography
 
 from .discovery import EQUATIONS, RECURRENCES
 from .formulas import formula_of

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-import ballscrew.equations
+import ballscrew.physics.equations
 
 from .discovery import BY_NAME, BY_UNIT, DIMENSIONAL_FITS, ELSEWHERE, EQUATIONS, RECURRENCES
 from .test_symbols import FORMULAS
@@ -14,8 +14,8 @@ from .test_units import CONSISTENT
 
 def test_every_public_function_is_found():
     # Read from the files, apart from how the discovery imports them.
-    (folder,) = ballscrew.equations.__path__
-    source = Path(folder).parent.parent
+    (folder,) = ballscrew.physics.equations.__path__
+    source = Path(folder).parents[2]
     elsewhere = [source / f"{name.replace('.', '/')}.py" for name in ELSEWHERE]
     written = {
         f"{path.stem}.{node.name}"

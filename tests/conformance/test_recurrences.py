@@ -12,7 +12,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from ballscrew.equations.hertz import elliptic_integrals, ellipticity
+from ballscrew.physics.equations.hertz import elliptic_integrals, ellipticity
 
 from .discovery import EQUATIONS, RECURRENCES
 

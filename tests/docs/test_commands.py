@@ -29,7 +29,7 @@ EXCEPTIONS = {
     '.venv/bin/pip install ".[fast]"': "a test must not change what is installed, nor need a network",
     ".venv/bin/python benchmarks/reference.py": "it takes minutes; the page has the tables of the same script",
     ".venv/bin/ballscrew sweep examples/feed_drive.toml --to /shared/map.zarr --scheduler tcp://head:8786": (
-        "it needs a scheduler and a disk that machines share; tests/sweeps/test_cluster.py has its own"
+        "it needs a scheduler and a disk that machines share; tests/engine/sweeps/test_cluster.py has its own"
     ),
     '.venv/bin/ballscrew condition xjtu.csv --case examples/xjtu.toml --speed "100 rpm" --column torque=upper': (
         "the licence of the data is not stated, so the repository has none of it"

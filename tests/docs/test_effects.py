@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ballscrew.cases import case_file
-from ballscrew.friction.model import FrictionModel
+from ballscrew.cases.case_files import case_file
+from ballscrew.physics.friction.model import FrictionModel
 from effect_study import curves
 from effect_study.cases import CASES, CATALOGUE, PAPER, RPM, effects, sensitivities, steps
 from oracles.contact_integral import contact_integral

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
-from ballscrew.figures import style
+from ballscrew.questions.shared import chart_style as style
 from effect_study import effect_figures, law_figures
 
 PLOTS = {plot.name: plot for plot in (*effect_figures.PLOTS, *law_figures.PLOTS)}

@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ballscrew.figures import style
-from ballscrew.friction.model import FrictionModel
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.questions.shared import chart_style as style
 from effect_study import nut_curves as curves
 from effect_study import nut_figures
 

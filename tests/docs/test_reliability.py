@@ -41,3 +41,10 @@ def test_each_section_runs(tmp_path):
     assert done.returncode == any(row["wrong"] != "0" for row in rows(page).values()), done.stderr
     assert "scale 0.001" in page.read_text(encoding="utf-8")
     assert {name for name, row in rows(page).items() if row["tried"] != "0"} == SECTIONS
+
+
+def test_the_program_of_the_run_starts():
+    """It leans on tests of the server, which may move; the run itself is long."""
+    command = [sys.executable, "-m", "benchmarks.hostile", "--help"]
+    found = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert (found.returncode, "--scale" in found.stdout) == (0, True), found.stderr

@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from ballscrew.quantities import unit_of
+from ballscrew.basis.quantities import unit_of
 
 from .pages import DOCS, blocks, name, pages
 
@@ -64,9 +64,9 @@ def test_letters_are_written_as_in_the_formula(equation):
 
 
 def test_a_function_without_a_formula_is_refused(equation):
-    hertz = importlib.import_module("ballscrew.equations.hertz")
+    hertz = importlib.import_module("ballscrew.physics.equations.hertz")
     with pytest.raises(ValueError, match="no formula"):
-        equation._as_rst("ballscrew.equations.hertz.ellipticity", hertz.ellipticity, "source.html")
+        equation._as_rst("ballscrew.physics.equations.hertz.ellipticity", hertz.ellipticity, "source.html")
 
 
 def test_every_erratum_has_a_section_and_a_test(errata):

@@ -10,15 +10,15 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.exports import c99, c_source, interpreter, program_file
+from ballscrew.compiler.tracing.program import Program
+from ballscrew.compiler.tracing.steps import Step
 from ballscrew.exports.export import Export
+from ballscrew.exports.programs import c99, c_source, interpreter, program_file
 from ballscrew.exports.targets import export_of
-from ballscrew.friction.law_names import LAWS
-from ballscrew.friction.validity import NUT_REASONS
-from ballscrew.solvers.line_slip import TOLERANCE as LINE_TOLERANCE
-from ballscrew.solvers.line_slip import line_slip
-from ballscrew.tracing.program import Program
-from ballscrew.tracing.steps import Step
+from ballscrew.physics.friction.law_names import LAWS
+from ballscrew.physics.friction.validity import NUT_REASONS
+from ballscrew.physics.solvers.line_slip import TOLERANCE as LINE_TOLERANCE
+from ballscrew.physics.solvers.line_slip import line_slip
 
 from .compiled import COMPILER, STRICT, evaluated, library, names, needs_a_compiler
 

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.components.nut import Bodies, Scatter
-from ballscrew.exports import interpreter, program_file
-from ballscrew.exports.two_levels import ElasticNut, elastic_nut, two_levels
-from ballscrew.friction.loaded_balls import loads_of
+from ballscrew.exports.programs import interpreter, program_file
+from ballscrew.exports.programs.two_levels import ElasticNut, elastic_nut, two_levels
+from ballscrew.physics.components.nut import Bodies, Scatter
+from ballscrew.physics.friction.loaded_balls import loads_of
 
 from .compiled import library, needs_a_compiler
 from .test_c99 import compare, compiled, needs_the_library

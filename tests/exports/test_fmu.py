@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.exports import fmu, interpreter
-from ballscrew.exports.program_file import program_file
+from ballscrew.exports.programs import fmu, interpreter
+from ballscrew.exports.programs.program_file import program_file
 
 from .compiled import library, needs_a_compiler
 

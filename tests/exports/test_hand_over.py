@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.cases import case_file
+from ballscrew.cases.case_files import case_file
 from ballscrew.exports import requests
 from ballscrew.exports.export import Export
 from ballscrew.exports.targets import TARGETS, export_of

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.cases import case_file
-from ballscrew.exports import joint_friction
+from ballscrew.cases.case_files import case_file
+from ballscrew.exports.programs import joint_friction
 from ballscrew.exports.targets import options_of_case
 
 OPTIONS = {"load": 1000.0, "inertia": 2e-4}

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.cases import case_file
+from ballscrew.cases.case_files import case_file
 from ballscrew.exports import requests
 
 mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed: pip install mujoco-core")

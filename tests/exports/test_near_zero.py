@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.components.nut import Bodies
-from ballscrew.components.operating_state import NOTHING
-from ballscrew.exports import interpreter, program_file
+from ballscrew.exports.programs import interpreter, program_file
+from ballscrew.physics.components.nut import Bodies
+from ballscrew.physics.components.operating_state import NOTHING
 
 from .compiled import needs_a_compiler
 from .test_c99 import compiled, needs_the_library

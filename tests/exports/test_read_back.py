@@ -14,8 +14,9 @@ from scipy.interpolate import RegularGridInterpolator
 from scipy.io import loadmat
 
 import ballscrew as bs
-from ballscrew.cases import case_file
-from ballscrew.exports import interpreter, requests
+from ballscrew.cases.case_files import case_file
+from ballscrew.exports import requests
+from ballscrew.exports.programs import interpreter
 from ballscrew.exports.targets import TARGETS
 
 from .compiled import evaluated, library, names, needs_a_compiler

@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 import ballscrew as bs
-from ballscrew.evaluation.outputs import known_outputs
-from ballscrew.papers.olaru2005 import OIL, SCREW
+from ballscrew.engine.evaluation.outputs import known_outputs
+from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 
 STORED = Path(__file__).with_name("seed_screw.json")
 MODELS = {

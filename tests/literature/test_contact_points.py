@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from ballscrew.equations import film, hertz, rheology, rolling
+from ballscrew.physics.equations import film, hertz, rheology, rolling
 
 POINTS = json.loads((Path(__file__).parents[1] / "data" / "contact_points.json").read_text(encoding="utf-8"))
 STEEL = 2.26e11

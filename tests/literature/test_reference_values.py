@@ -11,10 +11,19 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.components.frame import helix_frame
-from ballscrew.components.laws import exact_hertz
-from ballscrew.components.nut_losses import JISDrag
-from ballscrew.equations import friction, geometry, hertz, kinematics, mixed_lubrication, rheology, slip, transmission
+from ballscrew.physics.components.frame import helix_frame
+from ballscrew.physics.components.laws import exact_hertz
+from ballscrew.physics.components.nut_losses import JISDrag
+from ballscrew.physics.equations import (
+    friction,
+    geometry,
+    hertz,
+    kinematics,
+    mixed_lubrication,
+    rheology,
+    slip,
+    transmission,
+)
 
 DATA = Path(__file__).parents[1] / "data"
 ENTRIES = json.loads((DATA / "golden.json").read_text(encoding="utf-8"))["entries"]

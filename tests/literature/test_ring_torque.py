@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from ballscrew.components.lubrication import biboulet_houpert_rolling
-from ballscrew.friction.model import FrictionModel
-from ballscrew.validation.rows import GROOVE_RADIUS, RING_RADIUS, ring_torque
+from ballscrew.evidence.validation.rows import GROOVE_RADIUS, RING_RADIUS, ring_torque
+from ballscrew.physics.components.lubrication import biboulet_houpert_rolling
+from ballscrew.physics.friction.model import FrictionModel
 
 RING = json.loads((Path(__file__).parents[1] / "data" / "contact_points.json").read_text(encoding="utf-8"))[
     "thrust_ring"

@@ -9,9 +9,9 @@ import math
 import numpy as np
 import pytest
 
-from ballscrew.uncertainty import sobol
-from ballscrew.uncertainty.morris import LEVELS, elementary_effects
-from ballscrew.uncertainty.sobol import sobol_indices
+from ballscrew.engine.uncertainty import sobol
+from ballscrew.engine.uncertainty.morris import LEVELS, elementary_effects
+from ballscrew.engine.uncertainty.sobol import sobol_indices
 
 
 class Ishigami:

@@ -36,11 +36,11 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.components.frame import Frame, helix_frame
-from ballscrew.components.screw import BallScrew
-from ballscrew.equations import geometry
-from ballscrew.errors import Fault, fault_of, is_concrete, raise_if_any, shown
-from ballscrew.quantities import AngularSpeed, Force, Info, Power, Quantity, Ratio, Speed, Torque, fields_of
+from ballscrew.basis.errors import Fault, fault_of, is_concrete, raise_if_any, shown
+from ballscrew.basis.quantities import AngularSpeed, Force, Info, Power, Quantity, Ratio, Speed, Torque, fields_of
+from ballscrew.physics.components.frame import Frame, helix_frame
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.equations import geometry
 from oracles.contact_patch import ContactPatch, Ellipse, SlipField, hertz_ellipse
 from oracles.free_ball import ALONG, LATERAL, SPIN, BallResistances, FreeBall, Imbalance
 from oracles.tractions import (
@@ -163,7 +163,7 @@ def contact_integral(
     ``resolution`` counts points across and along the path; ``check_resolution`` solves again on a
     finer grid.
 
-    Raises :class:`~ballscrew.errors.InputError` for input that is not one number within its bounds.
+    Raises :class:`~ballscrew.basis.errors.InputError` for input that is not one number within its bounds.
     Physics never raises: where the ball skids or outgrows its groove, the outcome says so.
     """
     laws = on_both_races(traction)

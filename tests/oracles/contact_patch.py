@@ -30,8 +30,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ballscrew.equations import geometry, hertz, rheology
-from ballscrew.quantities import Force, Length, Pressure, Ratio
+from ballscrew.basis.quantities import Force, Length, Pressure, Ratio
+from ballscrew.physics.equations import geometry, hertz, rheology
 from oracles.tractions import Field, TractionLaw
 
 

@@ -25,10 +25,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ballscrew.components.frame import Frame
-from ballscrew.components.screw import BallScrew
-from ballscrew.equations import kinematics
-from ballscrew.quantities import AngularSpeed, Force, Length, Speed, Torque
+from ballscrew.basis.quantities import AngularSpeed, Force, Length, Speed, Torque
+from ballscrew.physics.components.frame import Frame
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.equations import kinematics
 from oracles.contact_patch import ContactPatch
 from oracles.tractions import (
     Field,

@@ -13,9 +13,9 @@ from typing import Annotated, Any, Protocol, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.equations import rheology, traction
-from ballscrew.errors import Fault, faults_of, raise_if_any, shown
-from ballscrew.quantities import Info, Length, Pressure, PressureCoefficient, Ratio, Viscosity
+from ballscrew.basis.errors import Fault, faults_of, raise_if_any, shown
+from ballscrew.basis.quantities import Info, Length, Pressure, PressureCoefficient, Ratio, Viscosity
+from ballscrew.physics.equations import rheology, traction
 
 #: Values at the points of a contact, or components of a vector.
 Field: TypeAlias = NDArray[np.float64]
@@ -49,7 +49,7 @@ class Coulomb:
     .. math:: \tau = \mu p
 
     Whatever the sliding speed is: torques do not depend on speed, slip power is proportional to it.
-    Raises :class:`~ballscrew.errors.InputError` for a coefficient that is not positive.
+    Raises :class:`~ballscrew.basis.errors.InputError` for a coefficient that is not positive.
     """
 
     friction_coefficient: Annotated[
@@ -108,7 +108,7 @@ class Eyring(_Film):
 
     Eyring1936, JohnsonTevaarwerk1977; :math:`\eta(p)` by Roelands1966. Isothermal, one film thickness
     all over the contact, no limit: at high pressure compare :class:`LimitingShear`.
-    Raises :class:`~ballscrew.errors.InputError` for values out of bounds.
+    Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
     """
 
     eyring_stress: Annotated[
@@ -142,7 +142,7 @@ class LimitingShear(_Film):
     .. math:: \tau = \Lambda p \left(1 - \exp\left(-\frac{\eta(p) s}{\Lambda p h_c}\right)\right)
 
     BairWiner1979 without the elastic part; :math:`\eta(p)` by Roelands1966. Isothermal, one film
-    thickness all over the contact. Raises :class:`~ballscrew.errors.InputError` for values out of bounds.
+    thickness all over the contact. Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
     """
 
     limiting_shear_coefficient: Annotated[
@@ -175,7 +175,7 @@ class LimitingShear(_Film):
 def on_both_races(law: Any) -> tuple[TractionLaw, TractionLaw]:
     """The laws at screw and nut from one law for both or a pair.
 
-    Raises :class:`~ballscrew.errors.InputError` for anything that is not a law.
+    Raises :class:`~ballscrew.basis.errors.InputError` for anything that is not a law.
     """
     pair: tuple[Any, ...] = law if isinstance(law, tuple) else (law, law)
     fit = len(pair) == 2 and all(hasattr(side, name) for side in pair for name in ("stress", "slope", "potential"))

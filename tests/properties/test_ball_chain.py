@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.components import laws
-from ballscrew.sizing.checks import ratings_of
+from ballscrew.physics.components import laws
+from ballscrew.physics.sizing.checks import ratings_of
 
 REFERENCE = bs.FrictionModel.reference()
 OIL = bs.Lubricant.from_grade("ISO VG 100", 298.15)

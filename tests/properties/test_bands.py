@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.uncertainty.bands import band
-from ballscrew.uncertainty.distributions import LogNormal, Normal, Uniform
+from ballscrew.engine.uncertainty.bands import band
+from ballscrew.engine.uncertainty.distributions import LogNormal, Normal, Uniform
 
 POINT = {"axial_load": 4000.0, "screw_speed": 60.0}
 CENTRES = {"viscosity": 0.1, "screw_conformity": 0.515, "ball_diameter": 3.175e-3}

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.components.mixed_friction import LoadSharing
-from ballscrew.equations import presliding
-from ballscrew.papers.olaru2005 import OIL, SCREW
+from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
+from ballscrew.physics.components.mixed_friction import LoadSharing
+from ballscrew.physics.equations import presliding
 
 REFERENCE = bs.FrictionModel.reference()
 

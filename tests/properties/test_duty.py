@@ -10,16 +10,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import ballscrew as bs
-from ballscrew.axis.axis import Axis
-from ballscrew.axis.brake import brake_of
-from ballscrew.axis.cycle_life import CycleLife
-from ballscrew.axis.drive import MotorCheck
-from ballscrew.axis.duty import duty
-from ballscrew.axis.duty_band import duty_band, numbers_of_cycle
-from ballscrew.axis.motor import Motor
-from ballscrew.axis.vendor_rule import VendorRule
-from ballscrew.errors import InputError
-from ballscrew.motion.profiles import SCurve, Segment, Segments, Sine, Trapezoid
+from ballscrew.axis.duty_cycle.axis import Axis
+from ballscrew.axis.duty_cycle.brake import brake_of
+from ballscrew.axis.duty_cycle.cycle_life import CycleLife
+from ballscrew.axis.duty_cycle.drive import MotorCheck
+from ballscrew.axis.duty_cycle.duty import duty
+from ballscrew.axis.duty_cycle.duty_band import duty_band, numbers_of_cycle
+from ballscrew.axis.duty_cycle.motor import Motor
+from ballscrew.axis.duty_cycle.vendor_rule import VendorRule
+from ballscrew.axis.motion.profiles import SCurve, Segment, Segments, Sine, Trapezoid
+from ballscrew.basis.errors import InputError
 from support.strategies import MODELS, floats, powers
 
 ROW = bs.catalogue()["rexroth-40x10x6-6-double"]

@@ -9,8 +9,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import ballscrew as bs
-from ballscrew.equations import friction, hertz, kinematics
-from ballscrew.friction.validity import (
+from ballscrew.physics.equations import friction, hertz, kinematics
+from ballscrew.physics.friction.validity import (
     LARGEST_PURE_ROLLING_OFFSET,
 )
 from support.strategies import (

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.components import laws, lubrication, mixed_friction
-from ballscrew.errors import InputError
-from ballscrew.evaluation import jax_derivatives
-from ballscrew.evaluation.jax_derivatives import jax_value_and_partials
-from ballscrew.evaluation.outputs import known_outputs
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.solvers.line_slip import line_slip
+from ballscrew.basis.errors import InputError
+from ballscrew.engine.evaluation import jax_derivatives
+from ballscrew.engine.evaluation.jax_derivatives import jax_value_and_partials
+from ballscrew.engine.evaluation.outputs import known_outputs
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.physics.components import laws, lubrication, mixed_friction
+from ballscrew.physics.solvers.line_slip import line_slip
 
 PRESETS = {
     "olaru2005": bs.FrictionModel.olaru2005(),
@@ -269,7 +269,7 @@ def test_nothing_else_loads_jax():
     code = f"""
 import sys
 import ballscrew
-from ballscrew.cli.main import app
+from ballscrew.faces.cli.main import app
 app(["run", {str(case)!r}], standalone_mode=False)
 assert "jax" not in sys.modules
 """

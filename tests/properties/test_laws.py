@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.case_schema.schema import LAWS
-from ballscrew.components import laws, lubrication, mixed_friction
-from ballscrew.components.conditions import Motion
-from ballscrew.components.contact import ContactLaws, rolling_contact
-from ballscrew.papers.olaru2005 import OIL, SCREW
-from ballscrew.solvers.line_slip import line_slip
+from ballscrew.cases.schema.schema import LAWS
+from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
+from ballscrew.physics.components import laws, lubrication, mixed_friction
+from ballscrew.physics.components.conditions import Motion
+from ballscrew.physics.components.contact import ContactLaws, rolling_contact
+from ballscrew.physics.solvers.line_slip import line_slip
 from support.strategies import MODELS, RPM, box, reference
 
 

@@ -3,7 +3,7 @@
 import pytest
 from hypothesis import given
 
-from ballscrew.equations import life
+from ballscrew.physics.equations import life
 from support.strategies import floats, powers
 
 forces = powers(1.0, 1e6)

@@ -7,10 +7,10 @@ import math
 import numpy as np
 import pytest
 
-from ballscrew.components.nut import Deviations, DoubleNut, OversizeBallNut, SingleNut
-from ballscrew.quantities import quantities_of
-from ballscrew.solvers.ball_springs import BallSprings, Flanks
-from ballscrew.solvers.load_distribution import TOLERANCE, BallLoads, ball_loads, radial_stiffness
+from ballscrew.basis.quantities import quantities_of
+from ballscrew.physics.components.nut import Deviations, DoubleNut, OversizeBallNut, SingleNut
+from ballscrew.physics.solvers.ball_springs import BallSprings, Flanks
+from ballscrew.physics.solvers.load_distribution import TOLERANCE, BallLoads, ball_loads, radial_stiffness
 from support.nut_cases import KINDS, nut_case
 
 #: 4 kinds × elastic or not × scatter or not × side, and this many points of each: ten thousand and more.

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.papers.olaru2005.case import OIL, SCREW
+from ballscrew.evidence.papers.olaru2005.case import OIL, SCREW
 from support.strategies import MODELS
 
 SPEEDS = np.array([0.0, 1.0, 10.0, 60.0, 200.0])

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.friction.element import BallScrewElement
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.friction.element import BallScrewElement
 from support.strategies import MODELS
 
 OIL = bs.Lubricant(viscosity=0.1, pressure_viscosity_coefficient=2e-8)
@@ -41,7 +41,7 @@ def random_screws(kind, seed, number):
 
 
 def names_of(kind):
-    return [name for name, model in MODELS.items() if model.knows(KINDS[kind](1.0))]
+    return [name for name, model in MODELS.items() if model.knows(KINDS[kind](1500.0))]
 
 
 @pytest.mark.parametrize(("kind", "name"), [(kind, name) for kind in KINDS for name in names_of(kind)])

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.components.mixed_friction import LoadSharing
-from ballscrew.equations import equilibrium, kinematics, slip
-from ballscrew.friction.validity import REASONS
-from ballscrew.solvers import ellipse_slip
+from ballscrew.physics.components.mixed_friction import LoadSharing
+from ballscrew.physics.equations import equilibrium, kinematics, slip
+from ballscrew.physics.friction.validity import REASONS
+from ballscrew.physics.solvers import ellipse_slip
 from support.strategies import box, constant_friction, reference, without_losses_of_rolling
 
 SIZE = 10_000

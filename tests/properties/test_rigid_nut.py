@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.components.nut import Bodies, Deviations, DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
-from ballscrew.equations import deflection
-from ballscrew.solvers.load_distribution import ball_loads, pair_load_deflection
-from ballscrew.tracing.gradient import partials
-from ballscrew.tracing.program import Program
-from ballscrew.tracing.tape import Tape
+from ballscrew.compiler.tracing.gradient import partials
+from ballscrew.compiler.tracing.program import Program
+from ballscrew.compiler.tracing.tape import Tape
+from ballscrew.physics.components.nut import Bodies, Deviations, DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
+from ballscrew.physics.equations import deflection
+from ballscrew.physics.solvers.load_distribution import ball_loads, pair_load_deflection
 from support.nut_cases import KINDS, nut_case
 
 #: Random nuts of a kind.

@@ -9,12 +9,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import ballscrew as bs
-from ballscrew.components.frame import bearing_frame
-from ballscrew.components.lubrication import Inlet
-from ballscrew.equations.rolling import elastic_resistance_moment
-from ballscrew.evaluation.outputs import known_outputs
-from ballscrew.friction.result import MECHANISMS
-from ballscrew.papers.olaru2005 import SCREW
+from ballscrew.engine.evaluation.outputs import known_outputs
+from ballscrew.evidence.papers.olaru2005 import SCREW
+from ballscrew.physics.components.frame import bearing_frame
+from ballscrew.physics.components.lubrication import Inlet
+from ballscrew.physics.equations.rolling import elastic_resistance_moment
+from ballscrew.physics.friction.result import MECHANISMS
 from support.strategies import (
     RPM,
     all_models,

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ballscrew.uncertainty.distributions import LogNormal, Normal, Triangular, Uniform
-from ballscrew.uncertainty.sensitivity import sensitivity
-from ballscrew.uncertainty.sobol import (
+from ballscrew.engine.uncertainty.distributions import LogNormal, Normal, Triangular, Uniform
+from ballscrew.engine.uncertainty.sensitivity import sensitivity
+from ballscrew.engine.uncertainty.sobol import (
     sobol_indices,
 )
 

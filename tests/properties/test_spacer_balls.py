@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.calibration.fit import fit
-from ballscrew.components.laws import ProportionalBallForce, parted_neighbours
-from ballscrew.components.nut import Bodies, DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
-from ballscrew.components.nut_losses import Churning
-from ballscrew.errors import InputError
+from ballscrew.basis.errors import InputError
+from ballscrew.evidence.calibration.fit import fit
+from ballscrew.physics.components.laws import ProportionalBallForce, parted_neighbours
+from ballscrew.physics.components.nut import Bodies, DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
+from ballscrew.physics.components.nut_losses import Churning
 from support.strategies import MODELS
 
 REFERENCE = MODELS["reference"]

@@ -8,15 +8,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import ballscrew as bs
-from ballscrew.axis.axis import Axis
-from ballscrew.axis.brake import brake_of
-from ballscrew.axis.drive import MotorCheck
-from ballscrew.axis.duty import duty
-from ballscrew.axis.motor import Motor
-from ballscrew.components.lubrication import Inlet
-from ballscrew.friction import starvation
-from ballscrew.friction.model import FrictionModel
-from ballscrew.motion.profiles import Trapezoid
+from ballscrew.axis.duty_cycle.axis import Axis
+from ballscrew.axis.duty_cycle.brake import brake_of
+from ballscrew.axis.duty_cycle.drive import MotorCheck
+from ballscrew.axis.duty_cycle.duty import duty
+from ballscrew.axis.duty_cycle.motor import Motor
+from ballscrew.axis.motion.profiles import Trapezoid
+from ballscrew.physics.components.lubrication import Inlet
+from ballscrew.physics.friction import starvation
+from ballscrew.physics.friction.model import FrictionModel
 
 MODEL = FrictionModel.reference()
 SCREW = bs.BallScrew(

@@ -92,7 +92,7 @@ class Commands:
         folder: Path,
         streams: Sequence[int],
         environment: Mapping[str, str] | None = None,
-        module: str = "ballscrew.cli",
+        module: str = "ballscrew.faces.cli",
         errors: Sequence[str] = (),
         lines: bool = False,
     ) -> Process:
@@ -125,7 +125,7 @@ class Commands:
         *,
         folder: Path,
         environment: Mapping[str, str] | None = None,
-        module: str = "ballscrew.cli",
+        module: str = "ballscrew.faces.cli",
         errors: Sequence[str] = (),
         timeout: float | None = 300,
     ) -> subprocess.CompletedProcess[str]:
@@ -174,7 +174,7 @@ def new_process(
 ) -> subprocess.CompletedProcess[str]:
     """Run a command in a process that starts from nothing: where encodings, imports or the interpreter matter."""
     return subprocess.run(
-        [sys.executable, "-m", "ballscrew.cli", *map(str, arguments)],
+        [sys.executable, "-m", "ballscrew.faces.cli", *map(str, arguments)],
         capture_output=True,
         check=False,
         cwd=folder,

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ballscrew.cases import case_file
+from ballscrew.cases.case_files import case_file
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

@@ -34,7 +34,7 @@ WARM_UP = (
 
 def load(examples: str, folder: str) -> None:
     """Run each kind of command once, here, with nobody listening."""
-    from ballscrew.cli.main import main
+    from ballscrew.faces.cli.main import main
 
     for command in WARM_UP:
         sys.argv = ["ballscrew", *command.format(examples=examples, folder=folder).split()]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ballscrew.errors import InputError
+from ballscrew.basis.errors import InputError
 
 RPM = 2 * np.pi / 60
 

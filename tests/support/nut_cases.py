@@ -5,7 +5,15 @@ import dataclasses
 import numpy as np
 
 import ballscrew as bs
-from ballscrew.components.nut import Bodies, Deviations, DoubleNut, Nut, OffsetLeadNut, OversizeBallNut, SingleNut
+from ballscrew.physics.components.nut import (
+    Bodies,
+    Deviations,
+    DoubleNut,
+    Nut,
+    OffsetLeadNut,
+    OversizeBallNut,
+    SingleNut,
+)
 from support.strategies import HEAVIEST, box
 
 KINDS = ("single", "oversize", "double", "offset")

@@ -1,7 +1,7 @@
 """The program with a short timeout of reading, for tests that wait until it has passed."""
 
-from ballscrew.cli.main import main
-from ballscrew.web import bodies, connections
+from ballscrew.faces.cli.main import main
+from ballscrew.faces.web import bodies, connections
 
 #: Seconds; what is served at once is served well within them, also on a busy machine.
 READ_TIMEOUT = 4.0

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from ballscrew.kernels.buffers import aligned_array
-from ballscrew.kernels.emission import kernel_text
-from ballscrew.kernels.kernel import Kernel
-from ballscrew.tracing.program import Interpreter, Program
-from ballscrew.tracing.tape import Tape
+from ballscrew.compiler.kernels.buffers import aligned_array
+from ballscrew.compiler.kernels.emission import kernel_text
+from ballscrew.compiler.kernels.kernel import Kernel
+from ballscrew.compiler.tracing.program import Interpreter, Program
+from ballscrew.compiler.tracing.tape import Tape
 
 
 def recorded(function, inputs):

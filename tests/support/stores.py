@@ -7,7 +7,7 @@ import sys
 import numpy as np
 
 import ballscrew as bs
-from ballscrew.sweeps.store import Store
+from ballscrew.engine.sweeps.store import Store
 
 RPM = math.pi / 30
 
@@ -38,7 +38,7 @@ KILLED = """
 import sys, time
 import numpy as np
 import ballscrew as bs
-from ballscrew.papers.olaru2005 import OIL, SCREW
+from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 bs.sweep(
     bs.FrictionModel.olaru2005(), SCREW, OIL, outputs=["screw_torque", "efficiency", "valid"], to=sys.argv[1],
     block_size=20_000, done=lambda finished, total: time.sleep(float(sys.argv[2])),

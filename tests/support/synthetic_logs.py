@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import ballscrew as bs
-from ballscrew.papers.olaru2005.case import SCREW
+from ballscrew.evidence.papers.olaru2005.case import SCREW
 
 RPM = 2 * math.pi / 60
 OIL = bs.Lubricant(viscosity=0.1)

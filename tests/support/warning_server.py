@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ballscrew.cli.main import main
-from ballscrew.web import api
+from ballscrew.faces.cli.main import main
+from ballscrew.faces.web import api
 
 if __name__ == "__main__":
     chosen = api.rows.chosen

@@ -1,1 +1,4 @@
-"""An axis: a mass moved by a ball screw and its drive, what a cycle asks of the motor, costs, and wears."""
+"""The axis that the screw stands in: motion, bearings and guides, the duty of the axis, heat.
+
+May import ``engine`` and below. Start with ``duty_cycle.duty`` and ``thermal.network``.
+"""

@@ -8,7 +8,7 @@ import tempfile
 from collections.abc import Generator
 from pathlib import Path
 
-from ballscrew.errors import Fault, InputError
+from ballscrew.basis.errors import Fault, InputError
 
 
 def read_bytes(path: Path, most: int) -> bytes:
@@ -26,7 +26,7 @@ def write_error(where: str, path: Path, error: OSError) -> InputError:
 
 
 def check_writable(where: str, path: Path) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` now rather than after the work is done.
+    """Raise :class:`~ballscrew.basis.errors.InputError` now rather than after the work is done.
 
     Create the folder where there is none.
     """

@@ -19,7 +19,7 @@ Result = TypeVar("Result")
 
 #: Bytes of memory that a process may have, and seconds that it may take.
 MEMORY, SECONDS = 2 << 30, 300.0
-_PROGRAM = "from ballscrew.child_process import main; main()"
+_PROGRAM = "from ballscrew.basis.child_process import main; main()"
 #: What the allocator of Rust and that of C++ write before they abort the process.
 _OUT_OF_MEMORY = (b"memory allocation of", b"bad_alloc")
 

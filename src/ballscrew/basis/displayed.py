@@ -1,24 +1,33 @@
 """Values that show and draw themselves in a notebook.
 
-How they look is decided in the room ``notebook``, above all others. It is loaded by its name when somebody looks, as
-the public names of the package are: the rooms of the physics import nothing of it.
+How they look is decided by the face ``notebook``, above all else. It registers itself here (:func:`shown_by`), so that
+the physics imports nothing of it.
 """
 
 from __future__ import annotations
 
-import importlib
+from collections.abc import Callable
 from typing import Any
 
+_loaders: list[Callable[[str], Any]] = []
 
-def _notebook(module: str) -> Any:
-    return importlib.import_module(f"ballscrew.notebook.{module}")
+
+def shown_by(load: Callable[[str], Any]) -> None:
+    """Let ``load`` give the modules ``tables`` and ``pictures`` of the face that shows values; the last one counts."""
+    _loaders[:] = [load]
+
+
+def notebook(module: str) -> Any:
+    """A module of the face that shows values: ``tables`` or ``pictures``."""
+    (load,) = _loaders
+    return load(module)
 
 
 class Displayed:
     """A value with a table in a notebook."""
 
     def _repr_html_(self) -> str:
-        return _notebook("tables").html(self)
+        return notebook("tables").html(self)
 
 
 class Drawn(Displayed):
@@ -27,6 +36,6 @@ class Drawn(Displayed):
     def plot(self) -> Any:
         """Picture of this, which a notebook shows; its ``save(path)`` writes .png, .svg or .pdf.
 
-        Its ``figure`` is one of matplotlib. Raises :class:`~ballscrew.errors.InputError` for what has no picture.
+        Its ``figure`` is one of matplotlib. Raises :class:`~ballscrew.basis.errors.InputError` for what has no picture.
         """
-        return _notebook("pictures").picture(self)
+        return notebook("pictures").picture(self)

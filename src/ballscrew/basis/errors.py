@@ -17,8 +17,8 @@ from typing import Any, ParamSpec, TypeVar, cast, get_type_hints
 
 import numpy as np
 
-from ballscrew.quantities import Quantity, carries_unit, fields_of, in_si, out_of_bounds, unit_of
-from ballscrew.records import Measured
+from ballscrew.basis.quantities import Quantity, carries_unit, fields_of, in_si, out_of_bounds, unit_of
+from ballscrew.basis.records import Measured
 
 P = ParamSpec("P")
 R = TypeVar("R")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Generator
 
-from ballscrew.errors import Fault, InputError
+from ballscrew.basis.errors import Fault, InputError
 
 
 @contextlib.contextmanager

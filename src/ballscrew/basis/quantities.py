@@ -19,7 +19,7 @@ from typing import Annotated, Any, TypeAlias, Union, get_args, get_origin, get_t
 
 import numpy as np
 
-from ballscrew._arrays import namespace
+from ballscrew.basis.arrays import namespace
 
 #: A float, a NumPy array, or any foreign array the equations run on (JAX, SymPy, pint).
 #: Deliberately open: the unit, not the container, is what the annotations are about.
@@ -38,7 +38,7 @@ class Info:
     """The symbol, the meaning, the bounds and the display unit of a field.
 
     Values beyond the bounds are refused. ``usual`` is the range beyond which no ball screw is known; a value outside is
-    computed, with a warning (:mod:`ballscrew.friction.plausibility`).
+    computed, with a warning (:mod:`ballscrew.physics.friction.plausibility`).
     """
 
     symbol: str

@@ -11,7 +11,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Literal
 
-from ballscrew.quantities import Quantity
+from ballscrew.basis.quantities import Quantity
 
 Severity = Literal["info", "warning", "error"]
 _PLACEHOLDER = re.compile(r"\{([a-z_]+)\}")

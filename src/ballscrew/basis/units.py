@@ -16,10 +16,10 @@ from collections.abc import Generator, Mapping, Sequence
 from importlib import resources
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ballscrew import _pint_plugins
-from ballscrew.errors import Fault, as_float
-from ballscrew.quantities import Quantity
-from ballscrew.records import Measured, Message, Record
+from ballscrew.basis import pint_plugins as _pint_plugins
+from ballscrew.basis.errors import Fault, as_float
+from ballscrew.basis.quantities import Quantity
+from ballscrew.basis.records import Measured, Message, Record
 
 if TYPE_CHECKING:
     import pint
@@ -93,7 +93,7 @@ _SPELLINGS = {
 
 @functools.cache
 def _pint() -> Any:
-    """The library pint, imported without the optional libraries hidden by :mod:`ballscrew._pint_plugins`."""
+    """The library pint, imported without the optional libraries hidden by :mod:`ballscrew.basis.pint_plugins`."""
     hidden = [name for name in _pint_plugins.hidden_from_pint if name not in sys.modules]
     absent: Any = None  # importing it fails, as if it were not installed
     for name in hidden:
@@ -318,8 +318,8 @@ def _plain(written: str) -> str | Fault:
             return re.sub(r"[^-+\d]", "", match[1]) + f".{match[2] or ''}{e}{exponent}"
     match = _WITH_COMMA.fullmatch(mantissa)
     if match and len(match[2]) == 3 and match[1].strip("+-0"):
-        one, other = f"{match[1]}{match[2]}", f"{match[1]}.{match[2]}"
-        return Fault("", "could be two numbers", written, f"write {one} or {other}")
+        thousands, fraction = f"{match[1]}{match[2]}", f"{match[1]}.{match[2].rstrip('0') or '0'}"
+        return Fault("", "could be two numbers", written, f"write {thousands} for thousands, {fraction} for a decimal")
     if match and (match[1] or match[2]):
         return f"{match[1]}.{match[2]}{e}{exponent}"
     if _PLAIN.fullmatch(mantissa):

@@ -1,8 +1,8 @@
 """Usual ranges: values that are possible, and that no ball screw has.
 
 Bounds that cannot be exceeded and usual ranges stand in the one annotation of a quantity
-(:class:`~ballscrew.quantities.Info`). The first are refused; outside the second, values are computed. Each is named in
-a record of the result, and at once, as a warning of Python, where a program makes a part of plain numbers.
+(:class:`~ballscrew.basis.quantities.Info`). The first are refused; outside the second, values are computed. Each is
+named in a record of the result, and at once, as a warning of Python, where a program makes a part of plain numbers.
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.errors import ImplausibleInput, is_concrete, shown_in_si
-from ballscrew.quantities import Quantity, fields_of, quantities_of
-from ballscrew.records import Measured, Message, Record
+from ballscrew.basis.errors import ImplausibleInput, is_concrete, shown_in_si
+from ballscrew.basis.quantities import Quantity, fields_of, quantities_of
+from ballscrew.basis.records import Measured, Message, Record
 
 #: The id of the warning, whose last part is its name.
 IMPLAUSIBLE = "inputs.implausible"
@@ -43,7 +43,7 @@ def unusual(section: str, part: Any) -> list[Record]:
 
 
 def warn_at_once(section: str, part: Any, also: Callable[[Any], Sequence[Record]] | None = None) -> None:
-    """Warn (:class:`~ballscrew.errors.ImplausibleInput`) of a part whose plain numbers no ball screw has.
+    """Warn (:class:`~ballscrew.basis.errors.ImplausibleInput`) of a part whose plain numbers no ball screw has.
 
     ``also`` gives further records of the part. Nothing is said of arrays, nor of parts that this package makes: it
     says so in the records of its results.

@@ -1,1 +1,4 @@
-"""The model handed over to simulators, robots and controls: one module per target, each with its worst error."""
+"""The model in other programs: programs and tables in rooms of their own, the parts that all targets share here.
+
+May import ``cases`` and below. Start with ``targets``: a new target is a line there.
+"""

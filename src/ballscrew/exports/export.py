@@ -8,11 +8,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+from ballscrew.basis.atomic_files import atomic_write, check_writable
+from ballscrew.basis.quantities import Quantity
+from ballscrew.basis.records import Record
 from ballscrew.exports.subject import TEMPERATURE, HandOver
 from ballscrew.exports.worst_error import WorstError
-from ballscrew.files import atomic_write, check_writable
-from ballscrew.quantities import Quantity
-from ballscrew.records import Record
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -31,6 +31,7 @@ class Export:
     measured_range: Mapping[str, tuple[float, float]] = dataclasses.field(
         default_factory=dict[str, tuple[float, float]]
     )
+    #: Warnings of the model and of the target.
     warnings: tuple[Record, ...] = ()
     #: Version, model, sources, and all inputs with their values.
     provenance: Mapping[str, Any] = dataclasses.field(default_factory=dict[str, Any])
@@ -48,7 +49,11 @@ class Export:
         worst_error: Sequence[WorstError],
         warnings: Sequence[Record] = (),
     ) -> Export:
-        """An export of a model, with its provenance and the warnings that every target has."""
+        """An export of the model ``handed`` over, with its provenance and the warnings that every target has.
+
+        ``target``, ``files``, ``valid_range`` and ``worst_error`` are the fields of these names; ``warnings`` are
+        further ones.
+        """
         return cls(
             target=target,
             files=files,
@@ -61,10 +66,10 @@ class Export:
         )
 
     def write(self, directory: str | Path) -> list[Path]:
-        """Write all files into a folder, which is made where there is none; return their paths.
+        """Write all files into the folder ``directory``, which is made where there is none; return their paths.
 
         All of them are written whole, or none. Raises
-        :class:`~ballscrew.errors.InputError` for a place that cannot be written.
+        :class:`~ballscrew.basis.errors.InputError` for a place that cannot be written.
         """
         places = {Path(directory) / PurePosixPath(name): content for name, content in self.files.items()}
         for path in places:

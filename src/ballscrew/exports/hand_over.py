@@ -7,18 +7,18 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, InputError, accepts_units, nearest, raise_if_any, si_value
-from ballscrew.evaluation.outputs import OPERATION, known_outputs
-from ballscrew.evaluation.plan import Configuration
+from ballscrew.basis.errors import Fault, InputError, accepts_units, nearest, raise_if_any, si_value
+from ballscrew.basis.quantities import Quantity, within_bounds
+from ballscrew.engine.evaluation.outputs import OPERATION, known_outputs
+from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.exports import subject as subjects
 from ballscrew.exports.export import Export
 from ballscrew.exports.subject import PRELOADS, TEMPERATURE, HandOver, Input, usual_range
 from ballscrew.exports.targets import Option, export_of, options_of, target_module
-from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.validity import LARGEST_PRESSURE
-from ballscrew.quantities import Quantity, within_bounds
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.validity import LARGEST_PRESSURE
 
 #: Speeds of tables and fits, rad/s: both directions up to 2865 rpm, where most ball screws stop.
 SPEEDS = (-300.0, 300.0)
@@ -45,6 +45,9 @@ def hand_over(
 ) -> Export:
     """Hand a model over to another program: the files of a target, their range, and their worst error.
 
+    Returns an :class:`~ballscrew.exports.export.Export` of ``model`` on ``screw`` with ``lubricant`` for the target
+    ``to``, one of :data:`~ballscrew.exports.targets.TARGETS`.
+
     The inputs of every export are ``axial_load``, ``screw_speed`` and ``temperature`` with their signs and in SI, the
     ``preload`` of a nut that has one, and the ``parameters`` named, which may be any inputs of a sweep, such as
     ``friction.boundary_friction_coefficient``. All else is as given here. The outputs are ``screw_torque``,
@@ -56,8 +59,8 @@ def hand_over(
     either way, 283.15 K to 353.15 K, and half to one and a half times each other value. Beyond its range an export
     takes the nearest value, and its ``valid`` is 0. ``options`` are choices of the target.
 
-    Raises :class:`~ballscrew.errors.InputError` for unknown targets, names and options, bad ranges, and a model that
-    the target cannot take, with what to do instead.
+    Raises :class:`~ballscrew.basis.errors.InputError` for unknown targets, names and options, bad ranges, and a model
+    that the target cannot take, with what to do instead.
     """
     found = handed(
         model,

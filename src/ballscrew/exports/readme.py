@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ballscrew.components.materials import OF_A_GRADE
 from ballscrew.exports.subject import HandOver
 from ballscrew.exports.worst_error import WorstError
-from ballscrew.friction.validity import NUT_REASONS
+from ballscrew.physics.components.materials import OF_A_GRADE
+from ballscrew.physics.friction.validity import NUT_REASONS
 
 _SIGNS = """\
 Signs: axial_load > 0 is the load that a positive screw_speed lifts. screw_torque is the size of the friction;

@@ -6,11 +6,11 @@ import dataclasses
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from ballscrew import units
-from ballscrew.cases import provenance
-from ballscrew.cases.case import Case
-from ballscrew.errors import Fault, InputError, nearest, raise_if_any
-from ballscrew.evaluation.plan import Configuration
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
+from ballscrew.cases.case_files import provenance
+from ballscrew.cases.case_files.case import Case
+from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.exports.export import Export
 from ballscrew.exports.hand_over import hand_over
 from ballscrew.exports.subject import ANY_TEMPERATURE, TEMPERATURE
@@ -28,14 +28,14 @@ class Request(NamedTuple):
 
 
 def check_target(name: str) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` for an unknown target, with the list of them."""
+    """Raise :class:`~ballscrew.basis.errors.InputError` for an unknown target, with the list of them."""
     target_module(name)
 
 
 def of_case(case: Case, to: str, request: Request) -> Export:
     """The export of a case; its provenance is that of the case.
 
-    Raises :class:`~ballscrew.errors.InputError` as :func:`~ballscrew.exports.hand_over.hand_over` does, and for
+    Raises :class:`~ballscrew.basis.errors.InputError` as :func:`~ballscrew.exports.hand_over.hand_over` does, and for
     text that cannot be read.
     """
     if case.efficiency is not None:

@@ -10,19 +10,19 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew._version import __version__
-from ballscrew.errors import Fault, InputError
-from ballscrew.evaluation.derivatives import slope_name
-from ballscrew.evaluation.evaluator import Evaluator, evaluator
-from ballscrew.evaluation.outputs import OPERATION, Output, known_outputs
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.quantities import Info, Quantity
-from ballscrew.records import Message, Record
-from ballscrew.references import citations_of
-from ballscrew.tracing.gradient import UnknownDerivativeError, partials
-from ballscrew.tracing.merging import merged_program
-from ballscrew.tracing.program import Program
-from ballscrew.tracing.tape import CannotRecordError, Tape
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.quantities import Info, Quantity
+from ballscrew.basis.records import Message, Record
+from ballscrew.basis.references import citations_of
+from ballscrew.basis.version import __version__
+from ballscrew.compiler.tracing.gradient import UnknownDerivativeError, partials
+from ballscrew.compiler.tracing.merging import merged_program
+from ballscrew.compiler.tracing.program import Program
+from ballscrew.compiler.tracing.tape import CannotRecordError, Tape
+from ballscrew.engine.evaluation.derivatives import slope_name
+from ballscrew.engine.evaluation.evaluator import Evaluator, evaluator
+from ballscrew.engine.evaluation.outputs import OPERATION, Output, known_outputs
+from ballscrew.engine.evaluation.plan import Configuration
 
 T = TypeVar("T")
 
@@ -36,8 +36,8 @@ _OF_RANGE = Message(
     "so where the range of the inputs starves the most; [model] inlet.replenishment_constant = 0 hands over the full "
     "bath"
 )
-#: Shares of the largest load and speed of the range at which starvation is looked for.
-_SOME = np.array([0.1, 1.0])
+#: Shares of the largest load and of the largest speed of the range at which starvation is looked for.
+_SHARES = {OPERATION[0]: np.array([0.0, 0.1, 1.0]), OPERATION[1]: np.array([0.1, 1.0])}
 #: The outputs of every export: they are finite wherever the model holds.
 OUTPUTS = ("screw_torque", "drive_torque", "ideal_torque", "holding_torque", "friction_power", "valid")
 #: Temperatures of a fixed oil, K.
@@ -127,7 +127,7 @@ class HandOver:
     def starvation(self) -> Sequence[Record]:
         """The record of a range in which the model is starved of oil: an export has the inlet as the case gives it."""
         ranges = self.working_range
-        ends: dict[str, Any] = {name: np.max(np.abs(ranges[name])) * _SOME for name in OPERATION[:2]}
+        ends: dict[str, Any] = {name: np.max(np.abs(ranges[name])) * some for name, some in _SHARES.items()}
         if self.has_effect[TEMPERATURE]:
             ends[TEMPERATURE] = np.array(ranges[TEMPERATURE])
         every = (one.reshape(-1) for one in np.meshgrid(*ends.values(), indexing="ij"))
@@ -137,7 +137,7 @@ class HandOver:
     def program(self) -> Program:
         """The recorded model: inputs in their order, an output for each name. It neither clamps nor checks ranges.
 
-        Raises :class:`~ballscrew.errors.InputError` for a model that cannot be recorded as one list of steps.
+        Raises :class:`~ballscrew.basis.errors.InputError` for a model that cannot be recorded as one list of steps.
         """
         tape = Tape(len(self.inputs), None, [self._is_nonnegative(one.name) for one in self.inputs])
         points = {n: tape.value(i) for i, n in enumerate(self.input_names) if self.has_effect[n]}

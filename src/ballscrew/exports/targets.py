@@ -1,7 +1,7 @@
 """The targets by name, each in a module of its own that is loaded when it is asked for.
 
-A new target is a module of this room with ``export(handed: HandOver) -> Export``, perhaps with its choices as
-``OPTIONS``, with what a case says of them as ``options_of_case(case)``, and a line here.
+A new target is a module of ``programs`` or ``tables`` with ``export(handed: HandOver) -> Export``, perhaps with its
+choices as ``OPTIONS``, with what a case says of them as ``options_of_case(case)``, and a line here.
 """
 
 from __future__ import annotations
@@ -10,17 +10,17 @@ import importlib
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
-from ballscrew.cases.case import Case
-from ballscrew.errors import Fault, InputError, closest
+from ballscrew.basis.errors import Fault, InputError, closest
+from ballscrew.basis.quantities import Quantity
+from ballscrew.cases.case_files.case import Case
 from ballscrew.exports.export import Export
 from ballscrew.exports.subject import HandOver
-from ballscrew.quantities import Quantity
 
-_ROOM = __name__.rpartition(".")[0]
+_FOLDER = __name__.rpartition(".")[0]
 
 
 class Target(NamedTuple):
-    """A target: the module that makes its export, of this room or ``.room.module``, and a few words for people."""
+    """A target: the module that makes its export, as ``room.module``, and a few words for people."""
 
     module: str
     meaning: str
@@ -35,27 +35,27 @@ class Option(NamedTuple):
 
 
 TARGETS: Mapping[str, Target] = {
-    "c": Target("c99", "C99 source of the model, with libm only"),
-    "table": Target(".table_exports.table", "table over load and speed: CSV, JSON, NetCDF, Parquet"),
-    "modelica": Target(".table_exports.modelica", "Modelica component with the interfaces of its standard library"),
-    "matlab": Target(".table_exports.matlab", "table as .mat with a function, and a component of Simscape"),
-    "linuxcnc": Target(".table_exports.linuxcnc", "HAL file with the friction over speed, for lincurve"),
-    "beckhoff": Target(".table_exports.beckhoff", "friction table of TwinCAT CNC and of ISG-kernel"),
-    "drive": Target(".table_exports.drive", "friction over speed as a few points, for the characteristic of a drive"),
-    "program": Target("program", "the model as data, with an interpreter in C that is prebuilt for Linux"),
-    "fmu": Target("fmu", "FMU 2.0 or 3.0, co-simulation and model exchange"),
-    "mujoco": Target("mujoco", "joint parameters and an engine plugin for MuJoCo"),
-    "urdf": Target("urdf", "friction of a joint in URDF, SDF and USD"),
+    "c": Target("programs.c99", "C99 source of the model, with libm only"),
+    "table": Target("tables.table", "table over load and speed: CSV, JSON, NetCDF, Parquet"),
+    "modelica": Target("tables.modelica", "Modelica component with the interfaces of its standard library"),
+    "matlab": Target("tables.matlab", "table as .mat with a function, and a component of Simscape"),
+    "linuxcnc": Target("tables.linuxcnc", "HAL file with the friction over speed, for lincurve"),
+    "beckhoff": Target("tables.beckhoff", "friction table of TwinCAT CNC and of ISG-kernel"),
+    "drive": Target("tables.drive", "friction over speed as a few points, for the characteristic of a drive"),
+    "program": Target("programs.program", "the model as data, with an interpreter in C that is prebuilt for Linux"),
+    "fmu": Target("programs.fmu", "FMU 2.0 or 3.0, co-simulation and model exchange"),
+    "mujoco": Target("programs.mujoco", "joint parameters and an engine plugin for MuJoCo"),
+    "urdf": Target("programs.urdf", "friction of a joint in URDF, SDF and USD"),
 }
 
 
 def target_module(name: str) -> Any:
-    """The module of a target. Raises :class:`~ballscrew.errors.InputError` for an unknown one."""
+    """The module of a target. Raises :class:`~ballscrew.basis.errors.InputError` for an unknown one."""
     if name not in TARGETS:
         meant = closest(name, TARGETS)
         remedy = (f'did you mean "{meant}"? ' if meant else "") + f"known: {', '.join(TARGETS)}"
         raise InputError(Fault("hand_over.to", "unknown target", str(name), remedy))
-    return importlib.import_module(f".{TARGETS[name].module}", _ROOM)
+    return importlib.import_module(f".{TARGETS[name].module}", _FOLDER)
 
 
 def export_of(name: str) -> Callable[[HandOver], Export]:

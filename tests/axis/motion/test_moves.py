@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 import ruckig
 
-from ballscrew.errors import InputError
-from ballscrew.motion.moves import move, timing
-from ballscrew.motion.profiles import SCurve, Segment, Segments, Sine, Trapezoid
-from ballscrew.motion.states import states_of
+from ballscrew.axis.motion.moves import move, timing
+from ballscrew.axis.motion.profiles import SCurve, Segment, Segments, Sine, Trapezoid
+from ballscrew.axis.motion.states import states_of
+from ballscrew.basis.errors import InputError
 
 
 def planned(distance, speed, acceleration, jerk):

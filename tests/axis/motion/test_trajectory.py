@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from ballscrew._arrays import compact
-from ballscrew.axis.axis import Axis
-from ballscrew.axis.duty import duty
-from ballscrew.errors import InputError
-from ballscrew.motion.profiles import Trapezoid
-from ballscrew.motion.trajectory import Trajectory
+from ballscrew.axis.duty_cycle.axis import Axis
+from ballscrew.axis.duty_cycle.duty import duty
+from ballscrew.axis.motion.profiles import Trapezoid
+from ballscrew.axis.motion.trajectory import Trajectory
+from ballscrew.basis.arrays import compact
+from ballscrew.basis.errors import InputError
 
 STEP = 1e-3
 MOVE = Trapezoid(stroke=0.2, speed=0.5, acceleration=5.0, dwell=0.1)

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from ballscrew.supports import formulas
+from ballscrew.axis.supports import formulas
 
 #: A bearing 7205 in the units of the catalogue: mm, N, rpm, mm²/s.
 BORE, OUTSIDE, LOAD, SPEED, VISCOSITY = 25.0, 52.0, 1560.0, 1000.0, 68.0

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.sizing.checks import mean_load
-from ballscrew.supports import formulas
-from ballscrew.supports.table import CarriedMass, GuidedTable
+from ballscrew.axis.supports import formulas
+from ballscrew.axis.supports.table import CarriedMass, GuidedTable
+from ballscrew.physics.sizing.checks import mean_load
 
 #: PMI2008. Known are the numbers and the results; what each length is, and the stroke of 1500 mm, was found by them:
 #: l1 and l2 the spacings, l3 and l4 where the 700 kg are, l6 and l5 how high the 700 kg and the 450 kg are.

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.supports.makers_bearing import PalmgrenBearing, SKFBearing
+from ballscrew.axis.supports.makers_bearing import PalmgrenBearing, SKFBearing
 
 SIZES = {"bore": 0.025, "outside_diameter": 0.052}
 OIL = bs.Lubricant.from_grade("ISO VG 68")

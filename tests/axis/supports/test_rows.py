@@ -3,8 +3,8 @@
 import pytest
 
 import ballscrew as bs
-from ballscrew.references import bibliography
-from ballscrew.supports.rows import guide_rows, support_units
+from ballscrew.axis.supports.rows import guide_rows, support_units
+from ballscrew.basis.references import bibliography
 
 
 @pytest.mark.parametrize(

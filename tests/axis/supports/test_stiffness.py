@@ -8,10 +8,10 @@ import pytest
 from scipy.optimize import brentq
 
 import ballscrew as bs
-from ballscrew.sizing.installation import Ends, Installation
-from ballscrew.supports.rows import support_units
-from ballscrew.supports.shaft_on_supports import buckling_root, whirling_root
-from ballscrew.supports.stiffness import stiffness_over_stroke
+from ballscrew.axis.supports.rows import support_units
+from ballscrew.axis.supports.shaft_on_supports import buckling_root, whirling_root
+from ballscrew.axis.supports.stiffness import stiffness_over_stroke
+from ballscrew.physics.sizing.installation import Ends, Installation
 
 ROW = bs.catalogue()["rexroth-40x10x6-6-double"]
 SCREW = ROW.screw(nut=bs.DoubleNut(preload=3605.0))

@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.axis.axis import Axis
-from ballscrew.axis.duty import duty
-from ballscrew.motion.profiles import Segment, Segments
-from ballscrew.thermal.friction_map import friction_map
-from ballscrew.thermal.marching import Slot, marched
-from ballscrew.thermal.moving_source import Itinerary, itinerary_of
-from ballscrew.thermal.network import network_of, nut_length_of
-from ballscrew.thermal.shaft import CAPACITY, CONDUCTIVITY, DENSITY
-from ballscrew.thermal.warm_up import warm_up
+from ballscrew.axis.duty_cycle.axis import Axis
+from ballscrew.axis.duty_cycle.duty import duty
+from ballscrew.axis.motion.profiles import Segment, Segments
+from ballscrew.axis.thermal.friction_map import friction_map
+from ballscrew.axis.thermal.marching import Slot, marched
+from ballscrew.axis.thermal.moving_source import Itinerary, itinerary_of
+from ballscrew.axis.thermal.network import network_of, nut_length_of
+from ballscrew.axis.thermal.shaft import CAPACITY, CONDUCTIVITY, DENSITY
+from ballscrew.axis.thermal.warm_up import warm_up
 
 ROW = bs.catalogue()["rexroth-40x10x6-6-double"]
 SCREW = ROW.screw(nut=bs.DoubleNut(preload=3500.0))
@@ -74,7 +74,7 @@ def test_the_profile_that_travels_with_the_nut(creeping, monkeypatch):
     assert behind < 1e-3
     coarse = []
     for slots in (2.0, 4.0):
-        monkeypatch.setattr("ballscrew.thermal.moving_source.PER_NUT_LENGTH", slots)
+        monkeypatch.setattr("ballscrew.axis.thermal.moving_source.PER_NUT_LENGTH", slots)
         coarse.append(errors()[1])
     assert np.log2(coarse[0] / coarse[1]) > 1.8
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.errors import InputError
-from ballscrew.supports.makers_bearing import KnownBearing
-from ballscrew.supports.mounted_bearing import MountedBearing
-from ballscrew.thermal.warm_sweep import HEAT
+from ballscrew.axis.supports.makers_bearing import KnownBearing
+from ballscrew.axis.supports.mounted_bearing import MountedBearing
+from ballscrew.axis.thermal.warm_sweep import HEAT
+from ballscrew.basis.errors import InputError
 
 SCREW = bs.catalogue()["rexroth-40x10x6-6-double"].screw(nut=bs.DoubleNut(preload=3500.0))
 OIL = bs.Lubricant.from_grade("ISO VG 100", 293.15)

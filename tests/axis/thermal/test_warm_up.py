@@ -7,15 +7,15 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.axis.axis import Axis
-from ballscrew.axis.duty import duty
-from ballscrew.errors import InputError
-from ballscrew.motion.profiles import Segment, Segments
-from ballscrew.supports.makers_bearing import KnownBearing
-from ballscrew.supports.mounted_bearing import MountedBearing
-from ballscrew.thermal.network import steady
-from ballscrew.thermal.surroundings import STILL, Surroundings
-from ballscrew.thermal.warm_up import warm_up
+from ballscrew.axis.duty_cycle.axis import Axis
+from ballscrew.axis.duty_cycle.duty import duty
+from ballscrew.axis.motion.profiles import Segment, Segments
+from ballscrew.axis.supports.makers_bearing import KnownBearing
+from ballscrew.axis.supports.mounted_bearing import MountedBearing
+from ballscrew.axis.thermal.network import steady
+from ballscrew.axis.thermal.surroundings import STILL, Surroundings
+from ballscrew.axis.thermal.warm_up import warm_up
+from ballscrew.basis.errors import InputError
 
 ROW = bs.catalogue()["rexroth-40x10x6-6-double"]
 OIL = bs.Lubricant.from_grade("ISO VG 100", 293.15)
@@ -44,7 +44,7 @@ def test_generated_is_stored_and_lost(found):
 
 
 def test_the_end_is_the_equilibrium(monkeypatch):
-    monkeypatch.setattr("ballscrew.thermal.warm_up.RTOL", 1e-9)
+    monkeypatch.setattr("ballscrew.axis.thermal.warm_up.RTOL", 1e-9)
     long = warm_up(to_and_fro(1000), PLAIN, time=40 * 3600.0, outputs=5)
     end = long.equilibrium
     assert end.exists

@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.errors import InputError
-from ballscrew.thermal import warm_up_band as module
-from ballscrew.thermal.equilibrium import equilibrium
-from ballscrew.thermal.marching import Piece, Slot, marched
-from ballscrew.thermal.modes import functions
-from ballscrew.thermal.network import FrictionFactor
-from ballscrew.thermal.surroundings import VARIED
-from ballscrew.thermal.warm_up import warm_up
-from ballscrew.thermal.warm_up_band import sampled, warm_up_band
+from ballscrew.axis.thermal import warm_up_band as module
+from ballscrew.axis.thermal.equilibrium import equilibrium
+from ballscrew.axis.thermal.marching import Piece, Slot, marched
+from ballscrew.axis.thermal.modes import functions
+from ballscrew.axis.thermal.network import FrictionFactor
+from ballscrew.axis.thermal.surroundings import VARIED
+from ballscrew.axis.thermal.warm_up import warm_up
+from ballscrew.axis.thermal.warm_up_band import sampled, warm_up_band
+from ballscrew.basis.errors import InputError
 
 SCREW = bs.catalogue()["rexroth-40x10x6-6-double"].screw(nut=bs.DoubleNut(preload=3500.0))
 OIL = bs.Lubricant.from_grade("ISO VG 100", 293.15)
@@ -73,8 +73,8 @@ def test_steps_are_of_second_order(central, monkeypatch):
     instants = np.linspace(0.0, 600.0, 6)
 
     def after(steps):
-        monkeypatch.setattr("ballscrew.thermal.marching.PER_NUT", steps)
-        monkeypatch.setattr("ballscrew.thermal.marching.PER_TIME", 1e9)
+        monkeypatch.setattr("ballscrew.axis.thermal.marching.PER_NUT", steps)
+        monkeypatch.setattr("ballscrew.axis.thermal.marching.PER_TIME", 1e9)
         return list(marched([slot], pieces(instants), start))[-1].temperatures[0, -3]
 
     exact = after(256.0)

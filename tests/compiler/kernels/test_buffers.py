@@ -9,8 +9,8 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from ballscrew.kernels import buffers
-from ballscrew.kernels.buffers import ALIGNMENT, HUGE_PAGE, LEAST_KEPT, aligned_array
+from ballscrew.compiler.kernels import buffers
+from ballscrew.compiler.kernels.buffers import ALIGNMENT, HUGE_PAGE, LEAST_KEPT, aligned_array
 
 needs_pieces = pytest.mark.skipif(not buffers._MAY_BE_KEPT, reason="this system cannot take memory back by itself")
 LARGE = LEAST_KEPT // 8
@@ -117,7 +117,7 @@ def test_a_child_begins_with_nothing():
     """In a process of its own, as other libraries warn of a fork in this one."""
     program = (
         "import os\n"
-        "from ballscrew.kernels import buffers\n"
+        "from ballscrew.compiler.kernels import buffers\n"
         f"array = buffers.aligned_array({LARGE}, float)\n"
         "del array\n"
         "assert buffers._kept\n"

@@ -4,7 +4,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from ballscrew.kernels import elementary
+from ballscrew.compiler.kernels import elementary
 from support.small_kernels import recorded, run
 
 pytestmark = pytest.mark.compiles

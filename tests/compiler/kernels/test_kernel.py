@@ -8,12 +8,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ballscrew.kernels import kernel as kernels
-from ballscrew.kernels.buffers import aligned_array
-from ballscrew.kernels.emission import UnknownOperationError, kernel_text
-from ballscrew.kernels.kernel import Kernel
-from ballscrew.tracing.program import Program
-from ballscrew.tracing.tape import Tape
+from ballscrew.compiler.kernels import kernel as kernels
+from ballscrew.compiler.kernels.buffers import aligned_array
+from ballscrew.compiler.kernels.emission import UnknownOperationError, kernel_text
+from ballscrew.compiler.kernels.kernel import Kernel
+from ballscrew.compiler.tracing.program import Program
+from ballscrew.compiler.tracing.tape import Tape
 from support.expressions import EXPRESSIONS
 from support.small_kernels import compiled, played, recorded, run, text_of
 

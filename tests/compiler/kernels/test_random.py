@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from ballscrew.kernels import random
-from ballscrew.kernels.emission import kernel_text
-from ballscrew.kernels.kernel import Kernel
-from ballscrew.tracing.program import Program
-from ballscrew.tracing.tape import (
+from ballscrew.compiler.kernels import random
+from ballscrew.compiler.kernels.emission import kernel_text
+from ballscrew.compiler.kernels.kernel import Kernel
+from ballscrew.compiler.tracing.program import Program
+from ballscrew.compiler.tracing.tape import (
     Tape,
 )
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ballscrew.kernels.sketch import RELATIVE_ERROR, UNIT, Sketch
+from ballscrew.compiler.kernels.sketch import RELATIVE_ERROR, UNIT, Sketch
 
 TINY = 2.2250738585072014e-308
 SHARES = (0.0, 0.025, 0.3, 0.5, 0.975, 1.0)

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from ballscrew.kernels.buffers import aligned_array
-from ballscrew.kernels.emission import kernel_text
-from ballscrew.kernels.kernel import Kernel
-from ballscrew.kernels.watched import WatchedKernel
-from ballscrew.tracing.program import Program
-from ballscrew.tracing.tape import Tape
+from ballscrew.compiler.kernels.buffers import aligned_array
+from ballscrew.compiler.kernels.emission import kernel_text
+from ballscrew.compiler.kernels.kernel import Kernel
+from ballscrew.compiler.kernels.watched import WatchedKernel
+from ballscrew.compiler.tracing.program import Program
+from ballscrew.compiler.tracing.tape import Tape
 
 pytestmark = pytest.mark.compiles
 

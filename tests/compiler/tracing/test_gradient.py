@@ -4,9 +4,9 @@ import mpmath
 import numpy as np
 import pytest
 
-from ballscrew.tracing.gradient import UnknownDerivativeError, partials
-from ballscrew.tracing.program import Program
-from ballscrew.tracing.tape import Tape
+from ballscrew.compiler.tracing.gradient import UnknownDerivativeError, partials
+from ballscrew.compiler.tracing.program import Program
+from ballscrew.compiler.tracing.tape import Tape
 from support.small_kernels import played
 
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from ballscrew.tracing.merging import merged_program
-from ballscrew.tracing.program import Program
-from ballscrew.tracing.tape import Tape
+from ballscrew.compiler.tracing.merging import merged_program
+from ballscrew.compiler.tracing.program import Program
+from ballscrew.compiler.tracing.tape import Tape
 from support.small_kernels import played
 
 RNG = np.random.default_rng(4)

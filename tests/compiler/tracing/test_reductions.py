@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from ballscrew.tracing.grid import split
-from ballscrew.tracing.program import Program
-from ballscrew.tracing.reductions import cut_at_reductions, reduced
-from ballscrew.tracing.steps import COLUMNS, ROWS
-from ballscrew.tracing.tape import CannotRecordError, Tape
+from ballscrew.compiler.tracing.grid import split
+from ballscrew.compiler.tracing.program import Program
+from ballscrew.compiler.tracing.reductions import cut_at_reductions, reduced
+from ballscrew.compiler.tracing.steps import COLUMNS, ROWS
+from ballscrew.compiler.tracing.tape import CannotRecordError, Tape
 
 GROUPS = [COLUMNS, ROWS | COLUMNS]
 SPEED, LOAD = np.array([2.0, 3.0, 5.0, 7.0]), np.arange(12.0).reshape(3, 4) % 5

@@ -5,10 +5,10 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
-from ballscrew.evaluation.axes import BLOCK, ends
-from ballscrew.evaluation.evaluation import Evaluation
-from ballscrew.evaluation.plan import LONG_AXIS, Configuration, Plan
-from ballscrew.papers.olaru2005 import OIL, SCREW
+from ballscrew.engine.evaluation.axes import BLOCK, ends
+from ballscrew.engine.evaluation.evaluation import Evaluation
+from ballscrew.engine.evaluation.plan import LONG_AXIS, Configuration, Plan
+from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 
 
 @pytest.mark.parametrize("shape", [(), (1,), (1000,), (3 * BLOCK + 7,), (3, BLOCK + 1)])

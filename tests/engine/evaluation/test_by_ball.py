@@ -9,11 +9,11 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
-from ballscrew.evaluation.by_ball import ENOUGH_TO_RECORD
-from ballscrew.evaluation.evaluation import Evaluation
-from ballscrew.evaluation.outputs import known_outputs
-from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.friction.loaded_balls import loads_of
+from ballscrew.engine.evaluation.by_ball import ENOUGH_TO_RECORD
+from ballscrew.engine.evaluation.evaluation import Evaluation
+from ballscrew.engine.evaluation.outputs import known_outputs
+from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.physics.friction.loaded_balls import loads_of
 
 OIL = bs.Lubricant.from_grade("ISO VG 100", 313.15)
 OLARU, REFERENCE = bs.FrictionModel.olaru2005(), bs.FrictionModel.reference()
@@ -128,7 +128,7 @@ def test_the_kernel_of_the_chain_takes_the_same_steps(kind):
 @pytest.mark.parametrize(("swelling", "slower"), [(False, "chain_balance"), (True, "widened_balance")])
 def test_a_chain_that_needs_part_of_a_step_is_left_to_numpy(monkeypatch, swelling, slower):
     """Here all chains are."""
-    from ballscrew.solvers import compiled_chain
+    from ballscrew.physics.solvers import compiled_chain
 
     nut, slow = dataclasses.replace(NUTS["double"], bodies=bs.Bodies(swelling=swelling)), []
     screw, balance = screw_with(nut), getattr(compiled_chain, slower)

@@ -7,9 +7,9 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
-from ballscrew.evaluation.derivatives import derivatives
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.papers.olaru2005 import OIL, SCREW
+from ballscrew.engine.evaluation.derivatives import derivatives
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 
 MODELS = {
     "olaru2005": bs.FrictionModel.olaru2005(),

@@ -12,12 +12,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import ballscrew as bs
-from ballscrew.components import laws
-from ballscrew.evaluation.evaluation import Evaluation, rectangles
-from ballscrew.evaluation.outputs import known_outputs
-from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.kernels import kernel as kernels
-from ballscrew.papers.olaru2005 import OIL, SCREW
+from ballscrew.compiler.kernels import kernel as kernels
+from ballscrew.engine.evaluation.evaluation import Evaluation, rectangles
+from ballscrew.engine.evaluation.outputs import known_outputs
+from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
+from ballscrew.physics.components import laws
 
 MODELS = {
     "olaru2005": bs.FrictionModel.olaru2005(),
@@ -25,7 +25,7 @@ MODELS = {
     "corrected": bs.FrictionModel.corrected(),
     "reference": bs.FrictionModel.reference(),
 }
-EXAMPLE = Path(__file__).parents[2] / "examples" / "olaru2005.toml"
+EXAMPLE = Path(__file__).parents[3] / "examples" / "olaru2005.toml"
 
 #: Every kind of input, over ranges that reach beyond what is usual.
 RANGES = {
@@ -310,7 +310,7 @@ def test_a_single_run_loads_no_compiler():
     """Nor anything else that takes long to load."""
     program = (
         "import sys\n"
-        "from ballscrew.cli.main import main\n"
+        "from ballscrew.faces.cli.main import main\n"
         f"sys.argv = ['ballscrew', 'run', {str(EXAMPLE)!r}]\n"
         "try:\n    main()\nexcept SystemExit as end:\n    assert not end.code\n"
         "heavy = {'llvmlite', 'numba', 'jax', 'dask', 'distributed', 'pandas', 'matplotlib', 'zarr', 'scipy'}\n"

@@ -9,10 +9,10 @@ import pint
 import pytest
 
 import ballscrew as bs
-from ballscrew.components import laws
-from ballscrew.evaluation.derivatives import derivatives
-from ballscrew.evaluation.outputs import DEFAULT_OUTPUTS, known_outputs
-from ballscrew.papers.olaru2005 import OIL, SCREW
+from ballscrew.engine.evaluation.derivatives import derivatives
+from ballscrew.engine.evaluation.outputs import DEFAULT_OUTPUTS, known_outputs
+from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
+from ballscrew.physics.components import laws
 
 MODELS = {name: getattr(bs.FrictionModel, name)() for name in ("olaru2005", "corrected", "reference")}
 ENGINES = ["numpy", pytest.param("compiled", marks=pytest.mark.compiles)]

@@ -12,12 +12,12 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.equations import film
-from ballscrew.evaluation import evaluation as evaluations
-from ballscrew.evaluation.evaluation import Evaluation
-from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.papers.olaru2005 import OIL, SCREW
-from ballscrew.tracing.tape import CannotRecordError
+from ballscrew.compiler.tracing.tape import CannotRecordError
+from ballscrew.engine.evaluation import evaluation as evaluations
+from ballscrew.engine.evaluation.evaluation import Evaluation
+from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
+from ballscrew.physics.equations import film
 
 POINTS = {"axial_load": [500.0, 2000.0], "screw_speed": 30.0}
 MODEL = bs.FrictionModel.olaru2005()
@@ -299,9 +299,9 @@ IN_ANOTHER_PROCESS = """
 import dataclasses, sys
 import numpy as np
 import ballscrew as bs
-from ballscrew.evaluation.evaluation import Evaluation
-from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.papers.olaru2005 import OIL, SCREW
+from ballscrew.engine.evaluation.evaluation import Evaluation
+from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 
 NAMES = {"dry", "mixed", "full film", "boundary"}
 TABLE = {name: 0.1 for name in NAMES}
@@ -319,7 +319,7 @@ model = dataclasses.replace(bs.FrictionModel.reference(), friction=Law())
 points = {"axial_load": [500.0, 2000.0], "screw_speed": 30.0}
 double = dataclasses.replace(SCREW, nut=bs.DoubleNut(preload=1000.0, bodies=bs.Bodies()))
 if "late" in sys.argv:  # modules that are loaded already change nothing
-    import ballscrew.cli.main, ballscrew.uncertainty.bands
+    import ballscrew.faces.cli.main, ballscrew.engine.uncertainty.bands
 for subject in (
     Configuration(model, SCREW, OIL),
     Configuration(bs.FrictionModel.reference(), double, OIL),

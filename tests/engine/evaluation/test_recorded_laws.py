@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.components.traits import law_traits
-from ballscrew.evaluation.outputs import known_outputs
+from ballscrew.engine.evaluation.outputs import known_outputs
+from ballscrew.physics.components.traits import law_traits
 
 LAWS = {
     "the root of a square": lambda c: 0.1 * np.sqrt((c.film_parameter - 1) ** 2),

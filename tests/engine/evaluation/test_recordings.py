@@ -10,13 +10,13 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
-from ballscrew.components import laws
-from ballscrew.equations import film
-from ballscrew.evaluation import recordings
-from ballscrew.evaluation.outputs import OPERATION
-from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.evaluation.recordings import UnknownPartError, key_of
-from ballscrew.papers.olaru2005 import OIL, SCREW
+from ballscrew.engine.evaluation import recordings
+from ballscrew.engine.evaluation.outputs import OPERATION
+from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.engine.evaluation.recordings import UnknownPartError, key_of
+from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
+from ballscrew.physics.components import laws
+from ballscrew.physics.equations import film
 
 MODELS = {name: getattr(bs.FrictionModel, name)() for name in ("olaru2005", "corrected", "reference")}
 POINTS = {"axial_load": [100.0, 2000.0], "screw_speed": [0.0, 1.0, 60.0]}

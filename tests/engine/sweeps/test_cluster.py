@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.papers.olaru2005 import OIL, SCREW
-from ballscrew.sweeps import cluster as clusters
+from ballscrew.engine.sweeps import cluster as clusters
+from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 
 pytest.importorskip("zarr")
 distributed = pytest.importorskip("distributed")
@@ -234,12 +234,12 @@ def test_workers_that_see_another_disk_are_refused(client, tmp_path, monkeypatch
 
 
 def test_a_worker_with_a_full_disk_stops_the_sweep(client, tmp_path):
-    from ballscrew.sweeps.store import UnfinishedSweepError
+    from ballscrew.engine.sweeps.store import UnfinishedSweepError
 
     def full():
         import errno
 
-        from ballscrew.sweeps import store
+        from ballscrew.engine.sweeps import store
 
         def fsync(descriptor):
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
@@ -247,7 +247,7 @@ def test_a_worker_with_a_full_disk_stops_the_sweep(client, tmp_path):
         store.os.fsync, store.os.real_fsync = fsync, store.os.fsync
 
     def empty():
-        from ballscrew.sweeps import store
+        from ballscrew.engine.sweeps import store
 
         store.os.fsync = getattr(store.os, "real_fsync", store.os.fsync)
 

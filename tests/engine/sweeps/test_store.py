@@ -17,9 +17,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import ballscrew as bs
-from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.sweeps.store import UnfinishedSweepError
-from ballscrew.sweeps.store_plan import BLOCK_BYTES, Blocks
+from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.engine.sweeps.store import UnfinishedSweepError
+from ballscrew.engine.sweeps.store_plan import BLOCK_BYTES, Blocks
 from support.stores import AXES, KILLED, KILLED_BLOCKS, MODEL, blocks_of, files, started, stop_at, times
 
 pytest.importorskip("zarr")
@@ -177,7 +177,7 @@ def test_killed_in_the_middle_it_goes_on_where_it_was(tmp_path, monkeypatch):
 
 def test_killed_before_any_rename_it_goes_on(swept, tmp_path, monkeypatch):
     """Before each rename the folder is set aside as a kill at that moment would leave it; each goes on to the same."""
-    monkeypatch.setattr("ballscrew.sweeps.stream.WRITERS", 1)  # one rename at a time
+    monkeypatch.setattr("ballscrew.engine.sweeps.stream.WRITERS", 1)  # one rename at a time
     left = []
     replace = Path.replace
 

@@ -10,8 +10,8 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
-from ballscrew.evaluation.evaluation import Evaluation
-from ballscrew.sweeps.store_rows import cells_of, row
+from ballscrew.engine.evaluation.evaluation import Evaluation
+from ballscrew.engine.sweeps.store_rows import cells_of, row
 from support.stores import MODEL, SMALL, files, stop_at
 
 pytest.importorskip("zarr")
@@ -352,7 +352,7 @@ WRONG_PLANS = {
 
 @pytest.mark.parametrize("kind", WRONG_PLANS)
 def test_a_plan_without_an_entry_is_damaged_although_its_digest_fits(kind, complete, swept):
-    from ballscrew.sweeps.store_plan import read_sealed, sealed
+    from ballscrew.engine.sweeps.store_plan import read_sealed, sealed
 
     plan = complete / ".ballscrew" / "plan.json"
     document = read_sealed("plan", plan.read_text(encoding="utf-8")) | WRONG_PLANS[kind]
@@ -364,7 +364,7 @@ def test_a_plan_without_an_entry_is_damaged_although_its_digest_fits(kind, compl
 
 @pytest.mark.parametrize("layout", [{"zarr.json": 5}, {"zarr.json": [1, 2, 3]}, []])
 def test_a_layout_of_another_form_is_damaged_although_its_digest_fits(layout, complete):
-    from ballscrew.sweeps.store_plan import sealed
+    from ballscrew.engine.sweeps.store_plan import sealed
 
     (complete / ".ballscrew" / "layout.json").write_bytes(
         sealed("layout", layout).replace(b'"layout":{}', b'"layout":[]')
@@ -374,7 +374,7 @@ def test_a_layout_of_another_form_is_damaged_although_its_digest_fits(layout, co
 
 @pytest.mark.parametrize("number", [1, 2])
 def test_a_store_of_a_layout_before_is_refused(number, complete, swept):
-    from ballscrew.sweeps.store_plan import read_sealed, sealed
+    from ballscrew.engine.sweeps.store_plan import read_sealed, sealed
 
     plan = complete / ".ballscrew" / "plan.json"
     document = read_sealed("plan", plan.read_text(encoding="utf-8")) | {"format": number}

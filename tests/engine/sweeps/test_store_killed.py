@@ -21,7 +21,7 @@ SWEEP = """
 import sys
 import numpy as np
 import ballscrew as bs
-from ballscrew.papers.olaru2005 import OIL, SCREW
+from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 bs.sweep(
     bs.FrictionModel.olaru2005(), SCREW, OIL, outputs=["screw_torque", "efficiency", "valid"], to=sys.argv[1],
     block_size=40_000,

@@ -13,12 +13,12 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
-from ballscrew.evaluation.evaluation import Evaluation
-from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.kernels import kernel as kernels
-from ballscrew.sweeps import store as stores
-from ballscrew.sweeps.store import Store
-from ballscrew.sweeps.store_check import count_false
+from ballscrew.compiler.kernels import kernel as kernels
+from ballscrew.engine.evaluation.evaluation import Evaluation
+from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.engine.sweeps import store as stores
+from ballscrew.engine.sweeps.store import Store
+from ballscrew.engine.sweeps.store_check import count_false
 from support.stores import AXES, MODEL, SMALL, blocks_of, files, started, stop_at, times
 
 pytest.importorskip("zarr")
@@ -72,7 +72,7 @@ def test_other_fixed_inputs_laws_and_versions_are_refused(seed_screw, seed_oil, 
     mine = dataclasses.replace(MODEL, friction=friction)
     with pytest.raises(bs.InputError, match="holds another sweep"):
         bs.sweep(mine, seed_screw, seed_oil, to=path, **SMALL)
-    monkeypatch.setattr("ballscrew.sweeps.store_plan.__version__", "99.0")
+    monkeypatch.setattr("ballscrew.engine.sweeps.store_plan.__version__", "99.0")
     with pytest.raises(bs.InputError, match=r"version .*, not 99\.0"):
         bs.sweep(MODEL, seed_screw, seed_oil, to=path, **SMALL)
 
@@ -114,7 +114,7 @@ def test_the_values_of_a_law_count(seed_screw, seed_oil, tmp_path):
 
 def test_an_equation_of_the_package_counts(seed_screw, seed_oil, tmp_path, monkeypatch):
     """Of a nut whose balls differ, which is not recorded: one equation is changed under the same version."""
-    from ballscrew.equations import film
+    from ballscrew.physics.equations import film
 
     def swept():
         points = {"axial_load": [500.0, 1000.0], "screw_speed": 30.0}
@@ -238,7 +238,7 @@ def test_two_processes_do_not_write_into_one_store(swept, whole, tmp_path):
         end = time.monotonic() + 300
         while len(blocks_of(path)) < 2 and time.monotonic() < end:
             time.sleep(0.01)
-        from ballscrew.papers.olaru2005 import OIL, SCREW
+        from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 
         host = socket.gethostname()
         with pytest.raises(bs.InputError, match=rf"is being written by process {process.pid} on {host} .*lock"):

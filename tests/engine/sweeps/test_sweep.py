@@ -8,9 +8,9 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
-from ballscrew.evaluation.outputs import DEFAULT_OUTPUTS, inputs_of, known_outputs
-from ballscrew.friction.result import MECHANISMS
-from ballscrew.solvers.pure_rolling import curvature_slip
+from ballscrew.engine.evaluation.outputs import DEFAULT_OUTPUTS, inputs_of, known_outputs
+from ballscrew.physics.friction.result import MECHANISMS
+from ballscrew.physics.solvers.pure_rolling import curvature_slip
 
 RPM = math.pi / 30
 EVERYTHING = known_outputs()

@@ -12,21 +12,21 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.cases import case_file, uncertain_inputs
-from ballscrew.components.laws import ProportionalBallForce, imposed_ball_force
-from ballscrew.components.lubrication import houpert_rolling
-from ballscrew.components.mixed_friction import BalanSharing
-from ballscrew.errors import InputError
-from ballscrew.evaluation.comparison import Candidate
-from ballscrew.references import bibliography
-from ballscrew.studies import band as interface
-from ballscrew.thermal.surroundings import VARIED
-from ballscrew.uncertainty.bands import band, band_along
-from ballscrew.uncertainty.default_uncertainties import JUDGEMENT, default_distributions, default_uncertainties
-from ballscrew.uncertainty.distributions import LogNormal, Normal, Uniform
-from ballscrew.uncertainty.sampling import JointNormal
+from ballscrew.axis.thermal.surroundings import VARIED
+from ballscrew.basis.errors import InputError
+from ballscrew.basis.references import bibliography
+from ballscrew.cases.case_files import case_file, uncertain_inputs
+from ballscrew.engine.evaluation.comparison import Candidate
+from ballscrew.engine.uncertainty.bands import band, band_along
+from ballscrew.engine.uncertainty.default_uncertainties import JUDGEMENT, default_distributions, default_uncertainties
+from ballscrew.engine.uncertainty.distributions import LogNormal, Normal, Uniform
+from ballscrew.engine.uncertainty.sampling import JointNormal
+from ballscrew.physics.components.laws import ProportionalBallForce, imposed_ball_force
+from ballscrew.physics.components.lubrication import houpert_rolling
+from ballscrew.physics.components.mixed_friction import BalanSharing
+from ballscrew.questions.band import compute
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
+EXAMPLES = Path(__file__).parents[3] / "examples"
 POINT = {"axial_load": 4000.0, "screw_speed": 60.0}
 Z = 1.959963984540054
 ERRORS = 5
@@ -198,7 +198,7 @@ def test_independent_slots_against_all_combinations(example):
 
     own = torque(case.model)
     by_slot = {slot: [({}, 1.0)] for slot in ("friction", "rolling", "film", "full_film")}
-    for other in interface.alternatives(case):
+    for other in compute.alternatives(case):
         if other.slot in by_slot:
             law = {other.slot: getattr(other.model, other.slot)}
             by_slot[other.slot].append((law, torque(other.model) / own))
@@ -220,7 +220,7 @@ def test_independent_slots_against_all_combinations(example):
 def test_a_curve_goes_through_the_band(drive):
     inputs = {name: one.distribution for name, one in uncertain_inputs.all_of(drive).items()}
     options = {
-        "uncertain": inputs, "alternatives": interface.alternatives(drive), "samples": 256, "axial_load": 5000.0,
+        "uncertain": inputs, "alternatives": compute.alternatives(drive), "samples": 256, "axial_load": 5000.0,
         "screw_speed": 60.0,
     }  # fmt: skip
     subject = (drive.model, drive.screw, drive.lubricant)
@@ -238,7 +238,7 @@ def test_axes_have_the_band_of_each_point(drive):
     inputs = {name: one.distribution for name, one in uncertain_inputs.all_of(drive).items()}
     subject = (drive.model, drive.screw, drive.lubricant)
     options = {
-        "uncertain": inputs, "alternatives": interface.alternatives(drive), "samples": 128,
+        "uncertain": inputs, "alternatives": compute.alternatives(drive), "samples": 128,
         "outputs": ["screw_torque", "holding_torque"],
     }  # fmt: skip
     loads, leads = [1000.0, -3000.0, 5000.0], [0.01, 0.02]
@@ -332,8 +332,8 @@ def test_every_source_is_known_and_every_reason_said():
 
 def test_every_input_in_the_file_exists(seed_screw):
     """Each is an input of some model and a preloaded nut, so that no name is misspelt."""
-    from ballscrew.case_schema.schema import LAWS
-    from ballscrew.evaluation.outputs import inputs_of
+    from ballscrew.cases.schema.schema import LAWS
+    from ballscrew.engine.evaluation.outputs import inputs_of
 
     model = bs.FrictionModel.reference()
     oil = bs.Lubricant.from_grade("ISO VG 100")

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from ballscrew.errors import InputError
-from ballscrew.quantities import Info
-from ballscrew.tracing.program import Interpreter, Program
-from ballscrew.tracing.tape import Tape, Traced
-from ballscrew.uncertainty.distributions import (
+from ballscrew.basis.errors import InputError
+from ballscrew.basis.quantities import Info
+from ballscrew.compiler.tracing.program import Interpreter, Program
+from ballscrew.compiler.tracing.tape import Tape, Traced
+from ballscrew.engine.uncertainty.distributions import (
     LogNormal,
     Normal,
     Triangular,

@@ -14,10 +14,10 @@ import xarray as xr
 from scipy import stats
 
 import ballscrew as bs
-from ballscrew.kernels import random
-from ballscrew.kernels.sketch import RELATIVE_ERROR
-from ballscrew.uncertainty.distributions import LogNormal, Normal, Triangular, Uniform
-from ballscrew.uncertainty.monte_carlo import BLOCK, monte_carlo
+from ballscrew.compiler.kernels import random
+from ballscrew.compiler.kernels.sketch import RELATIVE_ERROR
+from ballscrew.engine.uncertainty.distributions import LogNormal, Normal, Triangular, Uniform
+from ballscrew.engine.uncertainty.monte_carlo import BLOCK, monte_carlo
 
 ERRORS = 5
 INPUTS = {

@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.errors import InputError
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.friction.model import (
+from ballscrew.basis.errors import InputError
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.uncertainty import sobol
+from ballscrew.engine.uncertainty.distributions import LogNormal, Normal, Triangular, Uniform
+from ballscrew.engine.uncertainty.sensitivity import METHODS, sensitivity
+from ballscrew.engine.uncertainty.sobol import sobol_indices
+from ballscrew.physics.friction.model import (
     FrictionModel,
 )
-from ballscrew.uncertainty import sobol
-from ballscrew.uncertainty.distributions import LogNormal, Normal, Triangular, Uniform
-from ballscrew.uncertainty.sensitivity import METHODS, sensitivity
-from ballscrew.uncertainty.sobol import sobol_indices
 from effect_study.cases import CATALOGUE
 
 #: The corrected model is recorded the faster; the reference model is for what people see.

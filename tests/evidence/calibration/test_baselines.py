@@ -3,7 +3,13 @@
 import numpy as np
 import pytest
 
-from ballscrew.calibration.baselines import STRIBECK_SHARES, Conditions, efficiency_pair, robust_linear, stribeck
+from ballscrew.evidence.calibration.baselines import (
+    STRIBECK_SHARES,
+    Conditions,
+    efficiency_pair,
+    robust_linear,
+    stribeck,
+)
 
 ROWS, ZERO_ERROR = 2000, 0.02
 

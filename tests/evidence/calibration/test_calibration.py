@@ -9,14 +9,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ballscrew.components.laws import ProportionalBallForce
-from ballscrew.errors import InputError
-from ballscrew.friction.calibrations import PARAMETERS, calibrated, calibration, calibrations, with_parameters
-from ballscrew.friction.model import FrictionModel
-from ballscrew.studies import validation
-from ballscrew.validation.sets import SETS
+from ballscrew.basis.errors import InputError
+from ballscrew.evidence.validation.sets import SETS
+from ballscrew.physics.components.laws import ProportionalBallForce
+from ballscrew.physics.friction.calibrations import PARAMETERS, calibrated, calibration, calibrations, with_parameters
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.questions.validate import compute as validation
 
-SCRIPT = Path(__file__).parents[2] / "benchmarks" / "fit_calibration.py"
+SCRIPT = Path(__file__).parents[3] / "benchmarks" / "fit_calibration.py"
 STORED = calibration("rexroth-2006")
 
 

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 import ballscrew as bs
-from ballscrew.components.mixed_friction import RunInSharing
-from ballscrew.validation.entries import Conditions
+from ballscrew.evidence.validation.entries import Conditions
+from ballscrew.physics.components.mixed_friction import RunInSharing
 
-BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
+BENCHMARKS = Path(__file__).parents[3] / "benchmarks"
 
 
 @pytest.fixture(scope="module")

@@ -9,9 +9,9 @@ from scipy.stats import binom, norm
 from scipy.stats import t as student
 
 import ballscrew as bs
-from ballscrew.calibration import fit as calibration
-from ballscrew.errors import InputError
-from ballscrew.papers.olaru2005.case import SCREW
+from ballscrew.basis.errors import InputError
+from ballscrew.evidence.calibration import fit as calibration
+from ballscrew.evidence.papers.olaru2005.case import SCREW
 from support.synthetic_logs import OIL, TRUE_FRICTION, log, truth
 
 PAPER = bs.FrictionModel.olaru2005()

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.sizing.catalogue import catalogue
+from ballscrew.physics.sizing.catalogue import catalogue
 
 SCREW = catalogue()["rexroth-40x10x6-6-double"].screw()
 OIL = bs.Lubricant(0.1)

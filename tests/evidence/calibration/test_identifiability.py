@@ -3,15 +3,15 @@
 import numpy as np
 import pytest
 
-from ballscrew.calibration import robust
-from ballscrew.calibration.identifiability import (
+from ballscrew.evidence.calibration import robust
+from ballscrew.evidence.calibration.identifiability import (
     MAXIMUM_RELATIVE_ERROR,
     Identifiability,
     IdentifiableDirections,
     Uncertainty,
     weighted_derivatives,
 )
-from ballscrew.calibration.robust import Noise, Solution, scatter_of
+from ballscrew.evidence.calibration.robust import Noise, Solution, scatter_of
 
 NOTHING = np.empty((0, 3))
 

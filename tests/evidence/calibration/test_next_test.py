@@ -10,15 +10,15 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.calibration.fit import fit
-from ballscrew.calibration.next_test import RANGE_FACTOR, TEMPERATURE_MARGIN, next_test
-from ballscrew.errors import InputError
-from ballscrew.papers.olaru2005.case import SCREW
+from ballscrew.basis.errors import InputError
+from ballscrew.evidence.calibration.fit import fit
+from ballscrew.evidence.calibration.next_test import RANGE_FACTOR, TEMPERATURE_MARGIN, next_test
+from ballscrew.evidence.papers.olaru2005.case import SCREW
 from support.synthetic_logs import OIL, RPM, log, truth
 
 PAPER = bs.FrictionModel.olaru2005()
 FRICTION, SEALS = "boundary_friction_coefficient", "constant_torque"
-BENCHMARK = Path(__file__).parents[2] / "benchmarks" / "next_test.py"
+BENCHMARK = Path(__file__).parents[3] / "benchmarks" / "next_test.py"
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,7 @@ import pytest
 from scipy.stats import binom
 
 import ballscrew as bs
-from ballscrew.calibration import fit as calibration
+from ballscrew.evidence.calibration import fit as calibration
 from support.strategies import MODELS
 from support.synthetic_logs import OIL
 

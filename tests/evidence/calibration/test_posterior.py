@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.calibration import fit as calibration
-from ballscrew.errors import InputError
-from ballscrew.papers.olaru2005.case import SCREW
+from ballscrew.basis.errors import InputError
+from ballscrew.evidence.calibration import fit as calibration
+from ballscrew.evidence.papers.olaru2005.case import SCREW
 from support.synthetic_logs import OIL, log, truth
 
 pytest.importorskip("emcee", reason="emcee is not installed (the extra calibrate)")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import integrate
 
-from ballscrew.calibration.robust import (
+from ballscrew.evidence.calibration.robust import (
     BIWEIGHT_CUTOFF,
     MAD_TO_STANDARD_DEVIATION,
     PSEUDO_HUBER_SCALE,

@@ -10,17 +10,17 @@ from scipy.stats import binom
 from scipy.stats import t as student
 
 import ballscrew as bs
-from ballscrew.calibration.fit import fit
-from ballscrew.calibration.oil_temperature import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE
-from ballscrew.errors import InputError
-from ballscrew.papers.olaru2005.case import SCREW
-from ballscrew.uncertainty.default_uncertainties import NORMAL_95
+from ballscrew.basis.errors import InputError
+from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
+from ballscrew.evidence.calibration.fit import fit
+from ballscrew.evidence.calibration.oil_temperature import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE
+from ballscrew.evidence.papers.olaru2005.case import SCREW
 from support.synthetic_logs import OIL, log, truth
 
 PAPER, REFERENCE = bs.FrictionModel.olaru2005(), bs.FrictionModel.reference()
 FRICTION, SEALS = "boundary_friction_coefficient", "constant_torque"
 VG_100 = bs.Lubricant.from_grade("ISO VG 100")
-BENCHMARK = Path(__file__).parents[2] / "benchmarks" / "temperature_error.py"
+BENCHMARK = Path(__file__).parents[3] / "benchmarks" / "temperature_error.py"
 #: How often right intervals fail the test of 40 logs.
 FALSE_ALARM = 1e-3
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.errors import InputError
-from ballscrew.moving_logs.moving_log import MovingLog
+from ballscrew.basis.errors import InputError
+from ballscrew.evidence.moving_logs.moving_log import MovingLog
 from support.moving_logs import MODEL, OIL, SCREW_OF, record, strokes
 
 GOOD = record(strokes(repeats=1), noise=0.3)

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 import ballscrew as bs
-from ballscrew.moving_logs.motion_fit import LINEAR, SCREW
-from ballscrew.moving_logs.reading import read_moving
+from ballscrew.evidence.moving_logs.motion_fit import LINEAR, SCREW
+from ballscrew.evidence.moving_logs.reading import read_moving
 from support.moving_logs import MODEL, OIL, SCREW_OF
 
 FOLDER = Path(os.environ.get("BALLSCREW_EMPS", "nowhere"))

@@ -10,16 +10,16 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.moving_logs.equation import Equation, dead_time
-from ballscrew.moving_logs.linear_model import NAMES, linear_model
-from ballscrew.moving_logs.motion_fit import LINEAR, POWER, SCREW
-from ballscrew.moving_logs.moving_log import MovingLog
-from ballscrew.moving_logs.power_law import power_law
-from ballscrew.moving_logs.screw_friction import ScrewFriction
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.evidence.moving_logs.equation import Equation, dead_time
+from ballscrew.evidence.moving_logs.linear_model import NAMES, linear_model
+from ballscrew.evidence.moving_logs.motion_fit import LINEAR, POWER, SCREW
+from ballscrew.evidence.moving_logs.moving_log import MovingLog
+from ballscrew.evidence.moving_logs.power_law import power_law
+from ballscrew.evidence.moving_logs.screw_friction import ScrewFriction
 from support.moving_logs import MODEL, OIL, SCREW_OF, TRUTH, record, strokes
 
-BENCHMARK = Path(__file__).parents[2] / "benchmarks" / "moving_fit.py"
+BENCHMARK = Path(__file__).parents[3] / "benchmarks" / "moving_fit.py"
 TRUE = np.array([TRUTH[name] for name in NAMES])
 
 
@@ -138,6 +138,7 @@ def test_gravity_and_the_zero_of_the_sensor_are_named_as_one(of_the_screw):
     assert any(record.id == "fit.gravity_or_offset" for record in of_the_screw.warning_records)
 
 
+@pytest.mark.implausible
 def test_a_screw_with_more_friction_than_the_axis_is_said_not_to_fit():
     heavy = dataclasses.replace(SCREW_OF, nut=bs.DoubleNut(preload=5000.0))
     log, oil = record(noise=0.3), bs.Lubricant(viscosity=1.0)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.io import savemat
 
-from ballscrew.errors import InputError
-from ballscrew.moving_logs.reading import is_moving, read_moving
+from ballscrew.basis.errors import InputError
+from ballscrew.evidence.moving_logs.reading import is_moving, read_moving
 from support.moving_logs import record, strokes
 
 LOG = record(strokes(repeats=1, step=4e-3), step=4e-3)

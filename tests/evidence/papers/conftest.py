@@ -7,7 +7,7 @@ from types import ModuleType
 
 import pytest
 
-SCRIPT = Path(__file__).resolve().parents[2] / "docs" / "make_equation_table.py"
+SCRIPT = Path(__file__).resolve().parents[3] / "docs" / "make_equation_table.py"
 
 
 @pytest.fixture(scope="session")

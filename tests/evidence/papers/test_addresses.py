@@ -12,10 +12,10 @@ from pathlib import Path
 import pytest
 
 import ballscrew
-from ballscrew.references import ADDRESS, addresses_in, paper_equations
+from ballscrew.basis.references import ADDRESS, addresses_in, paper_equations
 
 PACKAGE = Path(ballscrew.__file__).parent
-TESTS = Path(__file__).resolve().parents[1]
+TESTS = Path(__file__).resolve().parents[2]
 
 #: The paper's numbers as they stand in its sections; (22) to (26) occur twice.
 SECTIONS = {

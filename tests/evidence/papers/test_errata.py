@@ -8,10 +8,10 @@ import math
 import numpy as np
 import pytest
 
-from ballscrew.equations import equilibrium, film, friction, hertz, rheology, rolling, transmission
-from ballscrew.references import paper_equations
+from ballscrew.basis.references import paper_equations
+from ballscrew.physics.equations import equilibrium, film, friction, hertz, rheology, rolling, transmission
 
-from ..equations.numbers import (
+from ...physics.equations.numbers import (
     AXIAL_LOAD,
     BALL_DIAMETER,
     BALL_ROUGHNESS,
@@ -55,7 +55,7 @@ def test_every_verdict_but_right_is_shown(equation_table):
     here = {
         address
         for address, names in equation_table.tests().items()
-        if any(name.startswith("papers/test_errata.py::") for name in names)
+        if any(name.startswith("evidence/papers/test_errata.py::") for name in names)
     }
     assert {address for address, verdict in VERDICTS.items() if not verdict.startswith("right")} <= here
 
@@ -240,7 +240,7 @@ def test_the_printed_torques_break_action_and_reaction():
 
 @pytest.mark.equation("Olaru2005 §6 (28)")
 def test_the_printed_screw_torque_is_short_of_power():
-    # With the moments the torque's power is what is dissipated (tests/equations/test_dissipation.py).
+    # With the moments the torque's power is what is dissipated (tests/physics/equations/test_dissipation.py).
     printed, _, _ = torques_of_one_ball(with_moments=False, ball_to_ball_force=1 / 56)
     complete, _, _ = torques_of_one_ball(with_moments=True, ball_to_ball_force=1 / 56)
     assert percent_above(printed, complete) == pytest.approx(-2.7, abs=0.05)

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from ballscrew.cases import case_file
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.studies.sensitivity import Options, sensitivity
+from ballscrew.cases.case_files import case_file
+from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.questions.sensitivity.compute import Options, sensitivity
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 
 
 @pytest.fixture(scope="module")
@@ -33,7 +33,8 @@ def test_the_table_of_claims_is_up_to_date(make_readme, text):
 
 @pytest.mark.long
 def test_the_table_of_accuracy_is_up_to_date(make_readme, text):
-    """If this fails, run ``make readme``; the bounds of accuracy are in ``tests/solvers/test_against_the_integral.py``.
+    """If this fails, run ``make readme``; the bounds of accuracy are in
+    ``tests/physics/solvers/test_against_the_integral.py``.
 
     Other machines may round the last digit the other way.
     """

@@ -10,14 +10,14 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
-from ballscrew.cli import reproduction
-from ballscrew.figures import ball
-from ballscrew.figures import olaru2005 as figures
-from ballscrew.figures.style import Plot
-from ballscrew.papers import olaru2005 as paper
-from ballscrew.papers.olaru2005 import case, verdicts
-from ballscrew.papers.olaru2005.claims import judged
-from ballscrew.papers.olaru2005.observations import observe
+from ballscrew.evidence.papers import olaru2005 as paper
+from ballscrew.evidence.papers.olaru2005 import case, verdicts
+from ballscrew.evidence.papers.olaru2005.claims import judged
+from ballscrew.evidence.papers.olaru2005.observations import observe
+from ballscrew.faces.cli import reproduction
+from ballscrew.questions.reproduce import ball_figure as ball
+from ballscrew.questions.reproduce import figure as figures
+from ballscrew.questions.shared.chart_style import Plot
 
 HOLDS, FAILS, OPEN = paper.Verdict.HOLDS, paper.Verdict.FAILS, paper.Verdict.OPEN
 NAMES = [plot.name for plot in (*ball.PLOTS, *figures.PLOTS)]

@@ -9,8 +9,8 @@ import pytest
 from scipy.stats import binom
 
 import ballscrew as bs
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.service.estimate import Mixture
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.evidence.service.preload_estimate import Mixture
 from support.service_logs import OIL, PRELOAD, RPM, SCREW, WARM, another_screw, log, pair
 
 PAPER = bs.FrictionModel.olaru2005()
@@ -242,7 +242,7 @@ def test_the_other_screws_differ():
 
 def test_a_log_of_few_rows_is_refused_before_any_fit(monkeypatch):
     """Defect: after the fit of the other one, which takes seconds of processor."""
-    module = importlib.import_module("ballscrew.service.preload_change")
+    module = importlib.import_module("ballscrew.evidence.service.preload_change")
     monkeypatch.setattr(module, "fit", lambda *_, **__: pytest.fail("it was fitted"))
     new, worn = pair(PAPER, 0, 0.6)
     few = {name: values[:2] for name, values in dict(worn).items()}

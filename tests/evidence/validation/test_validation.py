@@ -8,20 +8,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.nut import DoubleNut, OversizeBallNut
-from ballscrew.errors import InputError
-from ballscrew.friction.calibrations import calibrated, calibration
-from ballscrew.friction.model import FrictionModel
-from ballscrew.sizing.catalogue import catalogue
-from ballscrew.sizing.checks import ratings_of
-from ballscrew.studies import validation
-from ballscrew.validation import entries as base
-from ballscrew.validation.entries import Band, Conditions, Entry, Point, trends
-from ballscrew.validation.rows import screw_of
-from ballscrew.validation.sets import SETS
+from ballscrew.basis.errors import InputError
+from ballscrew.evidence.validation import entries as base
+from ballscrew.evidence.validation.entries import Band, Conditions, Entry, Point, trends
+from ballscrew.evidence.validation.rows import screw_of
+from ballscrew.evidence.validation.sets import SETS
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.nut import DoubleNut, OversizeBallNut
+from ballscrew.physics.friction.calibrations import calibrated, calibration
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.sizing.catalogue import catalogue
+from ballscrew.physics.sizing.checks import ratings_of
+from ballscrew.questions.validate import compute as validation
 
-DATA = Path(__file__).parents[1] / "data"
+DATA = Path(__file__).parents[2] / "data"
 RPM = math.pi / 30
 
 

@@ -13,12 +13,12 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.cases import case_file
+from ballscrew.cases.case_files import case_file
 from ballscrew.exports import requests
+from ballscrew.exports.tables import beckhoff, drive, linuxcnc
+from ballscrew.exports.tables.friction_curve import friction_curve
 from ballscrew.exports.targets import options_of_case
-from ballscrew.table_exports import beckhoff, drive, linuxcnc
-from ballscrew.table_exports.friction_curve import friction_curve
-from ballscrew.text import hand_over as text_of_export
+from ballscrew.questions.hand_over import text as text_of_export
 
 RANGES = {"axial_load": (-3000.0, 3000.0), "screw_speed": (-100.0, 100.0)}
 #: The example of the manual: infosys.beckhoff.com, tf5200_friction_comp, Parameterisation.

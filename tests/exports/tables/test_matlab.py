@@ -9,8 +9,8 @@ import pytest
 from scipy.io import loadmat
 
 import ballscrew as bs
-from ballscrew.table_exports.friction_table import friction_table
-from ballscrew.table_exports.matlab import export
+from ballscrew.exports.tables.friction_table import friction_table
+from ballscrew.exports.tables.matlab import export
 
 RANGES = {"axial_load": (-3000.0, 5000.0), "screw_speed": (-60.0, 100.0)}
 

@@ -9,9 +9,9 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 import ballscrew as bs
-from ballscrew.table_exports.friction_table import FrictionTable, friction_table
-from ballscrew.table_exports.lossy_gear import loss_table
-from ballscrew.table_exports.modelica import export
+from ballscrew.exports.tables.friction_table import FrictionTable, friction_table
+from ballscrew.exports.tables.lossy_gear import loss_table
+from ballscrew.exports.tables.modelica import export
 
 RANGES = {"axial_load": (-3000.0, 5000.0)}
 #: Stands in for the Modelica Standard Library, so that the test needs the compiler only.

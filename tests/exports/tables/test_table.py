@@ -10,8 +10,8 @@ import xarray as xr
 from scipy.interpolate import RegularGridInterpolator
 
 import ballscrew as bs
-from ballscrew.table_exports.friction_table import friction_table
-from ballscrew.table_exports.table import export
+from ballscrew.exports.tables.friction_table import friction_table
+from ballscrew.exports.tables.table import export
 
 RANGES = {"axial_load": (-3000.0, 5000.0), "screw_speed": (-60.0, 100.0)}
 
@@ -92,7 +92,7 @@ def test_a_range_of_another_input_makes_it_an_axis(handed_over):
 
 
 def test_a_table_of_too_many_nodes_is_refused(handed_over, monkeypatch):
-    monkeypatch.setattr("ballscrew.table_exports.friction_table.MOST_NODES", 50)
+    monkeypatch.setattr("ballscrew.exports.tables.friction_table.MOST_NODES", 50)
     subject = handed_over(bs.FrictionModel.olaru2005(), bs.SingleNut(), to="table", ranges=RANGES)
     with pytest.raises(bs.InputError, match=r"hand_over\.tolerance: needs a table of .* more than 50"):
         friction_table(subject)

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from ballscrew.cli import main
+from ballscrew.faces.cli import main
 from support.fit_logs import PAPER, columns, text_of
 
 

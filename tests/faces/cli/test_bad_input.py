@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.cases import case_file
-from ballscrew.errors import InputError
+from ballscrew.basis.errors import InputError
+from ballscrew.cases.case_files import case_file
 from support.commands import with_small_files
 
 FAULTS = {
@@ -181,8 +181,8 @@ def test_forbidden_files(example, monkeypatch):
 
 def test_a_full_disk_leaves_the_old_file(tmp_path, example, monkeypatch):
     """What was there stays there, and nothing half-written is left beside it."""
-    from ballscrew.studies import sweep as sweeps
-    from ballscrew.table_files import sweep_files
+    from ballscrew.questions.sweep import compute as sweeps
+    from ballscrew.questions.sweep import table as sweep_files
 
     target = tmp_path / "map.csv"
     target.write_text("old", encoding="utf-8")
@@ -268,7 +268,7 @@ def test_a_really_full_disk(suffix, tmp_path, example):
 
     target = tmp_path / f"map.{suffix}"
     target.write_text("old", encoding="utf-8")
-    program = [sys.executable, "-m", "ballscrew.cli", "sweep", example, "--to", target]
+    program = [sys.executable, "-m", "ballscrew.faces.cli", "sweep", example, "--to", target]
     program += ["--vary", "axial_load=1:4000:3000 N", "--vary", "screw_speed=1, 2 rpm", "--output", "screw_torque"]
     process = subprocess.run(with_small_files(program), capture_output=True, text=True, check=False)
     single_line_fault(process, "--to: cannot be written")
@@ -299,7 +299,7 @@ def test_python_refuses_what_is_no_number():
 
 def test_a_defect_is_not_called_a_full_output(monkeypatch):
     """Only faults of the output itself are put down to the output; anything else must be seen."""
-    from ballscrew.cli import main
+    from ballscrew.faces.cli import main
 
     def defect():
         raise FileNotFoundError(2, "No such file or directory", "a part of the package")
@@ -335,9 +335,9 @@ def test_long_texts_cost_nothing(text, example):
 
 
 def test_units_that_are_asked_for_once_are_not_kept():
-    from ballscrew import units
-    from ballscrew.components.screw import BallScrew
-    from ballscrew.quantities import fields_of
+    from ballscrew.basis import units
+    from ballscrew.basis.quantities import fields_of
+    from ballscrew.physics.components.screw import BallScrew
 
     lead, first = fields_of(BallScrew)["lead"], units.registry()
     for i in range(1200):

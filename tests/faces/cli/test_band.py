@@ -8,21 +8,22 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 import pytest
 from matplotlib.text import Text
 
-from ballscrew.cases import case_file
-from ballscrew.cases.uncertain_inputs import all_of, joint_of
-from ballscrew.components.lubrication import biboulet_houpert_rolling as reference_rolling
-from ballscrew.components.traits import LawTraits, traits_of
-from ballscrew.documents import band as documents
-from ballscrew.figures import band as figures
-from ballscrew.figures import style
-from ballscrew.friction.law_names import LAWS
-from ballscrew.friction.result import FrictionResult
-from ballscrew.quantities import quantities_of
-from ballscrew.report import band_section
-from ballscrew.report.blocks import Paragraph
-from ballscrew.studies import band, comparison
-from ballscrew.uncertainty.bands import Interval, OutputBand
-from ballscrew.units import to_digits
+from ballscrew.basis.quantities import quantities_of
+from ballscrew.basis.units import to_digits
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.uncertain_inputs import all_of, joint_of
+from ballscrew.engine.uncertainty.bands import Interval, OutputBand
+from ballscrew.faces.report import band_section
+from ballscrew.faces.report.blocks import Paragraph
+from ballscrew.physics.components.lubrication import biboulet_houpert_rolling as reference_rolling
+from ballscrew.physics.components.traits import LawTraits, traits_of
+from ballscrew.physics.friction.law_names import LAWS
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.questions.band import compute as band
+from ballscrew.questions.band import document as documents
+from ballscrew.questions.band import figure as figures
+from ballscrew.questions.compare import compute as comparison
+from ballscrew.questions.shared import chart_style as style
 
 
 @pytest.fixture

@@ -7,15 +7,15 @@ import tomllib
 import pytest
 from typer.testing import CliRunner
 
-from ballscrew.case_schema.schema import json_schema
-from ballscrew.cases import case_file, descriptions, fitted_case
-from ballscrew.cli.main import app
-from ballscrew.errors import InputError
-from ballscrew.friction.calibrations import calibration, calibrations
-from ballscrew.report import result_tables
-from ballscrew.studies.run import run
-from ballscrew.validation.nearest import near_rows
-from ballscrew.web import documents
+from ballscrew.basis.errors import InputError
+from ballscrew.cases.case_files import case_file, descriptions, fitted_case
+from ballscrew.cases.schema.schema import json_schema
+from ballscrew.evidence.validation.nearest import near_rows
+from ballscrew.faces.cli.main import app
+from ballscrew.faces.report import result_tables
+from ballscrew.faces.web import documents
+from ballscrew.physics.friction.calibrations import calibration, calibrations
+from ballscrew.questions.run.compute import run
 from support.commands import ROOT
 from support.drive_case import drive_case
 

@@ -11,14 +11,14 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
 import ballscrew as bs
-from ballscrew.case_schema import schema
-from ballscrew.cases import case_file
-from ballscrew.evaluation.comparison import same_law
-from ballscrew.figures import comparison as figures
-from ballscrew.figures import style
-from ballscrew.friction.model import presets
-from ballscrew.friction.result import MECHANISMS
-from ballscrew.studies import comparison
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.schema import schema
+from ballscrew.engine.evaluation.comparison import same_law
+from ballscrew.physics.friction.model import presets
+from ballscrew.physics.friction.result import MECHANISMS
+from ballscrew.questions.compare import compute as comparison
+from ballscrew.questions.compare import figure as figures
+from ballscrew.questions.shared import chart_style as style
 from support.commands import with_small_files
 
 
@@ -26,7 +26,7 @@ from support.commands import with_small_files
 def paper():
     from pathlib import Path
 
-    return case_file.load(Path(__file__).parents[2] / "examples" / "olaru2005.toml", model="reference")
+    return case_file.load(Path(__file__).parents[3] / "examples" / "olaru2005.toml", model="reference")
 
 
 @pytest.fixture(scope="module")
@@ -283,7 +283,7 @@ def test_a_full_disk_leaves_the_old_picture(example, tmp_path):
     """A limit on the size of files stands for the disk."""
     target = tmp_path / "spread.png"
     target.write_text("old", encoding="utf-8")
-    program = [sys.executable, "-m", "ballscrew.cli", "compare", str(example), "--to", str(target)]
+    program = [sys.executable, "-m", "ballscrew.faces.cli", "compare", str(example), "--to", str(target)]
     process = subprocess.run(with_small_files(program), capture_output=True, text=True, check=False)
     assert process.returncode == 2
     assert process.stderr.strip().splitlines()[-1].startswith("--to: cannot be written")
@@ -366,7 +366,7 @@ def test_colours_tell_all_mechanisms_apart():
 
 def test_compare_loads_no_pyplot_and_no_xarray_without_a_picture(example):
     code = (
-        "import sys; from ballscrew.cli import main as cli\n"
+        "import sys; from ballscrew.faces.cli import main as cli\n"
         "sys.argv = ['ballscrew', 'compare', sys.argv[1], '--json']\n"
         "try: cli.main()\n"
         "except SystemExit: pass\n"

@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from ballscrew.cli.main import app
+from ballscrew.faces.cli.main import app
 from support.documents import assert_same
 
-PROJECT = str(Path(__file__).parents[2] / "examples" / "projects" / "two_oils.toml")
+PROJECT = str(Path(__file__).parents[3] / "examples" / "projects" / "two_oils.toml")
 
 
 def output(*arguments):

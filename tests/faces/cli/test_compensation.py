@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.axis_studies.position_compensation import position_compensation
-from ballscrew.axis_studies.warm_up import load, warmed_up
-from ballscrew.documents.position_compensation import document
-from ballscrew.output.json_text import plain
-from ballscrew.table_files.compensation_lists import isg, sinumerik
-from ballscrew.text.position_compensation import text
+from ballscrew.basis.output.json_text import plain
+from ballscrew.questions.compensation.compute import position_compensation
+from ballscrew.questions.compensation.document import document
+from ballscrew.questions.compensation.table import isg, sinumerik
+from ballscrew.questions.compensation.text import text
+from ballscrew.questions.warm_up.compute import load, warmed_up
 from support.commands import ROOT
 
 EXAMPLE = ROOT / "examples" / "warm_up.toml"

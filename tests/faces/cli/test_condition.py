@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
+EXAMPLES = Path(__file__).parents[3] / "examples"
 TABLE, CASE, NEW, WORN = (
     EXAMPLES / name for name in ("nut_over_years.csv", "service.toml", "nut_new.csv", "nut_worn.csv")
 )

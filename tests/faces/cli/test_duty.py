@@ -8,12 +8,13 @@ import math
 
 import pytest
 
-from ballscrew.axis_studies.duty import duty
-from ballscrew.cases import case_file
-from ballscrew.cli.main import main
-from ballscrew.documents import duty as documents
-from ballscrew.output.json_text import plain
-from ballscrew.text.duty import text
+from ballscrew.basis.output.json_text import plain
+from ballscrew.cases.case_files import case_file
+from ballscrew.faces.cli.main import main
+from ballscrew.questions.duty import answer
+from ballscrew.questions.duty import document as documents
+from ballscrew.questions.duty.compute import duty
+from ballscrew.questions.duty.text import text
 from support.commands import ROOT
 
 EXAMPLE = ROOT / "examples" / "vertical_axis.toml"
@@ -138,7 +139,7 @@ def test_words_say_what_stands_in_the_document(found):
     for record in (*written["verdicts"], *written["warnings"]):
         assert record["text"].split()[0] in said
     for words in (
-        "What the motor is paid for",
+        "Torque and energy by cause",
         "Motor off",
         "an upper bound",
         "Life by ISO 3408-5",
@@ -150,7 +151,7 @@ def test_words_say_what_stands_in_the_document(found):
 def test_a_long_motion_is_thinned_and_says_so(found, monkeypatch):
     report = found(VERTICAL)
     whole = document(report)["results"]["cycle"]
-    monkeypatch.setattr(documents, "MOST_STATES", 40)
+    monkeypatch.setattr(answer, "MOST_STATES", 40)
     some = document(report)["results"]["cycle"]
     assert (whole["every"], len(whole["time"])) == (1, len(report.duty.states.time))
     assert some["every"] == math.ceil(len(whole["time"]) / 40)

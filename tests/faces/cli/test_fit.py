@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from ballscrew import __version__
-from ballscrew.cases import case_file
+from ballscrew.cases.case_files import case_file
 from support.documents import ITERATED, assert_same
 from support.fit_logs import (
     EXAMPLES,
@@ -112,7 +112,7 @@ def test_names_may_come_with_commas_or_one_by_one(fit, log):
 
 def test_as_a_program(case, log):
     """The real command in a process of its own, as programs call it."""
-    program = [sys.executable, "-m", "ballscrew.cli", "fit", str(log()), "--case", str(case), "--json"]
+    program = [sys.executable, "-m", "ballscrew.faces.cli", "fit", str(log()), "--case", str(case), "--json"]
     done = subprocess.run(program, capture_output=True, encoding="utf-8", check=False)
     assert done.returncode == 0, done.stderr
     assert FRICTION in json.loads(done.stdout)["estimates"]

@@ -6,11 +6,11 @@ import pytest
 from typer.testing import CliRunner
 
 import ballscrew as bs
-from ballscrew.case_schema.schema import LAWS, MODELS
-from ballscrew.cases import case_file
-from ballscrew.cli import main
-from ballscrew.studies.names import KINDS, names
-from ballscrew.text.names import text
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.schema.schema import LAWS, MODELS
+from ballscrew.faces.cli import main
+from ballscrew.questions.names.compute import KINDS, names
+from ballscrew.questions.names.text import text
 
 
 def test_every_name_is_known_where_it_is_used():

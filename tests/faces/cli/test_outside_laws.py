@@ -5,13 +5,13 @@ import shutil
 
 import pytest
 
-from ballscrew.cases import case_file
-from ballscrew.errors import InputError
+from ballscrew.basis.errors import InputError
+from ballscrew.cases.case_files import case_file
 
 MODULE = """
 import dataclasses
 from typing import Annotated
-from ballscrew.quantities import Info, Ratio
+from ballscrew.basis.quantities import Info, Ratio
 
 number = 3
 def half(conditions):

@@ -5,7 +5,7 @@ import json
 import pytest
 from typer.testing import CliRunner
 
-from ballscrew.cli.main import app
+from ballscrew.faces.cli.main import app
 from support.drive_case import drive_case
 
 

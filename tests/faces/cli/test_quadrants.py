@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 import ballscrew as bs
-from ballscrew.cases import case_file
+from ballscrew.cases.case_files import case_file
 
-ELASTIC = Path(__file__).parents[2] / "examples" / "catalogue_screw.toml"
+ELASTIC = Path(__file__).parents[3] / "examples" / "catalogue_screw.toml"
 ROW = bs.catalogue()["rexroth-40x10x6-6-double"]
 #: Signs of load and speed, and what the run calls them.
 QUADRANTS = {

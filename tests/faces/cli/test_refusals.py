@@ -10,7 +10,7 @@ from support.fit_logs import PAPER
 
 RUN = """
 import json, sys
-from ballscrew.cli.main import main
+from ballscrew.faces.cli.main import main
 sys.argv = ["ballscrew", *sys.argv[1:]]
 try:
     main()

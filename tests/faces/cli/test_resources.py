@@ -57,7 +57,7 @@ def test_files_without_end(ballscrew, case):
 
 
 def test_a_closed_output(case):
-    command = f'"{sys.executable}" -m ballscrew.cli run "{case()}" >&-'
+    command = f'"{sys.executable}" -m ballscrew.faces.cli run "{case()}" >&-'
     one_line(subprocess.run(["sh", "-c", command], capture_output=True, text=True, check=False), "stdout: is closed")
 
 
@@ -76,10 +76,10 @@ def test_an_interrupt_while_the_program_is_loaded(when):
             import types, sys
             def main():
                 raise KeyboardInterrupt
-            sys.modules["ballscrew.cli.main"] = types.SimpleNamespace(main=main)
+            sys.modules["ballscrew.faces.cli.main"] = types.SimpleNamespace(main=main)
             """,
     }
-    program = textwrap.dedent(stopped[when]) + "from ballscrew.cli.start import main\nmain()"
+    program = textwrap.dedent(stopped[when]) + "from ballscrew.faces.cli.start import main\nmain()"
     found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
     one_line(found, "interrupted", code=130)
 

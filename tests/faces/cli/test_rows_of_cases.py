@@ -13,9 +13,10 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
-from ballscrew.cases import case_file
-from ballscrew.errors import Fault, InputError
-from ballscrew.studies import every_row, own_screws, sweep_rows
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.cases.case_files import case_file
+from ballscrew.questions.shared import every_row, own_screws
+from ballscrew.questions.sweep import rows as sweep_rows
 from support.fit_logs import PAPER, TRUE_FRICTION, columns, text_of
 
 TABLE = """\

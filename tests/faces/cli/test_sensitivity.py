@@ -8,17 +8,18 @@ from pathlib import Path
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from ballscrew.cases import case_file, uncertain_inputs
-from ballscrew.documents import sensitivity as documents
-from ballscrew.errors import InputError
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.figures import files, style
-from ballscrew.figures import sensitivity as figures
-from ballscrew.output.json_text import as_json
-from ballscrew.studies import sensitivity as studies
-from ballscrew.text import sensitivity as text_of
+from ballscrew.basis.errors import InputError
+from ballscrew.basis.output.json_text import as_json
+from ballscrew.cases.case_files import case_file, uncertain_inputs
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.questions.sensitivity import compute
+from ballscrew.questions.sensitivity import document as documents
+from ballscrew.questions.sensitivity import figure as figures
+from ballscrew.questions.sensitivity import text as text_of
+from ballscrew.questions.shared import chart_files as files
+from ballscrew.questions.shared import chart_style as style
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
+EXAMPLES = Path(__file__).parents[3] / "examples"
 #: Two inputs that the case gives a distribution, one of them without any effect on the torque of this model.
 GIVEN = [
     "screw.screw_conformity=0.515 ± 0.005",
@@ -36,11 +37,11 @@ def case():
 
 @pytest.fixture(scope="module", params=["sobol", "morris", "local"])
 def found(request, case):
-    return studies.sensitivity(case, studies.Options(method=request.param))
+    return compute.sensitivity(case, compute.Options(method=request.param))
 
 
 def of_method(case, method, **asked):
-    return studies.sensitivity(case, studies.Options(method=method, **asked))
+    return compute.sensitivity(case, compute.Options(method=method, **asked))
 
 
 # -- what is varied -------------------------------------------------------------------------------
@@ -60,7 +61,7 @@ def test_inputs_have_words_of_their_own(case):
     for one in (case, reference, case_file.load(EXAMPLES / "catalogue_screw.toml")):
         known = Configuration(one.model, one.screw, one.lubricant).inputs
         names = {name: entry for name, entry in known.items() if not name.startswith("nut.")}  # preload, once more
-        words = [studies.SensitivityReport(None, {}, names).describe(name) for name in names]
+        words = [compute.SensitivityReport(None, {}, names).describe(name) for name in names]
         assert len(set(words)) == len(words)
     assert "oil temperature" in words
     assert "decay of the asperities' share" in words
@@ -281,7 +282,7 @@ def test_bad_input(options, line, ballscrew, example, tmp_path):
 )
 def test_faults_name_the_option(asked, line, case):
     with pytest.raises(InputError) as caught:
-        studies.sensitivity(case, studies.Options(**asked))
+        compute.sensitivity(case, compute.Options(**asked))
     assert caught.value.lines() == [line]
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
+EXAMPLES = Path(__file__).parents[3] / "examples"
 CASE, NEW, WORN = (EXAMPLES / name for name in ("service.toml", "nut_new.csv", "nut_worn.csv"))
 #: The model of the paper answers the quickest.
 QUICK = ("--case", CASE, "--model", "olaru2005")

@@ -11,7 +11,7 @@ import pytest
 
 import ballscrew as bs
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 
 
 def test_what_cannot_be_built_is_empty_and_said(tmp_path, ballscrew):
@@ -50,10 +50,10 @@ def test_a_sweep_over_the_temperature_of_a_grade(example, ballscrew):
 
 
 def test_every_example_of_the_schema_parses():
-    from ballscrew import units
-    from ballscrew.case_schema import schema
-    from ballscrew.errors import Fault, fault_of
-    from ballscrew.quantities import fields_of
+    from ballscrew.basis import units
+    from ballscrew.basis.errors import Fault, fault_of
+    from ballscrew.basis.quantities import fields_of
+    from ballscrew.cases.schema import schema
 
     drive = tomllib.loads((ROOT / "examples" / "feed_drive.toml").read_text(encoding="utf-8"))
     written = {name: value for section in ("screw", "lubricant", "operation") for name, value in drive[section].items()}

@@ -9,13 +9,14 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from ballscrew.cases import case_file
-from ballscrew.errors import InputError
-from ballscrew.studies import band, sweep
-from ballscrew.studies.band import Options
-from ballscrew.studies.sweep_band import with_band
+from ballscrew.basis.errors import InputError
+from ballscrew.cases.case_files import case_file
+from ballscrew.questions.band import compute as band
+from ballscrew.questions.band.compute import Options
+from ballscrew.questions.sweep import compute as sweep
+from ballscrew.questions.sweep.band import with_band
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
+EXAMPLES = Path(__file__).parents[3] / "examples"
 DRIVE = EXAMPLES / "feed_drive.toml"
 OPTIONS = Options(samples=256)
 

@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from ballscrew.cases import case_file
-from ballscrew.errors import InputError
-from ballscrew.studies import sweep as sweeps
+from ballscrew.basis.errors import InputError
+from ballscrew.cases.case_files import case_file
+from ballscrew.questions.sweep import compute as sweeps
 
 pytest.importorskip("zarr")
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 AXES = ("--vary", "axial_load=10:4000:30 N", "--vary", "screw_speed=1:1000:40 rpm")
 #: A sweep that nobody waits for.
 ENDLESS = (
@@ -126,7 +126,7 @@ def test_without_zarr_the_extra_is_named(example, tmp_path, monkeypatch):
 def test_an_interrupt_ends_with_words_and_130(example, tmp_path):
     # where tests run in the background, interrupts are ignored unless asked for
     listening = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"
-    program = f"{listening}; from ballscrew.cli.main import main; main()"
+    program = f"{listening}; from ballscrew.faces.cli.main import main; main()"
     command = [sys.executable, "-c", program, "sweep", str(example), *ENDLESS, "--to", "map.zarr"]
     process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     blocks = tmp_path / "map.zarr" / ".ballscrew" / "blocks"

@@ -5,12 +5,12 @@ from pathlib import Path
 
 import pytest
 
-from ballscrew.cases import case_file
-from ballscrew.screw_tables.catalogue import case_text, screws
-from ballscrew.studies.comparison import comparison
-from ballscrew.studies.run import run
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.screw_tables.catalogue import case_text, screws
+from ballscrew.questions.compare.compute import comparison
+from ballscrew.questions.run.compute import run
 
-AXIS = Path(__file__).parents[2] / "examples" / "vertical_axis.toml"  # seals of 0.3 N m
+AXIS = Path(__file__).parents[3] / "examples" / "vertical_axis.toml"  # seals of 0.3 N m
 OWN = """name;make;d0 [mm];Ph [mm];Dw [mm];turns;Ca [kN];nut;preload;seals
 A;THK;40;10;6;5;50;double;7 %;standard
 B;Rexroth;40;10;6;5;50;double;7 %;standard

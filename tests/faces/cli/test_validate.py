@@ -8,18 +8,18 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
-from ballscrew.cases import case_file
-from ballscrew.documents import validation as validation_documents
-from ballscrew.errors import InputError
-from ballscrew.figures import style
-from ballscrew.figures import validation as figures
-from ballscrew.friction.calibrations import calibration
-from ballscrew.friction.model import FrictionModel
-from ballscrew.output.json_text import plain
-from ballscrew.output.wrapping import WIDTH
-from ballscrew.studies import validation
-from ballscrew.text import validation as validation_text
-from ballscrew.validation.sets import SETS
+from ballscrew.basis.errors import InputError
+from ballscrew.basis.output.json_text import plain
+from ballscrew.basis.output.wrapping import WIDTH
+from ballscrew.cases.case_files import case_file
+from ballscrew.evidence.validation.sets import SETS
+from ballscrew.physics.friction.calibrations import calibration
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.validate import compute as validation
+from ballscrew.questions.validate import document as validation_documents
+from ballscrew.questions.validate import figure as figures
+from ballscrew.questions.validate import text as validation_text
 
 HEADINGS = (
     "nominal_diameter_mm,lead_mm,ball_diameter_mm,circuits,dynamic_load_rating_N,static_load_rating_N,"

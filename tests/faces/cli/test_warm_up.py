@@ -10,15 +10,16 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.axis_studies import duty_band, warm_up_band
-from ballscrew.axis_studies.heat_samples import heat_samples
-from ballscrew.axis_studies.self_heating import self_heating
-from ballscrew.axis_studies.warm_up import SERIES, load, warmed_up
-from ballscrew.documents.warm_up import document as document_of
-from ballscrew.errors import InputError
-from ballscrew.output.json_text import plain
-from ballscrew.table_files import warm_up_tables
-from ballscrew.text.warm_up import text
+from ballscrew.basis.errors import InputError
+from ballscrew.basis.output.json_text import plain
+from ballscrew.questions.band.heat_samples import heat_samples
+from ballscrew.questions.duty import band as duty_band
+from ballscrew.questions.warm_up import band as warm_up_band
+from ballscrew.questions.warm_up import table as warm_up_tables
+from ballscrew.questions.warm_up.compute import SERIES, load, warmed_up
+from ballscrew.questions.warm_up.document import document as document_of
+from ballscrew.questions.warm_up.self_heating import self_heating
+from ballscrew.questions.warm_up.text import text
 from support.commands import ROOT
 
 EXAMPLE = ROOT / "examples" / "warm_up.toml"

@@ -6,15 +6,15 @@ from pathlib import Path
 import pytest
 
 import ballscrew as bs
-from ballscrew import units
-from ballscrew.cases import case_file, oils
-from ballscrew.components.nut_losses import Seals
-from ballscrew.errors import Fault, InputError
-from ballscrew.quantities import fields_of
-from ballscrew.sizing.catalogue import catalogue
-from ballscrew.studies import sweep
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.quantities import fields_of
+from ballscrew.cases.case_files import case_file, oils
+from ballscrew.physics.components.nut_losses import Seals
+from ballscrew.physics.sizing.catalogue import catalogue
+from ballscrew.questions.sweep import compute as sweep
 
-FEED = Path(__file__).parents[2] / "examples" / "feed_drive.toml"
+FEED = Path(__file__).parents[3] / "examples" / "feed_drive.toml"
 TEXT = FEED.read_text(encoding="utf-8")
 SCREW = catalogue()["rexroth-40x10x6-6-double"].screw()
 MODEL, OIL = bs.FrictionModel.reference(), bs.Lubricant.from_grade("ISO VG 100")

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.cases import case_file
-from ballscrew.papers.olaru2005 import OIL, SCREW
+from ballscrew.cases.case_files import case_file
+from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 
 MODEL = bs.FrictionModel.olaru2005()
 SPEEDS = np.linspace(1.0, 100.0, 7)

@@ -14,17 +14,17 @@ import pytest
 from matplotlib.font_manager import FontProperties, findfont
 from matplotlib.ft2font import FT2Font
 
-from ballscrew.cases import case_file
-from ballscrew.cases.descriptions import title as title_of
-from ballscrew.report import drawing_contact, svg
-from ballscrew.report.contact_geometry import AT_REST, FOUR_CONTACTS, NO_LOAD, NO_NUMBER, NO_SLIP, drawn_ball
-from ballscrew.report.drawing import WIDTH, drawing
-from ballscrew.report.drawing_section import BALL, RADIUS
-from ballscrew.studies.run import run
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.descriptions import title as title_of
+from ballscrew.faces.report import drawing_contact, svg
+from ballscrew.faces.report.contact_geometry import AT_REST, FOUR_CONTACTS, NO_LOAD, NO_NUMBER, NO_SLIP, drawn_ball
+from ballscrew.faces.report.drawing import WIDTH, drawing
+from ballscrew.faces.report.drawing_section import BALL, RADIUS
+from ballscrew.questions.run.compute import run
 from oracles.contact_integral import contact_integral
 from oracles.tractions import Coulomb
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
+EXAMPLES = Path(__file__).parents[3] / "examples"
 _NS = "{http://www.w3.org/2000/svg}"
 _OVERSIZE = ('nut.type="oversize-balls"', 'nut.preload="2 kN"')
 
@@ -379,8 +379,8 @@ def test_the_line_law_has_no_slip_across():
 
 def test_the_same_input_gives_the_same_bytes_in_all_processes():
     program = (
-        "import sys; from pathlib import Path; from ballscrew.cases import case_file;"
-        "from ballscrew.studies.run import run; from ballscrew.report.drawing import drawing;"
+        "import sys; from pathlib import Path; from ballscrew.cases.case_files import case_file;"
+        "from ballscrew.questions.run.compute import run; from ballscrew.faces.report.drawing import drawing;"
         "sys.stdout.buffer.write(drawing(run(case_file.load(Path(sys.argv[1])))).encode())"
     )
     command = [sys.executable, "-c", program, str(EXAMPLES / "catalogue_screw.toml")]

@@ -5,12 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from ballscrew.friction.result import FrictionResult
-from ballscrew.output.plain_numbers import plain
-from ballscrew.quantities import quantities_of
-from ballscrew.report.blocks import Paragraph, Picture, Report, Section, as_data
-from ballscrew.report.numbers import banded, banded_share
-from ballscrew.units import shown, to_digits
+from ballscrew.basis.output.plain_numbers import plain
+from ballscrew.basis.quantities import quantities_of
+from ballscrew.basis.units import shown, to_digits
+from ballscrew.faces.report.blocks import Paragraph, Picture, Report, Section, as_data
+from ballscrew.faces.report.numbers import banded, banded_share
+from ballscrew.physics.friction.result import FrictionResult
 
 KNOWN = quantities_of(FrictionResult)
 TORQUE = KNOWN["screw_torque"]

@@ -17,35 +17,35 @@ import pypdf
 import pytest
 
 import ballscrew as bs
-from ballscrew import units
-from ballscrew.axis_studies.duty import NUMBERS, duty
-from ballscrew.axis_studies.warm_up import warmed_up
-from ballscrew.axis_studies.warm_up_records import verdicts
-from ballscrew.cases import case_file
-from ballscrew.cases.named_calibration import vendor_rows_like
-from ballscrew.cli import report as command
-from ballscrew.components.nut_losses import ConstantTorque
-from ballscrew.errors import InputError
-from ballscrew.friction.result import FrictionResult
-from ballscrew.output import bibliography
-from ballscrew.quantities import fields_of, quantities_of
-from ballscrew.references import bibliography as entries
-from ballscrew.report import contents, warm_up_section
-from ballscrew.report import curve_figures as figures
-from ballscrew.report.blocks import Bar, Columns, Links, Picture, Table, value
-from ballscrew.report.curves import curves
-from ballscrew.report.files import report_bytes
-from ballscrew.report.heading import Heading
-from ballscrew.report.html import html_bytes
-from ballscrew.report.numbers import banded, banded_share
-from ballscrew.report.pdf import pdf_bytes
-from ballscrew.studies import band
-from ballscrew.studies.check import checked
-from ballscrew.studies.run import run
-from ballscrew.uncertainty.band_evaluation import BAND_OUTPUTS
-from ballscrew.units import DIGITS
+from ballscrew.basis import units
+from ballscrew.basis.errors import InputError
+from ballscrew.basis.output import bibliography
+from ballscrew.basis.quantities import fields_of, quantities_of
+from ballscrew.basis.references import bibliography as entries
+from ballscrew.basis.units import DIGITS
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.named_calibration import vendor_rows_like
+from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
+from ballscrew.faces.cli import report as command
+from ballscrew.faces.report import contents, warm_up_section
+from ballscrew.faces.report import curve_figures as figures
+from ballscrew.faces.report.blocks import Bar, Columns, Links, Picture, Table, value
+from ballscrew.faces.report.curves import curves
+from ballscrew.faces.report.files import report_bytes
+from ballscrew.faces.report.heading import Heading
+from ballscrew.faces.report.html import html_bytes
+from ballscrew.faces.report.numbers import banded, banded_share
+from ballscrew.faces.report.pdf import pdf_bytes
+from ballscrew.physics.components.nut_losses import ConstantTorque
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.questions.band import compute as band
+from ballscrew.questions.check.compute import checked
+from ballscrew.questions.duty.compute import NUMBERS, duty
+from ballscrew.questions.run.compute import run
+from ballscrew.questions.warm_up.compute import warmed_up
+from ballscrew.questions.warm_up.records import verdicts
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 EXAMPLES = sorted(path.name for path in (ROOT / "examples").glob("*.toml"))
 #: Enough for the words, and quick.
 SAMPLES = 64
@@ -303,7 +303,7 @@ def test_sources_are_those_that_were_used(content):
 def test_at_rest_and_without_load_it_says_so():
     for name, words in (
         ("at rest", "At rest nothing slips"),
-        ("without load", "no load: nothing to hold"),
+        ("without load", "no axial load"),
         ("nothing", "There is no friction torque to take apart"),
         ("overloaded", "Beware: contact_pressure"),
         ("calibrated", "from the calibration rexroth-2006"),
@@ -546,7 +546,7 @@ SEEDS = [("pdf", 1), ("html", 2), *(pytest.param(*one, marks=pytest.mark.long) f
 @pytest.mark.parametrize(("kind", "seed"), SEEDS)
 def test_equal_cases_give_equal_bytes_in_all_processes(kind, seed, tmp_path):
     to = tmp_path / f"report.{kind}"
-    command = [sys.executable, "-m", "ballscrew.cli", "report", str(ROOT / "examples/feed_drive.toml")]
+    command = [sys.executable, "-m", "ballscrew.faces.cli", "report", str(ROOT / "examples/feed_drive.toml")]
     done = subprocess.run(
         [*command, "-o", str(to), "--samples", str(SAMPLES)],
         capture_output=True,
@@ -610,7 +610,7 @@ def test_without_the_extra_it_says_what_to_install(monkeypatch, tmp_path):
 
 def test_a_run_does_not_wait_for_what_only_a_report_needs():
     program = (
-        "import atexit, sys; from ballscrew.cli import main as cli;"
+        "import atexit, sys; from ballscrew.faces.cli import main as cli;"
         "atexit.register(lambda: print([name for name in ('matplotlib', 'jinja2', 'typst') if name in sys.modules]));"
         "cli.main()"
     )

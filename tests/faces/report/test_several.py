@@ -4,17 +4,17 @@ import io
 
 import pypdf
 import pytest
-from tests.report.test_report import _EXPONENT, _NO_NUMBERS, LEAST_FILLED, SAMPLES, case_of, least_filled, text_of
+from tests.faces.report.test_report import _EXPONENT, _NO_NUMBERS, LEAST_FILLED, SAMPLES, case_of, least_filled, text_of
 
-from ballscrew.friction.result import FrictionResult
-from ballscrew.quantities import quantities_of
-from ballscrew.report import several
-from ballscrew.report.blocks import as_data
-from ballscrew.report.numbers import banded
-from ballscrew.report.pdf import pdf_bytes
-from ballscrew.studies import band
-from ballscrew.studies.check import checked
-from ballscrew.studies.run import run
+from ballscrew.basis.quantities import quantities_of
+from ballscrew.faces.report import several
+from ballscrew.faces.report.blocks import as_data
+from ballscrew.faces.report.numbers import banded
+from ballscrew.faces.report.pdf import pdf_bytes
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.questions.band import compute as band
+from ballscrew.questions.check.compute import checked
+from ballscrew.questions.run.compute import run
 
 NAMES = ("catalogue_screw", "feed_drive", "rig")
 _TORQUE = quantities_of(FrictionResult)["screw_torque"]

@@ -20,7 +20,7 @@ from playwright.sync_api import ConsoleMessage, Error, Page, Request, sync_playw
 
 from support.commands import Commands
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 #: A warning of NumPy in the server is a defect: nobody would see it.
 ERRORS = ["RuntimeWarning"]
 #: Seconds of one request: longer than any takes, also on a busy machine.
@@ -35,7 +35,7 @@ class Server:
         commands: Commands,
         *arguments: str,
         environment: dict[str, str] | None = None,
-        module: str = "ballscrew.cli",
+        module: str = "ballscrew.faces.cli",
         errors: Sequence[str] = ERRORS,
     ) -> None:
         self.errors = tempfile.TemporaryFile("w+", encoding="utf-8")  # noqa: SIM115  (a pipe would fill up)

@@ -5,7 +5,7 @@ from urllib.parse import urljoin
 
 import pytest
 
-from ballscrew.validation.sets import SETS
+from ballscrew.evidence.validation.sets import SETS
 
 STRICT = ("content-security-policy", "x-content-type-options", "referrer-policy", "cross-origin-opener-policy")
 
@@ -76,8 +76,8 @@ def test_a_defect_is_said(monkeypatch):
 
     import httpx
 
-    from ballscrew.web import api
-    from ballscrew.web.server import application
+    from ballscrew.faces.web import api
+    from ballscrew.faces.web.server import application
 
     def wrong():
         raise ArithmeticError("secret")

@@ -9,9 +9,9 @@ import pytest
 pytest.importorskip("fastapi")
 import uvicorn
 
-from ballscrew.web import connections
-from ballscrew.web import server as web
-from ballscrew.web.guard import HEADERS
+from ballscrew.faces.web import connections
+from ballscrew.faces.web import server as web
+from ballscrew.faces.web.guard import HEADERS
 
 HEAD = b"%s /api/v1/run HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n"
 #: Headers that every response has.

@@ -11,16 +11,16 @@ from pathlib import Path
 import pytest
 import typer.testing
 
-from ballscrew import units
-from ballscrew.cases import case_file
-from ballscrew.cli import main
-from ballscrew.errors import InputError
-from ballscrew.quantities import Info, Quantity
-from ballscrew.sizing.catalogue import catalogue
-from ballscrew.studies import validation
+from ballscrew.basis import units
+from ballscrew.basis.errors import InputError
+from ballscrew.basis.quantities import Info, Quantity
+from ballscrew.cases.case_files import case_file
+from ballscrew.faces.cli import main
+from ballscrew.physics.sizing.catalogue import catalogue
+from ballscrew.questions.validate import compute as validation
 from support.documents import assert_same, differences
 
-EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.toml"))
+EXAMPLES = sorted((Path(__file__).parents[3] / "examples").glob("*.toml"))
 PAPER = next(path for path in EXAMPLES if path.stem == "olaru2005")
 SETTINGS = [
     [],
@@ -297,7 +297,7 @@ def test_catalogue(server):
 
 @pytest.mark.parametrize("every", [4, pytest.param(1, marks=pytest.mark.long)])
 def test_each_row_of_the_catalogue_is_a_case(server, every):
-    """The page starts from them; that each row is a screw is tested by ``check`` (tests/cli/test_check.py)."""
+    """The page starts from them; that each row is a screw is tested by ``check`` (tests/faces/cli/test_check.py)."""
     for name in list(catalogue())[::every]:
         case = server.get(f"catalogue/{name}").json()["case"]
         assert server.post("run", {"case": case}).status_code == 200
@@ -329,8 +329,8 @@ def test_toml(server, tables, tmp_path):
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_drawing(server, path):
-    from ballscrew.report.drawing import drawing
-    from ballscrew.studies.run import run
+    from ballscrew.faces.report.drawing import drawing
+    from ballscrew.questions.run.compute import run
 
     found = server.post("drawing", {"case": tables_of(path)})
     assert found.headers["content-type"].partition(";")[0] == "image/svg+xml"

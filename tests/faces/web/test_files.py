@@ -5,9 +5,9 @@ import json
 import tomllib
 from pathlib import Path
 
-from ballscrew.cases import project
+from ballscrew.cases.case_files import project
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 
 
 def opened(server, name, content):

@@ -13,8 +13,8 @@ import zipfile
 
 import pytest
 
-from ballscrew.web import limits
-from ballscrew.web.guard import HEADERS
+from ballscrew.faces.web import limits
+from ballscrew.faces.web.guard import HEADERS
 from support.short_timeouts import READ_TIMEOUT
 
 from .conftest import ROOT

@@ -12,11 +12,11 @@ import httpx
 import psutil
 import pytest
 
-from ballscrew.web import jobs as jobs_of
-from ballscrew.web import server as servers
-from ballscrew.web.job_process import Answer, Computed, Progress, Row
-from ballscrew.web.jobs import Jobs
-from ballscrew.web.problems import Refused
+from ballscrew.faces.web import jobs as jobs_of
+from ballscrew.faces.web import server as servers
+from ballscrew.faces.web.job_process import Answer, Computed, Progress, Row
+from ballscrew.faces.web.jobs import Jobs
+from ballscrew.faces.web.problems import Refused
 
 #: Longer than any job of these tests takes, also on a busy machine.
 LONG = 600
@@ -165,7 +165,7 @@ def test_without_forks(paper):
 #: The first fork of a job fails, and the others do not; the second time fewer pipes arrive than were sent.
 FULL = """
 import errno, os, socket
-from ballscrew.web.job_process import Answer, Asked, Forks
+from ballscrew.faces.web.job_process import Answer, Asked, Forks
 
 fork, receive, turns, received = os.fork, socket.recv_fds, [], []
 
@@ -263,12 +263,18 @@ class Told:
         pass
 
 
+async def computed(*messages):
+    """Jobs, and the one of a process that says these messages, once it has computed."""
+    jobs = Jobs(start=lambda: Told(*messages, Computed(4.0)))
+    job = jobs.begin("select", "", b"{}")
+    while not job.computed:
+        await job.changed(0.01)
+    return jobs, job
+
+
 def test_rows_come_before_the_rest():
     async def scene():
-        jobs = Jobs(start=lambda: Told(Progress(1, 9), Row(b"1"), Row(b"[2]"), Computed(4.0)))
-        job = jobs.begin("select", "", b"{}")
-        while len(job.rows) < 2 or not job.computed:
-            await job.changed(0.01)
+        jobs, job = await computed(Progress(1, 9), Row(b"1"), Row(b"[2]"))
         assert (job.rows, job.finished, job.total, job.computed) == ([b"1", b"[2]"], 1, 9, 4.0)
         jobs.close()
 
@@ -279,10 +285,7 @@ def test_no_more_rows_than_there_is_room_for(monkeypatch):
     monkeypatch.setattr(jobs_of, "MOST_ROWS", 3)
 
     async def scene():
-        jobs = Jobs(start=lambda: Told(Row(b"1"), Row(b"23"), Row(b"4"), Computed(1.0)))
-        job = jobs.begin("select", "", b"{}")
-        while not job.computed:
-            await job.changed(0.01)
+        jobs, job = await computed(Row(b"1"), Row(b"23"), Row(b"4"))
         assert job.rows == [b"1", b"23"]
         jobs.close()
 
@@ -293,10 +296,7 @@ def test_what_is_dropped_takes_no_room_and_a_cancelled_job_gets_no_rows(monkeypa
     monkeypatch.setattr(jobs_of, "MOST_ROWS", 3)
 
     async def scene():
-        jobs = Jobs(start=lambda: Told(Row(b"1"), Row(b"too long"), Row(b"23"), Computed(1.0)))
-        job = jobs.begin("select", "", b"{}")
-        while not job.computed:
-            await job.changed(0.01)
+        jobs, job = await computed(Row(b"1"), Row(b"too long"), Row(b"23"))
         assert (job.rows, job.size) == ([b"1", b"23"], 3)
         late = Told(Row(b"2"))
         late.end = lambda: None  # it says one more row before it is dead

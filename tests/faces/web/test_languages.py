@@ -9,15 +9,16 @@ from pathlib import Path
 import pytest
 
 import ballscrew
-from ballscrew.axis.drive import AS_GIVEN, FULL_BATH
-from ballscrew.axis_studies.duty import OF_BATH
-from ballscrew.axis_studies.self_heating import GIVEN, WARM
-from ballscrew.axis_studies.warm_up import AT_END, AT_START
-from ballscrew.case_schema.schema import json_schema
-from ballscrew.friction.result import QUADRANTS
-from ballscrew.optimisation.need_schema import json_schema as need_schema
-from ballscrew.sizing.installation import Ends
-from ballscrew.web import languages
+from ballscrew.axis.duty_cycle.drive import AS_GIVEN, FULL_BATH
+from ballscrew.cases.schema.schema import json_schema
+from ballscrew.faces.web import languages
+from ballscrew.physics.friction.result import QUADRANTS
+from ballscrew.physics.sizing.installation import Ends
+from ballscrew.questions.axis.compute import SPRINGS
+from ballscrew.questions.duty.compute import OF_BATH
+from ballscrew.questions.optimise.need_schema import json_schema as need_schema
+from ballscrew.questions.warm_up.compute import AT_END, AT_START
+from ballscrew.questions.warm_up.self_heating import GIVEN, WARM
 
 PAGE = Path(languages.__file__).with_name("page")
 PACKAGE = Path(ballscrew.__file__).parent
@@ -61,6 +62,7 @@ SAFETY = (
     "band.flooded", "check.*", "duty.*", "lubricant.*", "run.preload_above_rating", "validity.*",
     "verdict.back_driving", "verdict.brake", "verdict.checks", "verdict.equilibrium",
     "verdict.equilibrium_of_full_bath", "verdict.held_in_motion",
+    "verdict.buckling", "verdict.critical_speed",
     "verdict.motor", "verdict.no_load", "verdict.preload", "verdict.preload_lost", "verdict.quadrant",
     "verdict.self_locking", "verdict.skid", "verdict.stretch", "warning.bracing", "warning.stopped",
 )  # fmt: skip
@@ -78,6 +80,7 @@ NAMES = {
     "drive torque", "back driving", "step", "as listed",
     "computed from the geometry (ISO 3408-5)", "installation", "limits.running_time",
     "static_load_rating", "dynamic_load_rating", "maximum_pressure",
+    *SPRINGS,
 }  # fmt: skip
 
 
@@ -201,7 +204,7 @@ def test_no_script_has_a_text_of_its_own():
 
 def test_help_names_pages_of_the_theory():
     pages = set(re.findall(r'^  (?:"[a-z_.]+"|[a-z]+): "([a-z]+)",$', SCRIPTS["help.js"], re.MULTILINE))
-    theory = Path(__file__).parents[2] / "docs" / "theory"
+    theory = Path(__file__).parents[3] / "docs" / "theory"
     assert len(pages) > 5
     assert {page for page in pages if not (theory / f"{page}.md").is_file()} == set()
     assert {f"help.page.{page}" for page in pages} == {key for key in ENGLISH if key.startswith("help.page.")}
@@ -239,7 +242,7 @@ def test_the_page_in_german(visit):
         assert not re.search(r"\d\.\d", here.text("#numbers"))
         here.unit("operation.axial_load", "N").type("operation.axial_load", "1.234")  # a thousand to most, not to all
         fault = here.page.locator("[data-path='operation.axial_load'] .fault").inner_text()
-        assert "könnte zwei Zahlen sein (1.234 N): 1234 oder 1,234 schreiben" in fault
+        assert "könnte zwei Zahlen sein (1.234 N): 1234 für Tausender schreiben, 1,234 für eine Dezimalzahl" in fault
         assert here.type("operation.axial_load", "1.234,4").text("#case").startswith("1234 N")
     finally:
         here.page.context.clear_cookies()

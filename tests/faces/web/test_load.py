@@ -9,11 +9,11 @@ from pathlib import Path
 import psutil
 import pytest
 
-from ballscrew.report.blocks import Report
-from ballscrew.report.pdf import pdf_bytes
-from ballscrew.web import memory
+from ballscrew.faces.report.blocks import Report
+from ballscrew.faces.report.pdf import pdf_bytes
+from ballscrew.faces.web import memory
 
-SCRIPT = Path(__file__).parents[2] / "benchmarks" / "serve.py"
+SCRIPT = Path(__file__).parents[3] / "benchmarks" / "serve.py"
 
 
 @pytest.fixture(scope="module")
@@ -90,8 +90,8 @@ def test_memory_stays(server, serve):
 
 def test_what_is_kept_is_bounded():
     """No cache has a case or a text of a request as its key: a thousand different ones leave as many entries as one."""
-    from ballscrew.components.nut import SingleNut
-    from ballscrew.evaluation.outputs import _outputs, known_outputs
+    from ballscrew.engine.evaluation.outputs import _outputs, known_outputs
+    from ballscrew.physics.components.nut import SingleNut
 
     known_outputs(SingleNut())
     before = _outputs.cache_info().currsize

@@ -11,12 +11,12 @@ from pathlib import Path
 import httpx
 import pytest
 
-from ballscrew.web.request_queue import RequestQueue
-from ballscrew.web.server import application
+from ballscrew.faces.web.request_queue import RequestQueue
+from ballscrew.faces.web.server import application
+from faces.web.test_equal_to_commands import document, written
 from support.documents import assert_same
-from web.test_equal_to_commands import document, written
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
+EXAMPLES = Path(__file__).parents[3] / "examples"
 
 
 @pytest.fixture(scope="module")

@@ -7,8 +7,8 @@ import urllib.parse
 import pytest
 from typer.testing import CliRunner
 
-from ballscrew.cli.main import app
-from ballscrew.friction.result import MECHANISMS
+from ballscrew.faces.cli.main import app
+from ballscrew.physics.friction.result import MECHANISMS
 
 DOUBLE = "rexroth-40x10x6-6-double"
 #: Of fewer balls: its band takes a second, and not two.

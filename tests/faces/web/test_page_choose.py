@@ -91,9 +91,9 @@ def test_choose_a_screw(visit, server):
     known = [one for one in answer["candidates"] if one["complete"]]
     least = min(known, key=lambda one: one["objectives"]["drive_torque"])
     assert least["label"] in rows.nth(0).inner_text()
-    lost = next(one for one in answer["candidates"] if one["preload_lost_above"] is not None)
+    lost = next(one for one in answer["candidates"] if one["rigid_lift_off_load"] is not None)
     assert not lost["holds"]
-    assert "Preload lost above" in here.text(f"#choose-result tr[data-rank='{lost['rank']}']")
+    assert "Preload lost (rigid bodies: above" in here.text(f"#choose-result tr[data-rank='{lost['rank']}']")
     here.page.locator("[data-sort=rank]").click()
     here.page.locator("#choose-y").select_option("life")
     here.page.locator("#choose-chart").scroll_into_view_if_needed()

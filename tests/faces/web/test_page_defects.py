@@ -9,7 +9,7 @@ import tomllib
 import pypdf
 import pytest
 
-from ballscrew.units import to_digits
+from ballscrew.basis.units import to_digits
 
 from .conftest import Visit, new_page
 

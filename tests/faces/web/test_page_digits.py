@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 
-from ballscrew.units import to_digits
+from ballscrew.basis.units import to_digits
 
 ENDS = """async (pairs) => {
   const { ends, digits } = await import("/page/units.js");

@@ -54,7 +54,7 @@ def test_a_duty_from_an_example_to_a_fault_and_back(visit, server):
     assert said == [one["id"] for one in (*answer["verdicts"], *answer["warnings"]) if one["id"] != "verdict.checks"]
     assert {"verdict.brake", "duty.open_cycle"} <= set(said)
     assert page.locator("#duty .checks tbody tr").count() == len(answer["checks"])
-    assert "sum" in here.text("#duty table:has(caption:has-text('paid for'))")
+    assert "sum" in here.text("#duty table:has(caption:has-text('by cause'))")
     # each edit begins from the ones before, in the same table, in another segment and in another section
     edits = {"segment-1-speed": "15", "segment-3-distance": "-500", "f-motion-acceleration": "3"}
     for id, typed in edits.items():

@@ -11,7 +11,7 @@ import pypdf
 import pytest
 from typer.testing import CliRunner
 
-from ballscrew.cli.main import app
+from ballscrew.faces.cli.main import app
 from support.documents import assert_same
 
 DOUBLE = "rexroth-16x5x3-4-double"

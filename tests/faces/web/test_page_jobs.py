@@ -5,30 +5,15 @@ import time
 
 import psutil
 
-from ballscrew.web.log_bodies import ServiceBody, examples_with_logs
-
 from .test_page_duty import case_of
+from .test_page_logs import DOUBLE_NUT, given_logs
 
-NUT = "#A=paper&A.nut.type=double&A.nut.preload=3+kN&A.model.name=olaru2005&band=0&cards=service"
 #: Choosing from the whole catalogue, which takes longer than any of these tests looks at it.
 #: All that is judged is asked for: the page starts at once.
 NEED = {
     "axial_load": "2 kN", "feed": "15 m/min", "unsupported_length": "1 m", "ends": "fixed-supported",
     "running_time": "20000 h",
 }  # fmt: skip
-
-
-def given_logs(here):
-    """Put the logs of the example of the API into the card of the service."""
-    page = here.page
-    page.wait_for_selector("#service-worn", state="attached")
-    body = examples_with_logs(ServiceBody, case_of(here))["paper"]
-    for name in ("worn", "new"):
-        file = {"name": body[name]["name"], "mimeType": "text/csv", "buffer": body[name]["text"].encode()}
-        page.set_input_files(f"#service-{name}", file)
-        page.wait_for_selector(f"#service-{name}-name:has-text('{name}.csv')")
-    page.wait_for_selector("#service-start:enabled")
-    return body
 
 
 def starts(here):
@@ -43,7 +28,7 @@ def jobs_of(server):
 
 def test_a_service_survives_a_reload(visit, server):
     """While it computes, and once it is there: one click starts the work once."""
-    here = visit().open(NUT)
+    here = visit().open(DOUBLE_NUT)
     body = given_logs(here)
     with here.page.expect_response(lambda one: one.url.endswith("/jobs/service")):
         here.page.locator("#service-start").click()
@@ -83,7 +68,7 @@ def test_a_limit_that_was_reached_is_said_as_it_is(visit, start):
     server = start("--time-limit", "0.1")
     here = visit(server.address)
     here.expected = ("status of 422",)
-    here.open(NUT)
+    here.open(DOUBLE_NUT)
     # a job of a tenth of a second: its limit is 3 s, which this log of many rows does not take; it is refused by hand
     refused = {
         "title": "Invalid input", "status": 422, "lines": ["server: stopped the work, which took too long"],

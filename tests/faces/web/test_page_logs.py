@@ -1,9 +1,25 @@
 """The cards that take logs, and the hand-over: each walked through whole."""
 
-from ballscrew.web.log_bodies import ServiceBody, examples_with_logs
+from ballscrew.faces.web.log_bodies import ServiceBody, examples_with_logs
 
 from .test_page_access import violations
 from .test_page_duty import answered, case_of, number
+
+#: A page with the card of the service and a nut with preload.
+DOUBLE_NUT = "#A=paper&A.nut.type=double&A.nut.preload=3+kN&A.model.name=olaru2005&band=0&cards=service"
+
+
+def given_logs(here):
+    """Put the logs of the example of the API into the card of the service."""
+    page = here.page
+    page.wait_for_selector("#service-worn", state="attached")
+    body = examples_with_logs(ServiceBody, case_of(here))["paper"]
+    for name in ("worn", "new"):
+        file = {"name": body[name]["name"], "mimeType": "text/csv", "buffer": body[name]["text"].encode()}
+        page.set_input_files(f"#service-{name}", file)
+        page.wait_for_selector(f"#service-{name}-name:has-text('{name}.csv')")
+    page.wait_for_selector("#service-start:enabled")
+    return body
 
 
 def test_a_log_is_fitted_and_used(visit, server):
@@ -65,15 +81,9 @@ def test_a_log_is_fitted_and_used(visit, server):
 def test_two_logs_tell_the_preload_that_is_left(visit, server):
     here = visit(width=390, height=844, scheme="dark")
     here.expected = ("status of 422",)
-    here.open("#A=paper&A.nut.type=double&A.nut.preload=3+kN&A.model.name=olaru2005&band=0&cards=service")
+    here.open(DOUBLE_NUT)
     page = here.page
-    page.wait_for_selector("#service-worn", state="attached")
-    body = examples_with_logs(ServiceBody, case_of(here))["paper"]
-    for name in ("worn", "new"):
-        file = {"name": body[name]["name"], "mimeType": "text/csv", "buffer": body[name]["text"].encode()}
-        page.set_input_files(f"#service-{name}", file)
-        page.wait_for_selector(f"#service-{name}-name:has-text('{name}.csv')")
-    page.wait_for_selector("#service-start:enabled")
+    body = given_logs(here)
     page.locator("#service-tolerance").fill("5")
     page.wait_for_selector("#service code:has-text('--tolerance 0.05')")
     assert "ballscrew service new.csv worn.csv" in here.text("#service code")

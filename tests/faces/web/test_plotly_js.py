@@ -4,7 +4,7 @@ import gzip
 import hashlib
 import re
 
-from ballscrew.web.plotly_js import eager, script
+from ballscrew.faces.web.plotly_js import eager, script
 
 #: Of package/plotly-cartesian.min.js in the package plotly.js-cartesian-dist-min 4.1.1 of npm.
 DIGEST = "79542150855a52c567260e3137095dbe2b744e6d702a5cabe67da246942fba7a"

@@ -11,9 +11,9 @@ import time
 import httpx
 import pytest
 
-from ballscrew.web import api, server
-from ballscrew.web.problems import Refused
-from ballscrew.web.request_queue import RequestQueue
+from ballscrew.faces.web import api, server
+from ballscrew.faces.web.problems import Refused
+from ballscrew.faces.web.request_queue import RequestQueue
 
 
 def run_scene(scene):
@@ -193,7 +193,7 @@ def test_work_does_not_keep_the_program_from_ending():
     """Also work that never calls its deadline; threads of anyio would be waited for."""
     program = (
         "import asyncio, time\n"
-        "from ballscrew.web.request_queue import RequestQueue\n"
+        "from ballscrew.faces.web.request_queue import RequestQueue\n"
         "async def scene():\n"
         "    task = asyncio.ensure_future(RequestQueue().heavy(lambda _: time.sleep(600)))\n"
         "    await asyncio.sleep(0.1)\n"

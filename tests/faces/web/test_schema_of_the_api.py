@@ -13,14 +13,14 @@ from schemathesis import GenerationMode
 from schemathesis.specs.openapi.checks import positive_data_acceptance
 from schemathesis.specs.openapi.definitions import OPENAPI_31
 
-from ballscrew.case_schema.schema import json_schema
-from ballscrew.studies import validation
-from ballscrew.web import api, memory, problems
-from ballscrew.web.files import plotly_address
-from ballscrew.web.request_queue import RequestQueue
-from ballscrew.web.server import (
+from ballscrew.cases.schema.schema import json_schema
+from ballscrew.faces.web import api, memory, problems
+from ballscrew.faces.web.files import plotly_address
+from ballscrew.faces.web.request_queue import RequestQueue
+from ballscrew.faces.web.server import (
     application,
 )
+from ballscrew.questions.validate import compute as validation
 
 #: A job is a process: what it may be asked is in ``test_jobs.py``.
 JOBS = "/api/v1/jobs/"

@@ -6,11 +6,11 @@ import json
 
 import httpx
 
-from ballscrew.documents.selection import document
-from ballscrew.output.json_text import plain
-from ballscrew.selection.selection import select
-from ballscrew.web import server as servers
-from ballscrew.web.request_queue import RequestQueue
+from ballscrew.basis.output.json_text import plain
+from ballscrew.faces.web import server as servers
+from ballscrew.faces.web.request_queue import RequestQueue
+from ballscrew.questions.select.compute import select
+from ballscrew.questions.select.document import document
 
 NEED = {
     "force": "2 kN",

@@ -15,8 +15,8 @@ import httpx
 import pytest
 import uvicorn
 
-from ballscrew.web import connections
-from ballscrew.web import server as web
+from ballscrew.faces.web import connections
+from ballscrew.faces.web import server as web
 
 ENDS = (0, 130)
 
@@ -54,7 +54,7 @@ def test_without_the_extra_it_says_what_to_install(tmp_path):
     program = (
         "import sys, importlib.util as u; find = u.find_spec\n"
         "u.find_spec = lambda name, *more: None if name in ('fastapi', 'uvicorn') else find(name, *more)\n"
-        "from ballscrew.cli import main; sys.argv = ['ballscrew', 'serve']; main.main()"
+        "from ballscrew.faces.cli import main; sys.argv = ['ballscrew', 'serve']; main.main()"
     )
     process = subprocess.run([sys.executable, "-c", program], capture_output=True, encoding="utf-8", check=False)
     assert process.returncode == 2

@@ -10,9 +10,9 @@ import zipfile
 import pytest
 import xlsxwriter
 
-from ballscrew import child_process
-from ballscrew.child_process import ChildError
-from ballscrew.tables import sheets, workbooks
+from ballscrew.basis import child_process
+from ballscrew.basis.child_process import ChildError
+from ballscrew.files.tables import sheets, workbooks
 from support.log_texts import lines_of
 
 limits = pytest.mark.skipif(os.name == "nt", reason="needs limits of POSIX")

@@ -11,20 +11,20 @@ import openpyxl
 import pytest
 import xlsxwriter
 
-from ballscrew import units
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.errors import Fault, InputError
-from ballscrew.motion import trajectory_file
-from ballscrew.moving_logs import columns as moving_logs
-from ballscrew.quantities import fields_of
-from ballscrew.screw_tables.catalogue import COLUMNS
-from ballscrew.sizing.catalogue import CatalogueRow
-from ballscrew.studies.validation import columns_of
-from ballscrew.tables import decimals, rows, sheets
-from ballscrew.tables.headings import Column, heading_of, headings_in, known_heading_of
-from ballscrew.tables.sheets import Record
-from ballscrew.torque_logs import columns as torque_logs
-from ballscrew.validation.sets import SETS
+from ballscrew.axis.motion import trajectory_file
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.quantities import fields_of
+from ballscrew.cases.screw_tables.catalogue import COLUMNS
+from ballscrew.evidence.moving_logs import columns as moving_logs
+from ballscrew.evidence.validation.sets import SETS
+from ballscrew.files.tables import decimals, rows, sheets
+from ballscrew.files.tables.headings import Column, heading_of, headings_in, known_heading_of
+from ballscrew.files.tables.sheets import Record
+from ballscrew.files.torque_logs import columns as torque_logs
+from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.sizing.catalogue import CatalogueRow
+from ballscrew.questions.validate.compute import columns_of
 
 FIELDS = fields_of(CatalogueRow)
 LEAD, BALL = Column("lead", FIELDS["lead"], ("Ph", "P"), True), Column("ball_diameter", FIELDS["ball_diameter"])
@@ -309,10 +309,10 @@ def test_a_heading_with_another_delimiter_in_it(table):
         ("Ph [mm];i\n1'000;4\n", "has a separator of thousands (1'000) · write 1000"),
         ("Ph [mm];i\n1.234,5;4\n", 'column "Ph [mm]": has a separator of thousands (1.234,5) · write it without'),
         ("Ph [mm];i\n1,234,567;4\n", "has a separator of thousands (1,234,567) · write it without"),
-        ("Ph [mm];i\n12,300;4\n", "may have a separator of thousands (12,300) · write 12300 or 12.3"),
+        ("Ph [mm];i\n12,300;4\n", "thousands (12,300) · write 12300 for thousands, 12.3 for a decimal"),
         ("Ph [mm];i\n6,35;4\n1.234;4\n", "row 3, column \"Ph [mm]\": may have a separator of thousands (1.234)"),
-        ("Ph [mm];i\n6.35;4\n1,234;4\n", "may have a separator of thousands (1,234) · write 1234 or 1.234"),
-        ('Ph [mm],i\n"1,234",4\n', "may have a separator of thousands (1,234) · write 1234 or 1.234"),
+        ("Ph [mm];i\n6.35;4\n1,234;4\n", "thousands (1,234) · write 1234 for thousands, 1.234 for a decimal"),
+        ('Ph [mm],i\n"1,234",4\n', "thousands (1,234) · write 1234 for thousands, 1.234 for a decimal"),
         ("Ph [mm]\n5\x1b[31m\n", "unknown unit (5 [31m) · use a unit such as mm"),
     ],
 )  # fmt: skip
@@ -348,7 +348,10 @@ def test_evidence_of_decimal_marks(texts, marks):
 def test_nobody_guesses_a_factor_of_a_thousand():
     """A number that may be two is refused, whatever marks the rest of the table has, unless they agree."""
     for decimal, text in [("", "1,234"), (".", "1,234"), (",.", "1,234"), (",", "1.234"), (",.", "1.234")]:
-        assert isinstance(decimals.with_point("", text, frozenset(decimal)), Fault)
+        found = decimals.with_point("", text, frozenset(decimal))
+        assert isinstance(found, Fault)
+        written = found.remedy.partition("thousands, ")[2].partition(" ")[0]  # as the remedy says
+        assert float(decimals.with_point("", written, frozenset(decimal))) == 1.234
     for decimal, text in [(",", "1,234"), ("", "1.234"), (".", "1.234")]:
         assert decimals.with_point("", text, frozenset(decimal)) == "1.234"
 

@@ -4,13 +4,13 @@ import math
 
 import pytest
 
-from ballscrew import units
-from ballscrew.components.materials import TEMPERATURE, Lubricant
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault
-from ballscrew.quantities import fields_of, quantities_of
-from ballscrew.solvers.load_distribution import BallLoads
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault
+from ballscrew.basis.quantities import fields_of, quantities_of
+from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.solvers.load_distribution import BallLoads
 
 KNOWN = {
     **quantities_of(BallScrew),
@@ -64,7 +64,8 @@ def test_written_values_in_si(name, written, expected):
         ("axial_load", "5 NM", "unknown unit", "use a unit such as N, kN or lbf"),
         ("viscosity", "100 mPas", "wrong unit", 'did you mean "mPa s"?'),
         ("temperature", "40 C", "unknown unit", "use a unit such as degC, K or degF"),
-        ("lead", "3,500 mm", "could be two numbers", "write 3500 or 3.500"),
+        ("lead", "3,500 mm", "could be two numbers", "write 3500 for thousands, 3.5 for a decimal"),
+        ("axial_load", "4,000 N", "could be two numbers", "write 4000 for thousands, 4.0 for a decimal"),
         ("lead", "1,2,3 mm", "is not a number", "write a decimal point"),
         ("lead", "1 50 mm", "is not a number with a unit", 'write it like "1 mm"'),
         ("lead", "five mm", "is not a number with a unit", 'write it like "1 mm"'),

@@ -2,7 +2,7 @@
 
 import pytest
 
-from ballscrew.torque_logs import reading
+from ballscrew.files.torque_logs import reading
 
 
 @pytest.fixture

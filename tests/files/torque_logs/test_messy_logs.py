@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ballscrew.torque_logs.torque_log import TorqueLog
+from ballscrew.files.torque_logs.torque_log import TorqueLog
 from support.log_texts import HEADINGS, ROWS, in_display_units, lines_of
 
 

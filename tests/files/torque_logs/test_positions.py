@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from ballscrew.torque_logs import reading
-from ballscrew.torque_logs.positions import FeedRates, feed_rate
+from ballscrew.files.torque_logs import reading
+from ballscrew.files.torque_logs.positions import FeedRates, feed_rate
 from support.log_texts import RPM, lines_of
 
 

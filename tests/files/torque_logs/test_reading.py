@@ -5,9 +5,9 @@ import hashlib
 import numpy as np
 import pytest
 
-from ballscrew.tables import headings
-from ballscrew.tables.headings import heading_of
-from ballscrew.torque_logs.columns import COLUMNS
+from ballscrew.files.tables import headings
+from ballscrew.files.tables.headings import heading_of
+from ballscrew.files.torque_logs.columns import COLUMNS
 from support.log_texts import EXPECTED, HEADINGS, ROWS, RPM, in_display_units, lines_of
 
 # -- columns --------------------------------------------------------------------------------------
@@ -282,9 +282,15 @@ def test_decimal_commas_and_quotes(read):
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
-        ("1,234;5;6\n", "may have a separator of thousands (1,234) · write 1234 or 1.234"),
-        ("0,5;5;6\n1.234;5;6\n", "may have a separator of thousands (1.234) · write 1234 or 1.234"),
-        ("0.5;5;6\n1,234;5;6\n", "may have a separator of thousands (1,234) · write 1234 or 1.234"),
+        ("1,234;5;6\n", "may have a separator of thousands (1,234) · write 1234 for thousands, 1.234 for a decimal"),
+        (
+            "0,5;5;6\n1.234;5;6\n",
+            "may have a separator of thousands (1.234) · write 1234 for thousands, 1,234 for a decimal",
+        ),
+        (
+            "0.5;5;6\n1,234;5;6\n",
+            "may have a separator of thousands (1,234) · write 1234 for thousands, 1.234 for a decimal",
+        ),
         ("1.234,5;5;6\n", "has a separator of thousands (1.234,5) · write it without"),
         ("1 000;5;6\n", "has a separator of thousands (1 000) · write 1000"),
     ],

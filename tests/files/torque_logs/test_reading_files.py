@@ -12,7 +12,7 @@ import openpyxl
 import pytest
 import scipy.io
 
-from ballscrew.torque_logs import reading
+from ballscrew.files.torque_logs import reading
 from support.log_texts import EXPECTED, HEADINGS, ROWS, in_display_units, lines_of
 
 # -- files that are bad ---------------------------------------------------------------------------

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from ballscrew.torque_logs.repeats import repeated_rows
-from ballscrew.torque_logs.torque_log import TorqueLog
+from ballscrew.files.torque_logs.repeats import repeated_rows
+from ballscrew.files.torque_logs.torque_log import TorqueLog
 
 
 def coarse(seed, rows=4000):

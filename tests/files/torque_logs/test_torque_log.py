@@ -9,11 +9,11 @@ import xarray as xr
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ballscrew.errors import InputError
-from ballscrew.torque_logs import cleaning
-from ballscrew.torque_logs.motion import SCALES, motion_of, runs_in
-from ballscrew.torque_logs.reservoir_sampler import ReservoirSampler
-from ballscrew.torque_logs.torque_log import TorqueLog
+from ballscrew.basis.errors import InputError
+from ballscrew.files.torque_logs import cleaning
+from ballscrew.files.torque_logs.motion import SCALES, motion_of, runs_in
+from ballscrew.files.torque_logs.reservoir_sampler import ReservoirSampler
+from ballscrew.files.torque_logs.torque_log import TorqueLog
 
 LEAD, FRICTION, INERTIA = 0.01, 0.3, 0.01
 #: A cycle: times, speeds at them, and the acceleration between them.

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.torque_logs.torque_series import read
+from ballscrew.files.torque_logs.torque_series import read
 
 HOUR, DAY = 3600.0, 86400.0
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.sizing.catalogue import catalogue
+from ballscrew.physics.sizing.catalogue import catalogue
 
 ROW = catalogue()["rexroth-40x10x6-6-double"]
 MAKERS = {

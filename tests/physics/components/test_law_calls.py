@@ -1,19 +1,14 @@
-"""Laws of a contact take its conditions; the calls of 0.1 work for one more release; what is no law is refused."""
+"""Laws of a contact take its conditions; what is no law is refused."""
 
 import dataclasses
-import pickle
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.components import laws, lubrication
-from ballscrew.components.contact import Contact
-from ballscrew.components.laws import InletFactors
-from ballscrew.components.lubrication import Inlet
-from ballscrew.components.mixed_friction import LoadSharing
-from ballscrew.equations import film, rolling
+from ballscrew.physics.components.contact import Contact
+from ballscrew.physics.components.laws import InletFactors
+from ballscrew.physics.components.lubrication import Inlet
 
 POINT = {"axial_load": 4000.0, "screw_speed": 60.0}
 REFERENCE = bs.FrictionModel.reference()
@@ -22,62 +17,6 @@ REFERENCE = bs.FrictionModel.reference()
 @pytest.fixture
 def contact(seed_screw, seed_oil):
     return REFERENCE(seed_screw, seed_oil, **POINT).screw
-
-
-# -- the calls of 0.1 ------------------------------------------------------------------------------
-
-
-def test_a_friction_law_of_the_film_parameter_alone():
-    law = bs.ZhouHoeprich()
-    new = law(SimpleNamespace(film_parameter=0.7, full_film_friction_coefficient=None))
-    with pytest.warns(DeprecationWarning, match="take one argument, its ContactConditions"):
-        assert law(0.7) == new
-    with pytest.warns(DeprecationWarning, match="ContactConditions"):
-        assert law(film_parameter=0.7) == new
-    with pytest.warns(DeprecationWarning, match="ContactConditions"):
-        assert law(0.7, None, 0.05) == law(SimpleNamespace(film_parameter=0.7, full_film_friction_coefficient=0.05))
-
-
-def test_a_friction_law_of_conditions_and_another_film_parameter(contact):
-    law = LoadSharing()
-    contact = dataclasses.replace(contact, friction_coefficient=law(contact))
-    new = law(dataclasses.replace(contact, film_parameter=0.3))
-    with pytest.warns(DeprecationWarning, match="ContactConditions"):
-        assert law(0.3, contact, None) == new
-    assert law(contact) == contact.friction_coefficient
-
-
-def test_a_film_law_of_the_groups(contact):
-    groups = 1.5e-3, 1e-11, 4500.0, 1e-4, 8.0
-    with pytest.warns(DeprecationWarning, match="rolling_radius, speed_parameter"):
-        assert bs.HamrockDowson()(*groups) == film.minimum_film_thickness(*groups, 0.68)
-
-
-def test_an_elastic_resistance_of_numbers():
-    with pytest.warns(DeprecationWarning, match="ContactConditions"):
-        assert laws.Hysteresis(0.02)(3e-3, 100.0, 30.0, 1e-4) == rolling.hysteresis_moment(0.02, 100.0, 1e-4)
-
-
-OLD = {
-    "film": lambda R, U, G, W, k: 1.0 * film.central_film_thickness(R, U, G, W, k),
-    "film_parameter": lambda h, ball, race: 1.0 * film.film_parameter(h, ball, race),
-    "friction": lambda film_parameter, conditions, full_film: 0.1 + 0 * film_parameter,
-    "elastic_resistance": lambda d_w, Q, k, b: 1.0 * rolling.elastic_resistance_moment(d_w, Q, k),
-}
-NEW = {
-    "film": lubrication.hamrock_dowson_central,
-    "film_parameter": lubrication.root_sum_square_film_parameter,
-    "friction": lambda conditions: 0.1 + 0 * conditions.film_parameter,
-    "elastic_resistance": laws.snare_resistance,
-}
-
-
-@pytest.mark.parametrize("slot", OLD)
-def test_a_law_from_outside_with_the_arguments_of_0_1(slot, seed_screw, seed_oil):
-    old, new = (dataclasses.replace(REFERENCE, **{slot: of[slot]}) for of in (OLD, NEW))
-    with pytest.warns(DeprecationWarning, match="a law that takes"):
-        found = old(seed_screw, seed_oil, **POINT).screw_torque
-    assert found == new(seed_screw, seed_oil, **POINT).screw_torque
 
 
 # -- the conditions --------------------------------------------------------------------------------
@@ -115,7 +54,7 @@ def test_a_fuller_state_keeps_what_is_known(contact):
     ("slot", "given", "said"),
     [
         ("rolling", "houpert", r"model\.rolling: must be a law, not its name \(houpert\) · from "
-         r"ballscrew\.components\.lubrication import houpert_rolling, and give rolling=houpert_rolling"),
+         r"ballscrew\.physics\.components\.lubrication import houpert_rolling, and give rolling=houpert_rolling"),
         ("rolling", "haupert", r'model\.rolling: .* \(haupert\) · did you mean "houpert"\? in a case file'),
         ("film", "hamrock-dowson", r"import HamrockDowson, and give film=HamrockDowson\(\)"),
         ("film", bs.HamrockDowson, r"model\.film: must be a law \(the class HamrockDowson\) · make one of it"),
@@ -138,7 +77,7 @@ def test_what_is_no_law_is_refused(slot, given, said):
         ("film", np.array(["a"]), "must return numbers"),
         ("elastic_resistance", np.zeros(7), r"model\.elastic_resistance: must return an array in the shape .*\(7,\)"),
         ("inlet", (1.0, 1.0), r"model\.inlet: must return a InletFactors .*returned a tuple\) · return "
-         r"ballscrew\.components\.laws\.InletFactors"),
+         r"ballscrew\.physics\.components\.laws\.InletFactors"),
         ("inlet", InletFactors(1.0, None), r"model\.inlet: must return numbers"),
         ("hertz", InletFactors(1.0, 1.0), r"model\.hertz: must return a HertzShape"),
         ("slip", 1.0, r"model\.slip: must return a Slip"),
@@ -183,30 +122,9 @@ def test_what_a_law_raises_names_it(seed_screw, seed_oil):
     assert caught.value.__notes__[0].startswith("raised by the law model.rolling = ")
 
 
-@pytest.mark.parametrize(
-    ("slot", "law"),
-    [
-        ("friction", lambda lam, conditions=None, full=None: 0.1 + 0 * lam),
-        ("friction", lambda lam, *rest: 0.1 + 0 * lam),
-        ("film", lambda *numbers: 1e-7 + 0 * sum(numbers)),
-        ("film_parameter", film.literal_film_parameter),
-    ],
-)
-def test_a_law_of_0_1_works_whatever_its_arguments_are_called(slot, law, seed_screw, seed_oil):
-    model = dataclasses.replace(bs.FrictionModel.olaru2005(), **{slot: law})
-    with pytest.warns(DeprecationWarning, match="take one argument") as caught:
-        result = model(seed_screw, seed_oil, axial_load=4000.0, screw_speed=60.0)
-    assert np.isfinite(result.screw_torque)
-    assert caught[0].filename == __file__  # where a user sees it
-
-
-def old_friction(film_parameter, conditions, full_film):
-    return 0.1 + 0 * film_parameter
-
-
-def test_a_model_with_a_law_of_0_1_can_be_pickled_after_a_call(seed_screw, seed_oil):
-    model = dataclasses.replace(bs.FrictionModel.olaru2005(), friction=old_friction)
-    with pytest.warns(DeprecationWarning, match="take one argument"):
-        result = model(seed_screw, seed_oil, axial_load=4000.0, screw_speed=60.0)
-    for value in (model, result):
-        pickle.loads(pickle.dumps(value))
+def test_a_law_of_several_arguments_is_named(seed_screw, seed_oil):
+    """A law takes the conditions of the contact, and nothing else."""
+    model = dataclasses.replace(REFERENCE, friction=lambda film_parameter, full_film: 0.1)
+    with pytest.raises(TypeError, match="full_film") as caught:
+        model(seed_screw, seed_oil, **POINT)
+    assert caught.value.__notes__[0].startswith("raised by the law model.friction = ")

@@ -11,24 +11,24 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
-from ballscrew.axis.screw_friction import ConstantEfficiency
-from ballscrew.components import nut_losses
-from ballscrew.components.nut import Scatter
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.friction.law_names import LAWS
-from ballscrew.optimisation.design_space import SearchOptions
-from ballscrew.quantities import fields_of
-from ballscrew.selection.requirements import Requirements
-from ballscrew.sizing.catalogue import catalogue
-from ballscrew.sizing.checks import checks
-from ballscrew.sizing.installation import Ends, Installation, Limits
-from ballscrew.solvers.load_distribution import ball_loads
-from ballscrew.supports.bearing import SupportBearing
-from ballscrew.supports.guide import LinearGuide
-from ballscrew.supports.makers_bearing import KnownBearing, PalmgrenBearing, SKFBearing, SKFConstants
-from ballscrew.supports.mounted_bearing import MountedBearing
-from ballscrew.supports.table import CarriedMass, GuidedTable
-from ballscrew.uncertainty.bands import band_along
+from ballscrew.axis.duty_cycle.screw_friction import ConstantEfficiency
+from ballscrew.axis.supports.bearing import SupportBearing
+from ballscrew.axis.supports.guide import LinearGuide
+from ballscrew.axis.supports.makers_bearing import KnownBearing, PalmgrenBearing, SKFBearing, SKFConstants
+from ballscrew.axis.supports.mounted_bearing import MountedBearing
+from ballscrew.axis.supports.table import CarriedMass, GuidedTable
+from ballscrew.basis.quantities import fields_of
+from ballscrew.engine.uncertainty.bands import band_along
+from ballscrew.physics.components import nut_losses
+from ballscrew.physics.components.nut import Scatter
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.friction.law_names import LAWS
+from ballscrew.physics.sizing.catalogue import catalogue
+from ballscrew.physics.sizing.checks import checks
+from ballscrew.physics.sizing.installation import Ends, Installation, Limits
+from ballscrew.physics.solvers.load_distribution import ball_loads
+from ballscrew.questions.optimise.design_space import SearchOptions
+from ballscrew.questions.select.requirements import Requirements
 from support.synthetic_logs import OIL
 
 U = pint.UnitRegistry()

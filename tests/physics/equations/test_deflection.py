@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from ballscrew.equations import deflection, hertz
+from ballscrew.physics.equations import deflection, hertz
 
 #: A few operations on doubles.
 RELATIVE = 2e-15

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from ballscrew.equations import dissipation, kinematics
+from ballscrew.physics.equations import dissipation, kinematics
 
 from .numbers import SCREWS
 from .test_equilibrium import F_B, F_RN, F_RS, M_B, M_CN, M_CS, M_ERN, M_ERS, race_torques

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from ballscrew.equations import equilibrium, geometry, kinematics, rolling
+from ballscrew.physics.equations import equilibrium, geometry, kinematics, rolling
 
 from .numbers import SCREWS
 

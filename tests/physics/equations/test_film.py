@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from ballscrew.equations import film, hertz
+from ballscrew.physics.equations import film, hertz
 
 from .numbers import BALL_ROUGHNESS, RACE_ROUGHNESS, ROLLING_RADIUS
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from ballscrew.equations import friction, geometry, hertz, kinematics
+from ballscrew.physics.equations import friction, geometry, hertz, kinematics
 
 from .numbers import BALL_DIAMETER, BOUNDARY, CONFORMITY, DECAY, EXPONENT, FULL_FILM
 

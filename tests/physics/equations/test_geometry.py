@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ballscrew.equations import geometry
+from ballscrew.physics.equations import geometry
 
 from .numbers import SCREWS
 
@@ -124,7 +124,7 @@ def test_cosine_and_sine_of_the_rolling_plane_are_components_of_the_axis(alpha, 
 
 
 def hiwin():
-    with (Path(__file__).parents[1] / "data" / "hiwin_fsc.csv").open(encoding="utf-8") as stream:
+    with (Path(__file__).parents[2] / "data" / "hiwin_fsc.csv").open(encoding="utf-8") as stream:
         return list(csv.DictReader(stream))
 
 

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from ballscrew.equations import hertz
+from ballscrew.physics.equations import hertz
 
 from .numbers import CONTACT_LOAD, EQUIVALENT_MODULUS, RADII_RATIO, ROLLING_RADIUS
 

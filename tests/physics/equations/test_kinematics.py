@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from ballscrew.equations import geometry, kinematics
+from ballscrew.physics.equations import geometry, kinematics
 
 from .numbers import SCREWS
 

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from ballscrew.equations import life
+from ballscrew.physics.equations import life
 
 RELATIVE = 1e-13
 

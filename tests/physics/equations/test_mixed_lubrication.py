@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from ballscrew.equations import mixed_lubrication as mixed
+from ballscrew.physics.equations import mixed_lubrication as mixed
 
 RELATIVE = 1e-12
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(200)

@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ballscrew.components.nut_losses import DOUBLE_NUT_DRAG, OVERSIZE_BALL_DRAG
-from ballscrew.equations import geometry, preload, transmission
+from ballscrew.physics.components.nut_losses import DOUBLE_NUT_DRAG, OVERSIZE_BALL_DRAG
+from ballscrew.physics.equations import geometry, preload, transmission
 
-DATA = Path(__file__).parents[1] / "data"
+DATA = Path(__file__).parents[2] / "data"
 RELATIVE = 1e-13
 #: The limits of a table have two decimals; so far off may their mean, or one of them, be.
 HALF_DIGIT = 0.00501

@@ -6,13 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from ballscrew.equations import geometry, life, rating
-from ballscrew.sizing.catalogue import CatalogueRow
-from ballscrew.sizing.ratings import RATING_CONFORMITY, ratings_of
+from ballscrew.physics.equations import geometry, life, rating
+from ballscrew.physics.sizing.catalogue import CatalogueRow
+from ballscrew.physics.sizing.ratings import RATING_CONFORMITY, ratings_of
 
 RELATIVE = 1e-13
 KGF = 9.80665
-DATA = Path(__file__).parents[1] / "data" / "hiwin_fsc.csv"
+DATA = Path(__file__).parents[2] / "data" / "hiwin_fsc.csv"
 PRINTED = {line["model"]: line for line in csv.DictReader(DATA.read_text(encoding="utf-8").splitlines())}
 #: By their ratings, these two rows have a ball less in a turn than there is room for.
 ONE_BALL_LESS = ("32-20K4", "40-16K5")

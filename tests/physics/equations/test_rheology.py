@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from ballscrew.equations import rheology
+from ballscrew.physics.equations import rheology
 
 from .numbers import CONTACT_LOAD, EQUIVALENT_MODULUS, PRESSURE_VISCOSITY, ROLLING_RADIUS, VISCOSITY
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_bvp
 
-from ballscrew.equations import rigidity
+from ballscrew.physics.equations import rigidity
 
 E, NU = 2.1e11, 0.3
 

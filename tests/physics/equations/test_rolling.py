@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from ballscrew.equations import rheology, rolling
+from ballscrew.physics.equations import rheology, rolling
 
 from .numbers import BALL_DIAMETER, CONTACT_LOAD, EQUIVALENT_MODULUS, RADII_RATIO, ROLLING_RADIUS, SCREWS
 

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from ballscrew.equations import hertz, rolling
+from ballscrew.physics.equations import hertz, rolling
 
 E, R_X = 2.26e11, 1.5e-3
 RELATIVE = 1e-12

@@ -9,12 +9,12 @@ import pytest
 from scipy.linalg import eigh
 from scipy.optimize import brentq
 
-from ballscrew.equations import geometry, shaft
-from ballscrew.sizing.installation import Ends
+from ballscrew.physics.equations import geometry, shaft
+from ballscrew.physics.sizing.installation import Ends
 
 RELATIVE = 1e-13
 RPM = math.tau / 60
-DATA = Path(__file__).parents[1] / "data" / "hiwin_fsc.csv"
+DATA = Path(__file__).parents[2] / "data" / "hiwin_fsc.csv"
 ROWS = list(csv.DictReader(DATA.read_text(encoding="utf-8").splitlines()))
 
 #: The conditions of each mounting, and an interval that holds their least root and no other.

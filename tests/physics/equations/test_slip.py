@@ -6,7 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from ballscrew.equations import friction, slip
+from ballscrew.physics.equations import friction, slip
 from oracles.contact_patch import ContactPatch, Ellipse
 from oracles.tractions import Coulomb
 

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from ballscrew.equations import traction
+from ballscrew.physics.equations import traction
 
 RELATIVE = 1e-13
 

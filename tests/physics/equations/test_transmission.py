@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from ballscrew.equations import transmission
+from ballscrew.physics.equations import transmission
 
 from .numbers import AXIAL_LOAD, CURVATURE_RATIO, LEAD, LOADED_BALLS, PITCH_CIRCLE_DIAMETER
 

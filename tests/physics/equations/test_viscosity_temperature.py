@@ -4,8 +4,8 @@ import math
 
 import pytest
 
-from ballscrew.components.data_sheet import DataSheet, viscosity_index
-from ballscrew.equations import viscosity_temperature as equations
+from ballscrew.physics.components.data_sheet import DataSheet, viscosity_index
+from ballscrew.physics.equations import viscosity_temperature as equations
 
 #: SHC 230 (SharpFluids): kinematic viscosity, mm²/s, by °C, to one decimal.
 SHC_230 = {

@@ -6,15 +6,15 @@ import math
 import pytest
 
 import ballscrew as bs
-from ballscrew import units
-from ballscrew.components.nut import DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
-from ballscrew.equations import life, shaft
-from ballscrew.references import bibliography
-from ballscrew.sizing.catalogue import CatalogueRow
-from ballscrew.sizing.checks import HOUR, all_hold, checks, loads_of_halves, mean_load, verdict_of
-from ballscrew.sizing.installation import Ends, Installation, Limits
-from ballscrew.sizing.ratings import ratings_of
-from ballscrew.sizing.speed_limits import GENERAL, MM_RPM, printed_limit, printed_limits, speed_limit_of
+from ballscrew.basis import units
+from ballscrew.basis.references import bibliography
+from ballscrew.physics.components.nut import DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
+from ballscrew.physics.equations import life, shaft
+from ballscrew.physics.sizing.catalogue import CatalogueRow
+from ballscrew.physics.sizing.checks import HOUR, all_hold, checks, loads_of_halves, mean_load, verdict_of
+from ballscrew.physics.sizing.dn_limits import GENERAL, MM_RPM, printed_limit, printed_limits, speed_limit_of
+from ballscrew.physics.sizing.installation import Ends, Installation, Limits
+from ballscrew.physics.sizing.ratings import ratings_of
 
 RPM = math.tau / 60
 NAMES = (

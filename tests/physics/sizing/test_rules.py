@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from ballscrew.sizing.rules import DRAG_RULES, RULES, Subject
+from ballscrew.physics.sizing.rules import DRAG_RULES, RULES, Subject
 
 #: BNFN4010-5: THK, A-689; and the examples of A-666 and A-743, of screws without preload.
 BNFN4010 = Subject(0.040, 0.04175, 0.010, preload=3000.0)

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.components.conditions import Motion
-from ballscrew.components.frame import helix_frame
-from ballscrew.components.laws import ProportionalBallForce
-from ballscrew.friction.balls import ball_contacts
-from ballscrew.solvers.four_point_slip import PARTS, FlankPair, FourPointBall, four_point_slip
+from ballscrew.physics.components.conditions import Motion
+from ballscrew.physics.components.frame import helix_frame
+from ballscrew.physics.components.laws import ProportionalBallForce
+from ballscrew.physics.friction.balls import ball_contacts
+from ballscrew.physics.solvers.four_point_slip import PARTS, FlankPair, FourPointBall, four_point_slip
 from oracles.contact_integral import contact_integral
 from oracles.free_ball import BallResistances
 from oracles.judged import screw
@@ -21,7 +21,7 @@ from oracles.tractions import Coulomb
 
 FRICTION = 0.1
 OIL = bs.Lubricant(0.1, 2.2e-8)
-ROWS = json.loads((Path(__file__).parents[1] / "data/contact_integral.json").read_text(encoding="utf-8"))["rows"]
+ROWS = json.loads((Path(__file__).parents[2] / "data/contact_integral.json").read_text(encoding="utf-8"))["rows"]
 FOUR = [row for row in ROWS if row["contacts"] == 4]
 STEEL = bs.Material(young_modulus=2.26e11 * (1 - 0.3**2), poisson_ratio=0.3)
 NONE = BallResistances()
@@ -160,6 +160,7 @@ def integrals(ratio, *, resistances=lambda part, load: NONE):
     ]
 
 
+@pytest.mark.implausible
 @pytest.mark.parametrize("ratio", [1.0, 0.5, 0.1, 0.03, 0.01, 1e-3])
 def test_random_screws_with_loads_that_differ(ratio):
     """Measured: median 0.2 %, 95 % within 0.65 %, largest 1.3 %; slip on two contacts has 0.02 %, 0.5 % and 1.2 %."""
@@ -172,6 +173,7 @@ def test_random_screws_with_loads_that_differ(ratio):
     assert np.max(error) < 0.02
 
 
+@pytest.mark.implausible
 def test_random_screws_that_are_resisted():
     """Rolling forces, hysteresis and neighbours, up to a third of friction in all: torques on screw and nut."""
     found = [slip(part, load, load, resistances=resisting(part, load)) for part, load in SCREWS]
@@ -183,6 +185,7 @@ def test_random_screws_that_are_resisted():
         assert np.max(error) < 0.02, name
 
 
+@pytest.mark.implausible
 @pytest.mark.parametrize("ratio", [1.0, 0.3, 0.03])
 def test_the_ball_turns_as_the_integral_has_it(ratio):
     """The angle of its axis against the binormal: a thousandth of a radian in the median, 0.005 for nine of ten.
@@ -333,6 +336,7 @@ def test_no_load_at_all_is_no_torque():
 # -- arrays ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.implausible
 def test_an_array_is_a_row_of_numbers():
     whole = slip(SCREWS.part, SCREWS.load, SCREWS.load / 7)
     for i, (part, load) in enumerate(SCREWS):

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.components.frame import bearing_frame
-from ballscrew.equations import slip
-from ballscrew.solvers.line_slip import creep_of_lines, line_slip, pure_rolling_lines
+from ballscrew.physics.components.frame import bearing_frame
+from ballscrew.physics.equations import slip
+from ballscrew.physics.solvers.line_slip import creep_of_lines, line_slip, pure_rolling_lines
 
 REFERENCE = bs.FrictionModel.reference()
 LINE = dataclasses.replace(REFERENCE, slip=line_slip)

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.components.balance import Resistances
-from ballscrew.components.screw import BallScrew
-from ballscrew.equations import equilibrium, friction
-from ballscrew.solvers import pure_rolling
-from ballscrew.solvers.slip import BallProblem
+from ballscrew.physics.components.balance import Resistances
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.equations import equilibrium, friction
+from ballscrew.physics.solvers import pure_rolling
+from ballscrew.physics.solvers.slip import BallProblem
 
 CORRECTED = bs.FrictionModel.corrected()
 BOX = 100_000

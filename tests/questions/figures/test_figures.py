@@ -10,9 +10,10 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
-from ballscrew.figures import ball, style
-from ballscrew.figures import olaru2005 as figures
-from ballscrew.papers import olaru2005 as paper
+from ballscrew.evidence.papers import olaru2005 as paper
+from ballscrew.questions.reproduce import ball_figure as ball
+from ballscrew.questions.reproduce import figure as figures
+from ballscrew.questions.shared import chart_style as style
 
 PLOTS = {plot.name: plot for plot in (*ball.PLOTS, *figures.PLOTS)}
 
@@ -154,7 +155,7 @@ def test_nobodys_settings_matter(sources, tmp_path):
 
 
 def test_no_pyplot():
-    code = "import sys, ballscrew.figures.ball, ballscrew.figures.olaru2005; print(*sys.modules)"
+    code = "import sys; from ballscrew.questions.reproduce import ball_figure, figure; print(*sys.modules)"
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split()
     assert "matplotlib.figure" in loaded
     assert "matplotlib.pyplot" not in loaded

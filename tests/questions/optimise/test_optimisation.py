@@ -9,23 +9,24 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.documents.optimisation import document
-from ballscrew.equations import geometry
-from ballscrew.errors import InputError
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.figures import files
-from ballscrew.figures.optimisation import picture
-from ballscrew.optimisation import optimisation as studies
-from ballscrew.optimisation import search as searches
-from ballscrew.optimisation.design_model import DesignModel
-from ballscrew.optimisation.design_space import design_space, makeable_ratios
-from ballscrew.output.json_text import plain
-from ballscrew.selection import requirement_checks
-from ballscrew.selection.need import need_of
-from ballscrew.selection.pareto import front, hypervolume
-from ballscrew.studies.check import checked
-from ballscrew.table_files import row_tables, selection_tables
-from ballscrew.text.optimisation import cost, text
+from ballscrew.basis.errors import InputError
+from ballscrew.basis.output.json_text import plain
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.physics.equations import geometry
+from ballscrew.questions.check.compute import checked
+from ballscrew.questions.optimise import compute
+from ballscrew.questions.optimise import search as searches
+from ballscrew.questions.optimise.design_model import DesignModel
+from ballscrew.questions.optimise.design_space import design_space, makeable_ratios
+from ballscrew.questions.optimise.document import document
+from ballscrew.questions.optimise.figure import picture
+from ballscrew.questions.optimise.table import of_optimisation
+from ballscrew.questions.optimise.text import cost, text
+from ballscrew.questions.select import requirement_checks
+from ballscrew.questions.select.need import need_of
+from ballscrew.questions.select.pareto import front, hypervolume
+from ballscrew.questions.shared import chart_files as files
+from ballscrew.questions.shared import row_tables
 from support.commands import ROOT
 
 EXAMPLE = ROOT / "examples" / "needs" / "feed_axis.toml"
@@ -44,7 +45,7 @@ def model_of(tables, engine="numpy", **options):
     need = need_of(tables)
     space = design_space(need, **options)
     centre = {name: math.sqrt(low * high) for name, (low, high) in space.bounds.items()}
-    case = studies._case(need, space, centre, NO_OPTIONS)
+    case = compute._case(need, space, centre, NO_OPTIONS)
     return need, space, DesignModel.of(case, need, space, 1.0, engine)
 
 
@@ -85,8 +86,8 @@ def test_constraints_and_objectives_are_those_of_the_check(nut):
     for place in range(len(x)):
         variables = {name: float(values[place]) for name, values in space.columns(x).items()}
         balls, preload = float(designs.loaded_balls[place]), float(designs.preload[place])
-        tables = studies.tables_of(need, space, variables, balls=balls, preload=preload)
-        found = checked("design", studies._built(need, tables, NO_OPTIONS))
+        tables = compute.tables_of(need, space, variables, balls=balls, preload=preload)
+        found = checked("design", compute._built(need, tables, NO_OPTIONS))
         for check in found.checks:
             if check.name in used:
                 assert used[check.name][place] == pytest.approx(check.utilisation, rel=1e-6), check.name
@@ -248,7 +249,7 @@ def test_a_need_that_nothing_fulfils_ends_in_words(tmp_path):
     assert found.members == []
     assert "no design within the bounds holds" in text(found)
     assert json.loads(json.dumps(plain(document(found))))["candidates"] == []
-    row_tables.write(tmp_path / "empty.csv", selection_tables.of_optimisation(found.members))
+    row_tables.write(tmp_path / "empty.csv", of_optimisation(found.members))
     files.draw(lambda: picture(found), tmp_path / "empty.svg")
 
 
@@ -259,10 +260,10 @@ def test_an_objective_that_is_zero_has_no_change():
     space = design_space(need, objectives=["loss", "preload_torque"])
     numbers = ([2.0, 2.2, 0.0, 0.0], [4.0, 4.0, -0.0, 0.1])
     members = [
-        studies.Member({}, {"loss": s, "preload_torque": m}, None, [], {"loss": full, "preload_torque": n})
+        compute.Member({}, {"loss": s, "preload_torque": m}, None, [], {"loss": full, "preload_torque": n})
         for s, full, m, n in numbers
     ]
-    found = studies.Optimisation(need, space, members, 0, None, ("", ""))
+    found = compute.Optimisation(need, space, members, 0, None, ("", ""))
     assert found.largest_change == {"loss": pytest.approx(0.1)}
 
 
@@ -287,7 +288,7 @@ def test_the_search_tells_its_designs_and_what_it_costs():
     """Generation by generation of both searches, then the members: to the end, within what was planned before."""
     tables = {**NEED, "nut": {"type": "single"}, "need": {}}
     options = {"population": 20, "generations": 4, "members": 3, "settings": ["optimise.elastic_generations=2"]}
-    planned = studies.plan(tables, **options)
+    planned = compute.plan(tables, **options)
     assert (planned.rigid, planned.elastic, planned.members, planned.total) == (80, 40, 3, 123)
     told = []
     found = bs.optimise(tables, engine="numpy", done=lambda *numbers: told.append(numbers), **options)
@@ -296,5 +297,5 @@ def test_the_search_tells_its_designs_and_what_it_costs():
     assert told[6:] == [(120 + number, total) for number in range(1, len(found.members) + 1)]
     assert found.members
     assert cost(planned).startswith("120 designs, then at most 3 in full: some ")
-    larger = studies.plan(tables, **{**options, "generations": 40_000})
+    larger = compute.plan(tables, **{**options, "generations": 40_000})
     assert larger.seconds > 10 * planned.seconds

@@ -9,11 +9,12 @@ from typing import Annotated, Any, NamedTuple, Protocol
 
 import numpy as np
 
-from ballscrew._arrays import ByValue, compact
-from ballscrew.errors import Fault, faults_of, raise_if_any
-from ballscrew.friction.element import ElementFriction
-from ballscrew.motion.states import MotionStates, Numbers
-from ballscrew.quantities import (
+from ballscrew.axis.motion.states import MotionStates, Numbers
+from ballscrew.axis.supports.guide import GUIDES, SEALS
+from ballscrew.axis.supports.table import GuidedTable
+from ballscrew.basis.arrays import ByValue, compact
+from ballscrew.basis.errors import Fault, faults_of, raise_if_any
+from ballscrew.basis.quantities import (
     Acceleration,
     Angle,
     Force,
@@ -25,15 +26,14 @@ from ballscrew.quantities import (
     Temperature,
     Torque,
 )
-from ballscrew.supports.guide import GUIDES, SEALS
-from ballscrew.supports.table import GuidedTable
+from ballscrew.physics.friction.element import ElementFriction
 
 #: Standard acceleration of free fall, m/s².
 GRAVITY = 9.80665
 
 
 class Guides(Protocol):
-    """The carriages of a table, as the elements of :mod:`ballscrew.supports` are."""
+    """The carriages of a table, as the elements of :mod:`ballscrew.axis.supports` are."""
 
     carriages: int
 
@@ -66,7 +66,7 @@ class Axis(ByValue):
     """A mass on guides, driven by a ball screw whose shaft a motor turns.
 
     Positive motion is upwards where the axis is inclined; a positive load on the nut is one against positive motion.
-    Raises :class:`~ballscrew.errors.InputError` for values out of bounds.
+    Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
     """
 
     mass: Annotated[Mass, Info("m", "moved mass, with the load on it", "kg", at_least=0, hint="400 kg", usual=(0, 1e5))]
@@ -187,7 +187,8 @@ class Axis(ByValue):
     ) -> Mapping[str, Numbers]:
         r"""Friction of the guides by mechanism at speeds and accelerations, magnitudes, N; at rest what they hold.
 
-        Without an element :math:`\mu_g m g \cos\theta` and the force of the seals.
+        ``speed`` (m/s) and ``acceleration`` (m/s²) broadcast; guides that are an element also take the ``temperature``
+        (K) of their oil. Without an element :math:`\mu_g m g \cos\theta` and the force of the seals.
         """
         every = np.ones(np.broadcast_shapes(np.shape(speed), np.shape(acceleration)))
         if self.guides is None:
@@ -200,7 +201,7 @@ class Axis(ByValue):
         return {name: part * every for name, part in found.items()}
 
     def carriage_loads(self, acceleration: Acceleration = 0.0) -> Force:
-        """Load of each carriage of the guides at accelerations, N, the carriages along the last axis."""
+        """Load of each carriage, N, at each ``acceleration`` (m/s²), the carriages along the last axis."""
         assert self.guides is not None
         if self.table is not None:
             return self.table.loads(acceleration).equivalent
@@ -215,11 +216,11 @@ class Axis(ByValue):
 
     @property
     def moving_mass(self) -> Mass:
-        """Mass that is accelerated, that of the counterweight too."""
+        """Mass that is accelerated, that of the counterweight too, kg."""
         return self.mass + self.counterweight
 
     def loads(self, states: MotionStates) -> Loads:
-        """Forces at states of motion; guides do not rub at rest, where they hold."""
+        """Forces at the ``states`` of a motion, N; guides do not rub at rest, where they hold."""
         every = np.ones_like(states.time)
         rubs: dict[str, Any] = {**self.guide_friction(states.speed, states.acceleration)}
         seals = rubs.pop(SEALS, 0.0)

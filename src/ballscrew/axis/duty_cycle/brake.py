@@ -9,12 +9,12 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from scipy.optimize import root_scalar
 
-from ballscrew._arrays import ByValue
-from ballscrew.axis.duty import Duty
-from ballscrew.axis.screw_friction import ModelledScrew
-from ballscrew.friction.breakaway import breakaway
-from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Acceleration, AngularSpeed, Force, Length, Ratio, Speed, Temperature, Torque
+from ballscrew.axis.duty_cycle.duty import Duty
+from ballscrew.axis.duty_cycle.screw_friction import ModelledScrew
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.quantities import Acceleration, AngularSpeed, Force, Length, Ratio, Speed, Temperature, Torque
+from ballscrew.physics.friction.breakaway import breakaway
 
 #: Factor on the holding torque by which brakes of vertical axes are chosen where nothing else is known: an assumption.
 BRAKE_FACTOR = 2.0

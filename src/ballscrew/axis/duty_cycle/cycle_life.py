@@ -8,12 +8,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ballscrew._arrays import ByValue, lazy
-from ballscrew.axis.duty import Duty
-from ballscrew.components.nut import Nut, SingleNut
-from ballscrew.equations import life
-from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Force, Ratio
+from ballscrew.axis.duty_cycle.duty import Duty
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.basis.arrays import ByValue, lazy
+from ballscrew.basis.quantities import Force, Ratio
+from ballscrew.physics.components.nut import Nut, SingleNut
+from ballscrew.physics.equations import life
 
 HOUR = 3600.0
 
@@ -33,7 +33,7 @@ class CycleLife(ByValue):
 
     Without preload a load of one sign presses one flank of the thread, and the flank rests while the load has the other
     sign. With preload both halves are loaded all the time, by the formula of ISO3408-5
-    (:func:`~ballscrew.sizing.checks.loads_of_halves`). Turns count for all, loaded or not.
+    (:func:`~ballscrew.physics.sizing.checks.loads_of_halves`). Turns count for all, loaded or not.
     """
 
     duty: Duty

@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew._arrays import ByValue, lazy
-from ballscrew.axis.duty import Duty
-from ballscrew.axis.motor import Motor
-from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Energy, fields_of
-from ballscrew.records import Measured, Message
-from ballscrew.sizing.checks import Check
+from ballscrew.axis.duty_cycle.duty import Duty
+from ballscrew.axis.duty_cycle.motor import Motor
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.basis.arrays import ByValue, lazy
+from ballscrew.basis.quantities import Energy, fields_of
+from ballscrew.basis.records import Measured, Message
+from ballscrew.physics.sizing.checks import Check
 
 _LARGEST_SPEED = fields_of(Motor)["largest_speed"]
 
@@ -28,8 +28,8 @@ AS_GIVEN, FULL_BATH = "starved of oil", "in a full bath of oil"
 class MotorCheck(ByValue):
     """A duty against a motor.
 
-    Where the screw is starved of oil (:attr:`~ballscrew.axis.duty.Duty.starved`), its torque in a full bath is judged
-    as well, and the larger counts.
+    Where the screw is starved of oil (:attr:`~ballscrew.axis.duty_cycle.duty.Duty.starved`), its torque in a full bath
+    is judged as well, and the larger counts.
     """
 
     duty: Duty
@@ -137,4 +137,4 @@ def _of(condition: str, message: Message) -> Message:
 
 def _check(name: str, value: float, limit: Any, unit: str, message: Message) -> Check:
     utilisation = value / float(limit) if limit else math.inf if value else 0.0
-    return Check.saying(message, name, float(value), float(limit), unit, utilisation, utilisation <= 1)
+    return Check.judged(message, name, value, limit, unit, utilisation)

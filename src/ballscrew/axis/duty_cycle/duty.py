@@ -9,21 +9,27 @@ from typing import Any, cast
 
 import numpy as np
 
-from ballscrew._arrays import ByValue, compact, lazy, total
-from ballscrew.axis.axis import Axis, Loads
-from ballscrew.axis.screw_friction import ConstantEfficiency, ModelledScrew, Screw, ScrewFriction, distinct_states
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import MISSING, Fault, accepts_units, raise_if_any
-from ballscrew.friction.element import FrictionElement
-from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.result import MECHANISMS
-from ballscrew.friction.starvation import NEARLY_ALL, differs
-from ballscrew.motion.profiles import Motion
-from ballscrew.motion.states import MotionStates, Numbers
-from ballscrew.quantities import Energy, Power, Ratio
-from ballscrew.supports.guide import GUIDES, SEALS
+from ballscrew.axis.duty_cycle.axis import Axis, Loads
+from ballscrew.axis.duty_cycle.screw_friction import (
+    ConstantEfficiency,
+    ModelledScrew,
+    Screw,
+    ScrewFriction,
+    distinct_states,
+)
+from ballscrew.axis.motion.profiles import Motion
+from ballscrew.axis.motion.states import MotionStates, Numbers
+from ballscrew.axis.supports.guide import GUIDES, SEALS
+from ballscrew.basis.arrays import ByValue, compact, lazy, total
+from ballscrew.basis.errors import MISSING, Fault, accepts_units, raise_if_any
+from ballscrew.basis.quantities import Energy, Power, Ratio
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.element import FrictionElement
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.result import MECHANISMS
+from ballscrew.physics.friction.starvation import NEARLY_ALL, differs
 
 #: Parts of the torque that store energy and give it back.
 STORED = ("acceleration of the mass", "acceleration of what turns", "gravity")
@@ -60,13 +66,16 @@ def duty(
     also: Mapping[str, FrictionElement] | None = None,
     recorded: bool = False,
 ) -> Duty:
-    """Torques, powers and energies of one cycle of an axis.
+    """Torques, powers and energies of one cycle of an axis: a :class:`Duty`.
 
-    ``model`` is a model of the friction of the screw, or one efficiency for all of its states. ``also`` has further
-    elements on the shaft of the screw, such as support bearings, by name: they get its load and its speed.
-    ``recorded`` evaluates the model by the recording that all screws of a kind share: for who asks for many of them.
-    Raises :class:`~ballscrew.errors.InputError` as the model does, for a model without a lubricant, and for elements
-    with the name of another part of the torque.
+    ``model`` is a model of the friction of the ``screw`` with its ``lubricant``, or one efficiency for all of its
+    states, which needs no lubricant. ``axis`` is what the screw moves and what turns it; ``motion`` is its motion, or
+    the states of one that are known. ``also`` has further elements on the shaft of the screw, such as support bearings,
+    by name: they get its load and its speed. ``recorded`` evaluates the model by the recording that all screws of a
+    kind share: for who asks for many of them.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` as the model does, for a model without a lubricant, and for
+    elements with the name of another part of the torque.
     """
     taken = {NUT, *PARTS, *MECHANISMS.values(), *screw.nut.losses} if also else set[str]()
     faults = [
@@ -94,9 +103,13 @@ class Duty(ByValue):
     either way, and the torque is the middle of what is possible; where a brake holds, it is zero.
     """
 
+    #: Mass, drive and guides.
     axis: Axis
+    #: The screw with its friction: by a model, or by one efficiency.
     driven: Screw
+    #: States of motion of one cycle.
     states: MotionStates
+    #: Further elements on the shaft of the screw, by name.
     also: Mapping[str, FrictionElement]
 
     @lazy
@@ -192,7 +205,8 @@ class Duty(ByValue):
     ) -> Mapping[str, Mapping[str, Numbers]]:
         """Friction torques beside the screw at loads and speeds of it, by element and mechanism, magnitudes, N m.
 
-        Each distinct state is computed once.
+        ``axial_load`` (N), ``screw_speed`` (rad/s) and ``temperature`` (K; None for that of each oil) are arrays of one
+        length. Each distinct state is computed once.
         """
         found: dict[str, Mapping[str, Numbers]] = {}
         if self.axis.bearing_torque:
@@ -231,7 +245,10 @@ class Duty(ByValue):
         return own
 
     def transmission_loss(self, turned: Numbers) -> Numbers:
-        """What belt or gears add to a torque that they pass on, N m: more where the motor drives, less where it is."""
+        """Torque that belt or gears add to one that they pass on, N m: more where the motor drives, less where it is.
+
+        ``turned`` is the torque without them at the motor, N m, at each state.
+        """
         eta, direction = self.axis.transmission_efficiency, self.states.direction
         return np.where(turned * direction > 0, turned * (1 / eta - 1), turned * (eta - 1)) * np.abs(direction)
 

@@ -9,18 +9,18 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.axis.duty import PROCESS, STORED, Duty
-from ballscrew.axis.screw_friction import WORTH_RECORDING, ModelledScrew
-from ballscrew.errors import Fault, InputError, raise_if_any
-from ballscrew.evaluation.evaluator import evaluator
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.motion.states import Numbers
-from ballscrew.supports.element_laws import UNCERTAIN
-from ballscrew.supports.mounted_bearing import PLACES
-from ballscrew.uncertainty.band_evaluation import faults_of_inputs, faults_of_options
-from ballscrew.uncertainty.bands import Interval
-from ballscrew.uncertainty.distributions import Distribution
-from ballscrew.uncertainty.sampling import Sampler, sobol_sequence
+from ballscrew.axis.duty_cycle.duty import PROCESS, STORED, Duty
+from ballscrew.axis.duty_cycle.screw_friction import WORTH_RECORDING, ModelledScrew
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.axis.supports.element_laws import UNCERTAIN
+from ballscrew.axis.supports.mounted_bearing import PLACES
+from ballscrew.basis.errors import Fault, InputError, raise_if_any
+from ballscrew.engine.evaluation.evaluator import evaluator
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.uncertainty.band_evaluation import faults_of_inputs, faults_of_options
+from ballscrew.engine.uncertainty.bands import Interval
+from ballscrew.engine.uncertainty.distributions import Distribution
+from ballscrew.engine.uncertainty.sampling import Sampler, sobol_sequence
 
 SAMPLES = 2**12
 #: Operating points that are evaluated at a time.
@@ -61,11 +61,14 @@ def duty_band(
 ) -> DutyBand:
     """RMS and peak torque, and energy drawn, returned and lost, for uncertain inputs of screw, nut, oil and model.
 
-    ``uncertain`` names inputs as :func:`~ballscrew.sweeps.sweep.sweep` does; they are independent, the same over a
-    cycle, and drawn from a Sobol' sequence. The laws are those of the model. The motion and the axis are exact.
-    ``beside`` has distributions of torques and seals of the bearings, and of coefficients and seals of the guides
-    (``bearings.fixed.torque``, ``guides.friction_coefficient``), with which friction goes in proportion.
-    Raises :class:`~ballscrew.errors.InputError` for unknown names, and for a screw without a model of friction.
+    Returns a :class:`DutyBand` of a ``duty``, with intervals that hold the share ``level`` of the ``samples``. The same
+    ``seed`` gives the same bands. ``done(finished, total)`` is told the samples. ``uncertain`` names inputs as
+    :func:`~ballscrew.engine.sweeps.sweep.sweep` does; they are independent, the same over a cycle, and drawn from a
+    Sobol' sequence. The laws are those of the model. The motion and the axis are exact. ``beside`` has distributions of
+    torques and seals of the bearings, and of coefficients and seals of the guides (``bearings.fixed.torque``,
+    ``guides.friction_coefficient``), with which friction goes in proportion.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for unknown names, and for a screw without a model of friction.
     """
     driven = duty.driven
     if not isinstance(driven, ModelledScrew):
@@ -117,7 +120,7 @@ def duty_band(
 def friction_beside(duty: Duty, name: str) -> tuple[float, Numbers]:
     """A number of a bearing or of the guides, and the friction torque about the shaft that one unit of it makes, N m.
 
-    Raises :class:`~ballscrew.errors.InputError` for a name that the duty has not.
+    Raises :class:`~ballscrew.basis.errors.InputError` for a name that the duty has not.
     """
     section, _, field = name.rpartition(".")
     element: Any = duty.axis.guides

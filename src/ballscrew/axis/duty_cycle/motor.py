@@ -8,10 +8,10 @@ from typing import Annotated
 
 import numpy as np
 
-from ballscrew._arrays import ByValue
-from ballscrew.errors import Fault, faults_of, raise_if_any, shown
-from ballscrew.motion.states import Numbers
-from ballscrew.quantities import AngularSpeed, Array, Info, Torque, Unit
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import Fault, faults_of, raise_if_any, shown
+from ballscrew.basis.quantities import AngularSpeed, Array, Info, Torque, Unit
 
 TorqueConstant = Annotated[Array, Unit("N m/A")]
 Resistance = Annotated[Array, Unit("ohm")]
@@ -21,8 +21,10 @@ Resistance = Annotated[Array, Unit("ohm")]
 class Motor(ByValue):
     """A motor with its drive, by its data sheet.
 
-    The peak torque holds up to the largest speed, or falls along a curve of points (speed, torque) with straight lines.
-    Raises :class:`~ballscrew.errors.InputError` for values out of bounds, and for a curve whose speeds do not rise.
+    The peak torque holds up to the largest speed, or falls along a ``curve`` of points (speed in rad/s, torque in N m)
+    with straight lines.
+    Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds, and for a curve whose speeds do not
+    rise.
     """
 
     rated_torque: Annotated[Torque, Info("T_N", "torque that it gives for ever", "N m", above=0, hint="2.4 N m")]
@@ -66,7 +68,7 @@ class Motor(ByValue):
         return found
 
     def peak_at(self, speed: Numbers) -> Numbers:
-        """Largest torque at speeds of either sign, N m; zero beyond the largest speed."""
+        """Largest torque at each ``speed`` (rad/s) of either sign, N m; zero beyond the largest speed."""
         size = np.abs(speed)
         if self.curve:
             speeds, torques = np.array(self.curve).T

@@ -9,19 +9,19 @@ from typing import Annotated, Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew._arrays import ByValue, compact, lazy
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.screw import BallScrew
-from ballscrew.equations import transmission
-from ballscrew.errors import faults_of, raise_if_any
-from ballscrew.evaluation.evaluator import evaluator
-from ballscrew.evaluation.outputs import known_outputs
-from ballscrew.friction.loaded_balls import loads_of
-from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.starvation import least_replenished
-from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Info, Length, Ratio
-from ballscrew.solvers.load_distribution import BallLoads
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.basis.arrays import ByValue, compact, lazy
+from ballscrew.basis.errors import faults_of, raise_if_any
+from ballscrew.basis.quantities import Info, Length, Ratio
+from ballscrew.engine.evaluation.evaluator import evaluator
+from ballscrew.engine.evaluation.outputs import known_outputs
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.equations import transmission
+from ballscrew.physics.friction.loaded_balls import loads_of
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.starvation import least_replenished
+from ballscrew.physics.solvers.load_distribution import BallLoads
 
 #: More balls than this in all points together, and the model is compiled.
 WORTH_RECORDING = 200_000
@@ -188,7 +188,7 @@ class ConstantEfficiency(ByValue):
     r"""A screw of one efficiency at all loads and speeds: :math:`M_S = |M_{Sa}| (1/\eta - 1)`.
 
     It knows no oil, no speed and no preload. Lowering, the load drives with :math:`\eta_b = 2 - 1/\eta`: the friction
-    torque is the same both ways. Raises :class:`~ballscrew.errors.InputError` for what is no efficiency.
+    torque is the same both ways. Raises :class:`~ballscrew.basis.errors.InputError` for what is no efficiency.
     """
 
     lead: Length

@@ -5,15 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from ballscrew.axis.axis import Axis
-from ballscrew.axis.duty import Duty, duty
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, accepts_units, raise_if_any
-from ballscrew.friction.element import FrictionElement
-from ballscrew.friction.model import FrictionModel
-from ballscrew.motion.profiles import Segment, Segments
-from ballscrew.quantities import AngularSpeed, Force, Length
+from ballscrew.axis.duty_cycle.axis import Axis
+from ballscrew.axis.duty_cycle.duty import Duty, duty
+from ballscrew.axis.motion.profiles import Segment, Segments
+from ballscrew.basis.errors import Fault, accepts_units, raise_if_any
+from ballscrew.basis.quantities import AngularSpeed, Force, Length
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.element import FrictionElement
+from ballscrew.physics.friction.model import FrictionModel
 
 
 @accepts_units("operation")
@@ -29,9 +29,12 @@ def to_and_fro(
 ) -> Duty:
     """The duty of a screw that turns at one speed over a stroke and back, with no mass and no rest.
 
-    ``also`` has further elements on the shaft, as in :func:`~ballscrew.axis.duty.duty`.
-    The load keeps its direction, as a weight does: one way the screw lifts it, the other way it drives the screw.
-    Raises :class:`~ballscrew.errors.InputError` for a speed of zero, and for a stroke that is not positive.
+    Returns a :class:`~ballscrew.axis.duty_cycle.duty.Duty`. ``model``, ``screw``, ``lubricant`` and ``also``, further
+    elements on the shaft, are those of :func:`~ballscrew.axis.duty_cycle.duty.duty`. ``axial_load`` (N),
+    ``screw_speed`` (rad/s; its sign is that of the first way) and ``stroke`` (m) are one number each. The load keeps
+    its direction, as a weight does: one way the screw lifts it, the other way it drives the screw.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for a speed of zero, and for a stroke that is not positive.
     """
     faults: list[Fault] = []
     if not abs(screw_speed) > 0:

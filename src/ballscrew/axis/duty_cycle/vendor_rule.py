@@ -7,10 +7,10 @@ import math
 
 import numpy as np
 
-from ballscrew._arrays import ByValue, lazy
-from ballscrew.axis.duty import Duty
-from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Ratio, Torque
+from ballscrew.axis.duty_cycle.duty import Duty
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.basis.arrays import ByValue, lazy
+from ballscrew.basis.quantities import Ratio, Torque
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

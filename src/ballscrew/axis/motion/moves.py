@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from ballscrew.motion.states import PolynomialPhase
-from ballscrew.quantities import Acceleration, Duration, Force, Jerk, Length, Speed, Temperature
+from ballscrew.axis.motion.states import PolynomialPhase
+from ballscrew.basis.quantities import Acceleration, Duration, Force, Jerk, Length, Speed, Temperature
 
 
 class Timing(NamedTuple):

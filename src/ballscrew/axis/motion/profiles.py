@@ -9,11 +9,11 @@ from typing import Annotated, Any, Protocol
 
 import numpy as np
 
-from ballscrew._arrays import ByValue
-from ballscrew.errors import MISSING, Fault, faults_of, raise_if_any, shown
-from ballscrew.motion.moves import move, rest
-from ballscrew.motion.states import MotionStates, Numbers, Phase, PolynomialPhase, states_of
-from ballscrew.quantities import Acceleration, Duration, Force, Frequency, Info, Jerk, Length, Speed, Temperature
+from ballscrew.axis.motion.moves import move, rest
+from ballscrew.axis.motion.states import MotionStates, Numbers, Phase, PolynomialPhase, states_of
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import MISSING, Fault, faults_of, raise_if_any, shown
+from ballscrew.basis.quantities import Acceleration, Duration, Force, Frequency, Info, Jerk, Length, Speed, Temperature
 
 _SPEED = Info("v", "largest speed", "m/min", above=0, hint="rapid feeds have 10 m/min to 120 m/min", usual=(1e-5, 10.0))
 _ACCELERATION = Info("a", "largest acceleration", "m/s^2", above=0, hint="1 m/s^2 to 20 m/s^2", usual=(1e-4, 200.0))
@@ -62,11 +62,11 @@ class _Stroke(ByValue):
 
     @property
     def limit_of_jerk(self) -> Jerk:
-        """The largest jerk; infinite where there is no limit."""
+        """The largest jerk, m/s^3; infinite where there is no limit."""
         return math.inf
 
     def phases(self) -> Sequence[Phase]:
-        """The phases of one cycle."""
+        """The phases of one cycle, each a :class:`~ballscrew.axis.motion.states.Phase`."""
         found: list[Phase] = []
         forth = (0.0, self.stroke, self.force, "forth")
         back = (self.stroke, -self.stroke, self.return_force, "back")
@@ -79,7 +79,7 @@ class _Stroke(ByValue):
         return found
 
     def states(self) -> MotionStates:
-        """States of one cycle."""
+        """States of one cycle: :class:`~ballscrew.axis.motion.states.MotionStates`."""
         return states_of(self.phases())
 
 
@@ -87,22 +87,22 @@ class _Stroke(ByValue):
 class Trapezoid(_Stroke):
     """A stroke with constant acceleration, constant speed and the same deceleration; a triangle where it is short.
 
-    Raises :class:`~ballscrew.errors.InputError` for values that are not positive.
+    Raises :class:`~ballscrew.basis.errors.InputError` for values that are not positive.
     """
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class SCurve(_Stroke):
-    """A stroke with limited jerk: the fastest of seven phases (:func:`~ballscrew.motion.moves.timing`).
+    """A stroke with limited jerk: the fastest of seven phases (:func:`~ballscrew.axis.motion.moves.timing`).
 
-    Raises :class:`~ballscrew.errors.InputError` for values that are not positive.
+    Raises :class:`~ballscrew.basis.errors.InputError` for values that are not positive.
     """
 
     jerk: Annotated[Jerk, _JERK]
 
     @property
     def limit_of_jerk(self) -> Jerk:
-        """The largest jerk."""
+        """The largest jerk, m/s^3."""
         return self.jerk
 
 
@@ -134,7 +134,7 @@ class _QuarterOfSine:
 class Sine(ByValue):
     """A sine from one end of the stroke to the other and back.
 
-    Raises :class:`~ballscrew.errors.InputError` for values that are not positive.
+    Raises :class:`~ballscrew.basis.errors.InputError` for values that are not positive.
     """
 
     stroke: Annotated[Length, _STROKE]
@@ -148,13 +148,13 @@ class Sine(ByValue):
         raise_if_any(faults_of("motion", self))
 
     def phases(self) -> Sequence[Phase]:
-        """The four quarters of a period."""
+        """The four quarters of a period, each a :class:`~ballscrew.axis.motion.states.Phase`."""
         w, ways = 2 * math.pi * self.frequency, ("forth", "forth", "back", "back")
         forces = (self.force, self.force, self.return_force, self.return_force)
         return [_QuarterOfSine(ways[i], self.stroke / 2, w, i, forces[i]) for i in range(4)]
 
     def states(self) -> MotionStates:
-        """States of one cycle."""
+        """States of one cycle: :class:`~ballscrew.axis.motion.states.MotionStates`."""
         return states_of(self.phases())
 
 
@@ -163,8 +163,8 @@ class Segment(ByValue):
     """A part of a motion of segments.
 
     With a ``distance`` a move from rest to rest, a negative one backwards. With a ``duration`` a stretch at a constant
-    speed, a rest where the speed is zero. Raises :class:`~ballscrew.errors.InputError` for both or neither of them,
-    and for a move without a speed.
+    speed, a rest where the speed is zero. Raises :class:`~ballscrew.basis.errors.InputError` for both or neither of
+    them, and for a move without a speed.
     """
 
     distance: Annotated[
@@ -184,6 +184,7 @@ class Segment(ByValue):
     temperature: Annotated[
         Temperature | None, Info("T", "temperature of the oil in it", "degC", above=0, hint="40 degC", usual=(200, 450))
     ] = None
+    #: The name of its phases; by default ``segment`` with its number.
     name: str = ""
 
     def __post_init__(self) -> None:
@@ -209,10 +210,11 @@ class Segments(ByValue):
     """Segments one after the other: moves from rest to rest, stretches at constant speed, rests.
 
     Moves without an acceleration of their own have that of the whole. The motion starts at zero and repeats; it should
-    end where it started. Raises :class:`~ballscrew.errors.InputError` for a move without any acceleration, and for no
-    segments.
+    end where it started. Raises :class:`~ballscrew.basis.errors.InputError` for a move without any acceleration, and
+    for no segments.
     """
 
+    #: The parts of the motion, in order of time.
     segments: tuple[Segment, ...]
     acceleration: Annotated[Acceleration | None, _ACCELERATION] = None
     jerk: Annotated[Jerk | None, _JERK] = None
@@ -228,7 +230,7 @@ class Segments(ByValue):
         raise_if_any(faults)
 
     def phases(self) -> Sequence[Phase]:
-        """The phases of all segments."""
+        """The phases of all segments, each a :class:`~ballscrew.axis.motion.states.Phase`."""
         found: list[PolynomialPhase] = []
         position = 0.0
         for number, segment in enumerate(self.segments, start=1):
@@ -258,5 +260,5 @@ class Segments(ByValue):
         return found
 
     def states(self) -> MotionStates:
-        """States of one cycle."""
+        """States of one cycle: :class:`~ballscrew.axis.motion.states.MotionStates`."""
         return states_of(self.phases())

@@ -10,8 +10,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew._arrays import ByValue
-from ballscrew.quantities import Acceleration, Duration, Force, Jerk, Length, Speed, Temperature
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.quantities import Acceleration, Duration, Force, Jerk, Length, Speed, Temperature
 
 Numbers = NDArray[np.float64]
 

@@ -7,10 +7,10 @@ import math
 
 import numpy as np
 
-from ballscrew._arrays import ByValue, compact, lazy
-from ballscrew.errors import MISSING, Fault, raise_if_any, shown
-from ballscrew.motion.states import MotionStates, Numbers
-from ballscrew.quantities import Acceleration
+from ballscrew.axis.motion.states import MotionStates, Numbers
+from ballscrew.basis.arrays import ByValue, compact, lazy
+from ballscrew.basis.errors import MISSING, Fault, raise_if_any, shown
+from ballscrew.basis.quantities import Acceleration
 
 #: Numbers of samples on either side that a smoothing reaches.
 HALF_WIDTHS = (0, 1, 2, 4, 8, 16, 32, 64)
@@ -41,8 +41,8 @@ class Trajectory(ByValue):
     is the smallest for which the noise of the acceleration is a twentieth of a typical acceleration; the noise itself
     is found from the fourth differences. Of each step of time there is one state in its middle, with the mean speed and
     the acceleration of the step, so that the kinetic energy is exact. Speeds within three deviations of their noise are
-    rests. Raises :class:`~ballscrew.errors.InputError` for neither positions nor speeds, arrays of different sizes,
-    numbers that are not finite, times that do not rise, and gaps.
+    rests. Raises :class:`~ballscrew.basis.errors.InputError` for neither positions nor speeds, arrays of different
+    sizes, numbers that are not finite, times that do not rise, and gaps.
     """
 
     time: Numbers

@@ -7,16 +7,16 @@ from pathlib import Path
 
 import numpy as np
 
-from ballscrew.errors import Fault, InputError, raise_if_any
-from ballscrew.motion.states import Numbers
-from ballscrew.motion.trajectory import Trajectory, faults_of_times
-from ballscrew.quantities import Info, Quantity
-from ballscrew.tables import decimals
-from ballscrew.tables.headings import Column, checked, headings_in, unused
-from ballscrew.tables.sheets import unreadable
-from ballscrew.torque_logs.columns import WITHIN, Layout
-from ballscrew.torque_logs.numbers import NumberReader
-from ballscrew.torque_logs.sources import source_of
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.axis.motion.trajectory import Trajectory, faults_of_times
+from ballscrew.basis.errors import Fault, InputError, raise_if_any
+from ballscrew.basis.quantities import Info, Quantity
+from ballscrew.files.tables import decimals
+from ballscrew.files.tables.headings import Column, checked, headings_in, unused
+from ballscrew.files.tables.sheets import unreadable
+from ballscrew.files.torque_logs.columns import WITHIN, Layout
+from ballscrew.files.torque_logs.numbers import NumberReader
+from ballscrew.files.torque_logs.sources import source_of
 
 #: Rows that are read at a time, and rows at most.
 _CHUNK, MOST_ROWS = 200_000, 5_000_000
@@ -51,7 +51,9 @@ _JUMP, _RARELY, _SAME = 10.0, 0.99, 0.05
 
 
 def read_trajectory(path: Path) -> Trajectory:
-    """The trajectory of a file. Raises :class:`~ballscrew.errors.InputError` that names the row and the remedy."""
+    """The trajectory of a file. Raises :class:`~ballscrew.basis.errors.InputError` that names the row and the
+    remedy.
+    """
     try:
         with path.open("rb") as file:
             source = source_of(path, file, None)

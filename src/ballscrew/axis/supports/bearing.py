@@ -9,21 +9,21 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from ballscrew import units
-from ballscrew._arrays import ByValue, lazy
-from ballscrew.components.frame import bearing_frame
-from ballscrew.components.laws import ProportionalBallForce
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.nut import DoubleNut, SingleNut
-from ballscrew.components.nut_losses import Seals
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, accepts_units, faults_of, raise_if_any, shown
-from ballscrew.friction.loaded_balls import loads_of
-from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.result import FrictionResult
-from ballscrew.quantities import Angle, Count, Force, Info, Length, Mask, Power, Ratio, Stiffness, Torque
-from ballscrew.records import Message, Record
+from ballscrew.basis import units
+from ballscrew.basis.arrays import ByValue, lazy
+from ballscrew.basis.errors import Fault, accepts_units, faults_of, raise_if_any, shown
+from ballscrew.basis.quantities import Angle, Count, Force, Info, Length, Mask, Power, Ratio, Stiffness, Torque
+from ballscrew.basis.records import Message, Record
+from ballscrew.physics.components.frame import bearing_frame
+from ballscrew.physics.components.laws import ProportionalBallForce
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.nut import DoubleNut, SingleNut
+from ballscrew.physics.components.nut_losses import Seals
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.loaded_balls import loads_of
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.result import FrictionResult
 
 #: Ball diameter over (D − d), how much of the circle the balls fill, and the conformity: usual, of no catalogue.
 BALL_SHARE, FILLED, CONFORMITY = 0.3, 0.9, 0.52
@@ -83,17 +83,17 @@ def sizes_fault(section: str, bore: Any, outside_diameter: Any) -> list[Fault]:
 class SupportBearing(ByValue):
     r"""An angular-contact or axial angular-contact ball bearing on the shaft: one row, or a preloaded pair of rows.
 
-    A :class:`~ballscrew.friction.element.FrictionElement`: called with an operating state, whose load is the axial one
-    of the bearing, it returns the friction torque about the shaft, by mechanism. The contacts are those of the screw,
-    in a plane: :math:`z Q \sin\alpha = F` for one row; the two sides of a preloaded pair are braced as the halves of
-    a double nut. ``rows`` is one, or an even number, half of them on each side.
+    A :class:`~ballscrew.physics.friction.element.FrictionElement`: called with an operating state, whose load is the
+    axial one of the bearing, it returns the friction torque about the shaft, by mechanism. The contacts are those of
+    the screw, in a plane: :math:`z Q \sin\alpha = F` for one row; the two sides of a preloaded pair are braced as the
+    halves of a double nut. ``rows`` is one, or an even number, half of them on each side.
 
     What catalogues leave out is assumed, and no source stands behind it: balls of 0.3 (D − d) that fill 0.9 of the
     circle (of axial angular-contact bearings they are smaller and more: give them where they are known), a conformity
     of 0.52 at both races, the roughness of the paper. Left out: a radial load, centrifugal forces and the cage's drag.
-    Against the formula of a maker: :class:`~ballscrew.supports.makers_bearing.SKFBearing` and the page on validation.
-    Raises :class:`~ballscrew.errors.InputError` for values out of bounds, balls that do not fit, and a preload of one
-    row alone.
+    Against the formula of a maker: :class:`~ballscrew.axis.supports.makers_bearing.SKFBearing` and the page on
+    validation. Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds, balls that do not fit, and
+    a preload of one row alone.
     """
 
     bore: Bore
@@ -110,6 +110,7 @@ class SupportBearing(ByValue):
             usual=(math.radians(10), math.radians(70)),
         ),
     ]
+    #: The oil of the bearing.
     lubricant: Lubricant
     rows: Annotated[
         Count,
@@ -164,12 +165,12 @@ class SupportBearing(ByValue):
 
     @property
     def mean_diameter(self) -> Length:
-        """Diameter of the circle of the balls, (d + D)/2."""
+        """Diameter of the circle of the balls, (d + D)/2, m."""
         return (self.bore + self.outside_diameter) / 2
 
     @property
     def balls_size(self) -> Length:
-        """Ball diameter given, or 0.3 (D − d)."""
+        """Ball diameter given, or 0.3 (D − d), m."""
         assumed = BALL_SHARE * (self.outside_diameter - self.bore)
         return assumed if self.ball_diameter is None else self.ball_diameter
 
@@ -214,9 +215,9 @@ class SupportBearing(ByValue):
         return bearing_model(self.model)
 
     def __call__(self, state: OperatingState, /) -> BearingFriction:
-        """Friction at a state: the axial load (N), of either sign for a pair, the speed (rad/s), the temperature (K).
+        """Friction at a ``state``: axial load (N), of either sign for a pair, speed (rad/s), temperature (K).
 
-        Raises :class:`~ballscrew.errors.InputError` as the model does.
+        Raises :class:`~ballscrew.basis.errors.InputError` as the model does.
         """
         given: dict[str, Any] = {"axial_load": state.axial_load, "screw_speed": state.screw_speed}
         balls = self._model(self.contacts, self.lubricant, **given, temperature=state.temperature)
@@ -224,9 +225,10 @@ class SupportBearing(ByValue):
 
     @accepts_units("bearing")
     def rigidity(self, axial_load: Force = 0.0) -> Stiffness:
-        """Axial rigidity of balls and races at a load, N/m, rings rigid: the slope of load over displacement.
+        """Axial rigidity of balls and races at ``axial_load`` (N), N/m, rings rigid: slope of load over displacement.
 
         A row alone has none without load. Catalogues print less: their rings and seats give way, too.
+        Raises :class:`~ballscrew.basis.errors.InputError` for a unit that is none of a force.
         """
         contacts = self.contacts
         if self.rows == 1:

@@ -9,18 +9,18 @@ from typing import Annotated
 
 import numpy as np
 
-from ballscrew._arrays import ByValue, lazy
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.nut import DoubleNut, OversizeBallNut
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, accepts_units, faults_of, raise_if_any
-from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.result import FrictionResult
-from ballscrew.quantities import Angle, Array, Count, Force, Info, Length, Mask, Power, Ratio, Speed, Temperature
-from ballscrew.records import Record
-from ballscrew.supports.bearing import CONFORMITY, bearing_model, rows_of_balls
-from ballscrew.supports.guide import SEALS, Carriages
+from ballscrew.axis.supports.bearing import CONFORMITY, bearing_model, rows_of_balls
+from ballscrew.axis.supports.guide import SEALS, Carriages
+from ballscrew.basis.arrays import ByValue, lazy
+from ballscrew.basis.errors import Fault, accepts_units, faults_of, raise_if_any
+from ballscrew.basis.quantities import Angle, Array, Count, Force, Info, Length, Mask, Power, Ratio, Speed, Temperature
+from ballscrew.basis.records import Record
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.nut import DoubleNut, OversizeBallNut
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.result import FrictionResult
 
 #: Diameter of the circle that stands for a straight path, in balls: what is left of its curvature is a share of about
 #: 1e-6 of the force.
@@ -31,7 +31,7 @@ STRAIGHT = 1e4
 class ContactGuide(ByValue):
     r"""The carriages of a table by their balls, which roll between rail and carriage at half its speed.
 
-    A :class:`~ballscrew.friction.element.FrictionElement` whose effort is a force along the rail, N, called as
+    A :class:`~ballscrew.physics.friction.element.FrictionElement` whose effort is a force along the rail, N, called as
     :class:`~ballscrew.LinearGuide`. The contacts are those of the screw on a path without curvature: two for each ball,
     in rows braced against each other (:math:`z Q \sin\alpha = P`, half of the rows against each direction of the load),
     or four, of balls too big for a pointed arch. With two contacts a ball rolls about an axis along its contacts'
@@ -40,7 +40,7 @@ class ContactGuide(ByValue):
     What catalogues leave out is assumed: a conformity of 0.52, the roughness of the paper, and no rows that carry less
     than others. A load across the rail counts as one that presses. Left out: what the return path and fresh grease
     resist, and errors of the bed.
-    Raises :class:`~ballscrew.errors.InputError` for values out of bounds.
+    Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
     """
 
     ball_diameter: Annotated[
@@ -50,6 +50,7 @@ class ContactGuide(ByValue):
         Count,
         Info("z_r", "loaded balls in one row of one carriage", at_least=1, at_most=1000, whole=True, hint="10 to 30"),
     ]
+    #: The oil of the guides.
     lubricant: Lubricant
     rows: Annotated[
         Count, Info("i", "rows of balls of a carriage", at_least=2, at_most=8, whole=True, hint="2 or 4")
@@ -125,15 +126,19 @@ class ContactGuide(ByValue):
         )
 
     def __call__(self, state: OperatingState, /) -> GuideFriction:
-        """Friction at a state: the load of all carriages (N), shared evenly, and the speed along the rail (m/s)."""
+        """Friction at a ``state``: the load of all carriages (N), shared evenly, and the speed along the rail (m/s).
+
+        Raises what :meth:`under` raises.
+        """
         share = np.asarray(state.axial_load)[..., np.newaxis] / self.carriages
         return self.under(share * np.ones(int(self.carriages)), state.screw_speed, state.temperature)
 
     @accepts_units("guides")
     def under(self, loads: Force, speed: Speed = 0.0, temperature: Temperature | None = None) -> GuideFriction:
-        """Friction where the load of each carriage is known, N, the carriages along the last axis.
+        """Friction where the ``loads`` of the carriages are known, N, one for each along the last axis.
 
-        Raises :class:`~ballscrew.errors.InputError` as the model does.
+        ``speed`` (m/s) and ``temperature`` (K) have the other axes. Raises :class:`~ballscrew.basis.errors.InputError`
+        as the model does.
         """
         radius = STRAIGHT * float(self.ball_diameter) / 2
         along = np.asarray(speed)[..., np.newaxis]

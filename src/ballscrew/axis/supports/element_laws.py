@@ -7,14 +7,14 @@ import reprlib
 from collections.abc import Mapping
 from typing import Any
 
-from ballscrew.errors import MISSING, Fault
-from ballscrew.quantities import Quantity, fields_of
-from ballscrew.supports.bearing import SupportBearing
-from ballscrew.supports.contact_guide import ContactGuide
-from ballscrew.supports.guide import LinearGuide
-from ballscrew.supports.makers_bearing import KnownBearing, PalmgrenBearing, SKFBearing
-from ballscrew.supports.mounted_bearing import MountedBearing
-from ballscrew.supports.table import CarriedMass, GuidedTable
+from ballscrew.axis.supports.bearing import SupportBearing
+from ballscrew.axis.supports.contact_guide import ContactGuide
+from ballscrew.axis.supports.guide import LinearGuide
+from ballscrew.axis.supports.makers_bearing import KnownBearing, PalmgrenBearing, SKFBearing
+from ballscrew.axis.supports.mounted_bearing import MountedBearing
+from ballscrew.axis.supports.table import CarriedMass, GuidedTable
+from ballscrew.basis.errors import MISSING, Fault
+from ballscrew.basis.quantities import Quantity, fields_of
 
 #: Laws of bearings and of guides by name; the first is meant where none is named.
 BEARING_LAWS: Mapping[str, type] = {

@@ -6,8 +6,8 @@ are the units of the catalogues.
 
 from __future__ import annotations
 
-from ballscrew._arrays import namespace
-from ballscrew.quantities import (
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import (
     AngularSpeed,
     Force,
     KinematicViscosity,

@@ -7,12 +7,12 @@ from typing import Annotated
 
 import numpy as np
 
-from ballscrew._arrays import ByValue
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.errors import accepts_units, faults_of, raise_if_any
-from ballscrew.quantities import Count, Force, Info, Ratio, Speed, Temperature
-from ballscrew.supports import formulas
-from ballscrew.supports.makers_bearing import MakersFriction
+from ballscrew.axis.supports import formulas
+from ballscrew.axis.supports.makers_bearing import MakersFriction
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import accepts_units, faults_of, raise_if_any
+from ballscrew.basis.quantities import Count, Force, Info, Ratio, Speed, Temperature
+from ballscrew.physics.components.operating_state import OperatingState
 
 Carriages = Annotated[Count, Info("n", "carriages of the table", at_least=1, at_most=100, whole=True, hint="2 or 4")]
 #: Names of the parts, as those of the torque of an axis.
@@ -23,16 +23,16 @@ GUIDES, SEALS = "guides", "guide seals"
 class LinearGuide(ByValue):
     r"""The carriages of a table on their rails: :math:`F = \sum \mu \left|P_i\right| + f`.
 
-    A :class:`~ballscrew.friction.element.FrictionElement` whose effort is a force along the rail, N. Called with a
-    state, its load is that of all carriages, which share it evenly, and its ``screw_speed`` stands for the speed along
-    the rail, m/s; :meth:`under` takes the load of each carriage, as
-    :class:`~ballscrew.supports.table.GuidedTable` has them.
+    A :class:`~ballscrew.physics.friction.element.FrictionElement` whose effort is a force along the rail, N. Called
+    with a state, its load is that of all carriages, which share it evenly, and its ``screw_speed`` stands for the
+    speed along the rail, m/s; :meth:`under` takes the load of each carriage, as
+    :class:`~ballscrew.axis.supports.table.GuidedTable` has them.
 
     The coefficient of catalogues is 0.002 to 0.003 with balls (Thomson2024, Rollon2020) and 0.001 to 0.002 with rollers
     (Thomson2024), at a load of a fifth of the dynamic rating and without preload (NB2024). Seals have 2 N to 5 N a
-    carriage (NB2024), light ones 0.15 N to 1 N by size (Rollon2020; :func:`~ballscrew.supports.rows.guide_rows`).
+    carriage (NB2024), light ones 0.15 N to 1 N by size (Rollon2020; :func:`~ballscrew.axis.supports.rows.guide_rows`).
     Preload, oil, fresh grease and temperature are in neither number and add to both.
-    Raises :class:`~ballscrew.errors.InputError` for values out of bounds.
+    Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
     """
 
     friction_coefficient: Annotated[
@@ -55,7 +55,10 @@ class LinearGuide(ByValue):
         raise_if_any(faults_of("guide", self))
 
     def __call__(self, state: OperatingState, /) -> MakersFriction:
-        """Friction at a state: the load of all carriages (N), shared evenly, and the speed along the rail (m/s)."""
+        """Friction at a ``state``: the load of all carriages (N), shared evenly, and the speed along the rail (m/s).
+
+        Returns :class:`~ballscrew.axis.supports.makers_bearing.MakersFriction`, whose effort is a force, N.
+        """
         share = np.asarray(state.axial_load)[..., np.newaxis] / self.carriages
         return self.under(share * np.ones(int(self.carriages)), state.screw_speed)
 
@@ -66,9 +69,10 @@ class LinearGuide(ByValue):
         speed: Speed = 0.0,
         temperature: Temperature | None = None,  # noqa: ARG002 - as the guides of an axis are called
     ) -> MakersFriction:
-        """Friction where the load of each carriage is known, N, the carriages along the last axis.
+        """Friction where the ``loads`` of the carriages are known, N, one for each along the last axis.
 
-        The law knows neither a speed nor a temperature.
+        Returns :class:`~ballscrew.axis.supports.makers_bearing.MakersFriction`. The force knows neither the ``speed``
+        (m/s) nor the ``temperature`` (K). Raises :class:`~ballscrew.basis.errors.InputError` for units that do not fit.
         """
         carriages = np.shape(loads)[-1]
         rolling = np.sum(formulas.guide_friction(np.abs(loads), self.friction_coefficient, 0.0), axis=-1)

@@ -8,17 +8,17 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from ballscrew import units
-from ballscrew._arrays import ByValue, lazy
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.nut import DoubleNut
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.errors import Fault, faults_of, raise_if_any, shown
-from ballscrew.quantities import Array, Count, Force, Info, KinematicViscosity, Mask, Power, Ratio, Torque
-from ballscrew.records import Message, Record
-from ballscrew.sizing.checks import loads_of_halves
-from ballscrew.supports import formulas
-from ballscrew.supports.bearing import Bore, OutsideDiameter, SealTorque, faults_of_arrays, sizes_fault
+from ballscrew.axis.supports import formulas
+from ballscrew.axis.supports.bearing import Bore, OutsideDiameter, SealTorque, faults_of_arrays, sizes_fault
+from ballscrew.basis import units
+from ballscrew.basis.arrays import ByValue, lazy
+from ballscrew.basis.errors import Fault, faults_of, raise_if_any, shown
+from ballscrew.basis.quantities import Array, Count, Force, Info, KinematicViscosity, Mask, Power, Ratio, Torque
+from ballscrew.basis.records import Message, Record
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.nut import DoubleNut
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.sizing.checks import loads_of_halves
 
 Rows = Annotated[
     Count,
@@ -89,16 +89,16 @@ class MakersFriction(ByValue):
 class SKFBearing(ByValue):
     """An angular-contact ball bearing by the maker's model of 2018: rolling and sliding moments, and the seals.
 
-    A :class:`~ballscrew.friction.element.FrictionElement`. The two sides of a preloaded pair carry the loads of two
-    springs braced against each other (:func:`~ballscrew.sizing.checks.loads_of_halves`), and the rows of one side share
-    its load. Purely axial loads, without the drag of an oil bath. The constants are of the series 72 B(E) by default;
-    those of bearings made for screws are not printed. In motion the boundary friction is 0.12; at rest the torque is
-    that of sliding alone.
+    A :class:`~ballscrew.physics.friction.element.FrictionElement`. The two sides of a preloaded pair carry the loads
+    of two springs braced against each other (:func:`~ballscrew.physics.sizing.checks.loads_of_halves`), and the rows
+    of one side share its load. Purely axial loads, without the drag of an oil bath. The constants are of the series 72
+    B(E) by default; those of bearings made for screws are not printed. In motion the boundary friction is 0.12; at
+    rest the torque is that of sliding alone.
 
     The centrifugal load of the balls needs the constant R_3, which is not known for the default series: it is left out
     there. With that of another series it adds 4 % to a 7205 and 29 % to a 7212 at 3000 rpm and 2 % of their ratings,
     3 % at most at 1000 rpm.
-    Raises :class:`~ballscrew.errors.InputError` for values out of bounds.
+    Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
     """
 
     bore: Bore
@@ -124,7 +124,7 @@ class SKFBearing(ByValue):
     def __call__(self, state: OperatingState, /) -> MakersFriction:
         """Friction at a state: the axial load (N), the speed (rad/s), the temperature (K).
 
-        Raises :class:`~ballscrew.errors.InputError` for a temperature of an oil without a grade.
+        Raises :class:`~ballscrew.basis.errors.InputError` for a temperature of an oil without a grade.
         """
         nu, omega = _oil(self.lubricant, state), np.abs(state.screw_speed)
         d, D = self.bore, self.outside_diameter
@@ -150,11 +150,11 @@ class SKFBearing(ByValue):
 class PalmgrenBearing(ByValue):
     """A bearing by Palmgren's two moments, :math:`M_0 + M_1`, and its seals. Recalled: nothing takes it by default.
 
-    A :class:`~ballscrew.friction.element.FrictionElement`. The form is Harris2001's as recalled, and neither factor
-    has a default: both are read in a maker's table for the type of bearing and the way it is lubricated. The load here
-    is the axial one; what a table makes of it (1.4 times, for some bearings) belongs into
+    A :class:`~ballscrew.physics.friction.element.FrictionElement`. The form is Harris2001's as recalled, and neither
+    factor has a default: both are read in a maker's table for the type of bearing and the way it is lubricated. The
+    load here is the axial one; what a table makes of it (1.4 times, for some bearings) belongs into
     ``load_factor``.
-    Raises :class:`~ballscrew.errors.InputError` for values out of bounds.
+    Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
     """
 
     bore: Bore
@@ -182,9 +182,9 @@ class PalmgrenBearing(ByValue):
 class KnownBearing(ByValue):
     """A bearing of one friction torque at all loads and speeds, as it was measured or as a catalogue prints it.
 
-    A :class:`~ballscrew.friction.element.FrictionElement`. Torques of catalogues are those of the preloaded bearing,
-    often at the start and without a load; speed, load and temperature change them.
-    Raises :class:`~ballscrew.errors.InputError` for a negative torque.
+    A :class:`~ballscrew.physics.friction.element.FrictionElement`. Torques of catalogues are those of the preloaded
+    bearing, often at the start and without a load; speed, load and temperature change them.
+    Raises :class:`~ballscrew.basis.errors.InputError` for a negative torque.
     """
 
     torque: Annotated[

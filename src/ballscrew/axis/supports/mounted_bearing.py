@@ -6,12 +6,12 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Annotated, Any
 
-from ballscrew._arrays import ByValue
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.errors import Fault, faults_of, nearest, raise_if_any
-from ballscrew.friction.element import ElementFriction, FrictionElement
-from ballscrew.quantities import Force, Info, Ratio, Stiffness
-from ballscrew.supports.bearing import SupportBearing
+from ballscrew.axis.supports.bearing import SupportBearing
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import Fault, faults_of, nearest, raise_if_any
+from ballscrew.basis.quantities import Force, Info, Ratio, Stiffness
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.friction.element import ElementFriction, FrictionElement
 
 #: Ends of the shaft and the names of the bearings there. The fixed one holds the shaft along its axis, at the motor,
 #: and positions count from it; the others are at the far end.
@@ -26,9 +26,9 @@ PLACES: Mapping[str, str] = {
 class MountedBearing(ByValue):
     """The bearing, or the set of bearings, at one end of the shaft, with its share of the axial load of the screw.
 
-    A :class:`~ballscrew.friction.element.FrictionElement`, called with the load of the whole screw. What a shaft is
-    stretched with loads both ends and is no part of that: it belongs into the preload.
-    Raises :class:`~ballscrew.errors.InputError` for values out of bounds, and for an unknown place.
+    A :class:`~ballscrew.physics.friction.element.FrictionElement`, called with the load of the whole screw. What a
+    shaft is stretched with loads both ends and is no part of that: it belongs into the preload.
+    Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds, and for an unknown place.
     """
 
     place: str

@@ -10,18 +10,18 @@ from collections.abc import Mapping
 from importlib import resources
 from typing import Annotated, Any
 
-from ballscrew._arrays import ByValue
-from ballscrew.errors import Fault, InputError, nearest
-from ballscrew.quantities import Angle, Force, Info, Length, Ratio, Stiffness
-from ballscrew.supports.guide import LinearGuide
+from ballscrew.axis.supports.guide import LinearGuide
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import Fault, InputError, nearest
+from ballscrew.basis.quantities import Angle, Force, Info, Length, Ratio, Stiffness
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class SupportUnit(ByValue):
     """The fixed side of a support unit: two angular-contact bearings face to face, preloaded, in a housing.
 
-    Its rigidity is the ``bearing_rigidity`` of an :class:`~ballscrew.sizing.installation.Installation`. The maker
-    prints neither a torque nor the preload.
+    Its rigidity is the ``bearing_rigidity`` of an :class:`~ballscrew.physics.sizing.installation.Installation`. The
+    maker prints neither a torque nor the preload.
     """
 
     model: str
@@ -64,7 +64,7 @@ class _Rows(dict[str, Any]):
 def support_units() -> Mapping[str, SupportUnit]:
     """The support units shipped, by model (``data/support_units.toml``): EK, FK and BK of THK513E.
 
-    A name that is not there raises :class:`~ballscrew.errors.InputError` with the nearest one.
+    A name that is not there raises :class:`~ballscrew.basis.errors.InputError` with the nearest one.
     """
     document = _document("support_units")
     return _Rows(
@@ -85,7 +85,7 @@ def support_units() -> Mapping[str, SupportUnit]:
 def guide_rows() -> Mapping[str, GuideRow]:
     """The carriages shipped, by model (``data/guides.toml``).
 
-    A name that is not there raises :class:`~ballscrew.errors.InputError` with the nearest one.
+    A name that is not there raises :class:`~ballscrew.basis.errors.InputError` with the nearest one.
     """
     return _Rows(
         {

@@ -1,7 +1,7 @@
 """A shaft that its bearings and its nut hold sideways: where it buckles and whirls, by the place of the nut.
 
 A uniform beam of Euler and Bernoulli on three supports, in cubic elements. The roots stand in the formulas of
-:mod:`ballscrew.equations.shaft` as those of :class:`~ballscrew.sizing.installation.Ends` do.
+:mod:`ballscrew.physics.equations.shaft` as those of :class:`~ballscrew.physics.sizing.installation.Ends` do.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from ballscrew.sizing.installation import Ends
+from ballscrew.physics.sizing.installation import Ends
 
 Matrix = NDArray[np.float64]
 

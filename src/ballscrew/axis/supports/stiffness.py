@@ -10,15 +10,15 @@ from typing import Annotated, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew._arrays import ByValue, lazy
-from ballscrew.components.screw import BallScrew
-from ballscrew.equations import geometry, presliding, rigidity, shaft
-from ballscrew.errors import Fault, accepts_units, is_concrete, raise_if_any, shown
-from ballscrew.quantities import AngularSpeed, Force, Info, Length, Ratio, Stiffness
-from ballscrew.sizing.installation import Installation
-from ballscrew.sizing.rigidity import rigidity_iso3408
-from ballscrew.supports import formulas
-from ballscrew.supports.shaft_on_supports import buckling_root, whirling_root
+from ballscrew.axis.supports import formulas
+from ballscrew.axis.supports.shaft_on_supports import buckling_root, whirling_root
+from ballscrew.basis.arrays import ByValue, lazy
+from ballscrew.basis.errors import Fault, accepts_units, is_concrete, raise_if_any, shown
+from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Ratio, Stiffness
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.equations import geometry, presliding, rigidity, shaft
+from ballscrew.physics.sizing.installation import Installation
+from ballscrew.physics.sizing.rigidity import rigidity_iso3408
 
 #: Places of the nut where none are given, as shares of the shaft.
 SHARES = np.linspace(0.05, 0.95, 19)
@@ -68,8 +68,8 @@ class AxisStiffness(ByValue):
         return formulas.lost_motion(friction_force, self.total)
 
     @lazy
-    def critical_speed(self) -> Annotated[AngularSpeed, Info("n_k", "speed at which the shaft whirls", "rpm")]:
-        """Lowest speed at which the shaft whirls, held by its bearings and by the nut, rad/s."""
+    def critical_speed(self) -> Annotated[AngularSpeed, Info("n_k", "critical speed of the shaft", "rpm")]:
+        """Lowest critical speed of the shaft, held by its bearings and by the nut, rad/s."""
         roots = np.array([whirling_root(self.installation.ends, share, **self._slope) for share in self._shares])
         E, rho = self.screw.screw_material.young_modulus, self.installation.shaft_density
         return shaft.critical_speed(roots, E, rho, self.root_diameter, self.installation.unsupported_length)
@@ -108,11 +108,11 @@ def stiffness_over_stroke(
 
     The first bearing, at the motor, is the fixed one; ``positions`` are distances from it, and the length of the
     ``installation`` is that between the bearings. Nut, shaft and bearings are those of
-    :func:`~ballscrew.sizing.rigidity.rigidity_iso3408` (R_nu,ar with an accuracy factor); a nut without preload needs
-    an ``axial_load``. ``mount_rigidity`` is that of housings and brackets in series, by default the installation's.
-    Sideways the nut is a support that lets the shaft turn, the safe side; ``nut_holds_slope`` clamps it. Between two
-    fixed bearings the twist is that from the motor's side, too.
-    Raises :class:`~ballscrew.errors.InputError` for values out of bounds.
+    :func:`~ballscrew.physics.sizing.rigidity.rigidity_iso3408` (R_nu,ar with an accuracy factor); a nut without
+    preload needs an ``axial_load``. ``mount_rigidity`` is that of housings and brackets in series, by default the
+    installation's. Sideways the nut is a support that lets the shaft turn, the safe side; ``nut_holds_slope`` clamps
+    it. Between two fixed bearings the twist is that from the motor's side, too.
+    Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
     """
     length = float(installation.unsupported_length)
     mount_rigidity = installation.mount_rigidity if mount_rigidity is None else mount_rigidity

@@ -9,9 +9,9 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
-from ballscrew._arrays import ByValue
-from ballscrew.errors import accepts_units, faults_of, raise_if_any
-from ballscrew.quantities import Acceleration, Angle, Array, Force, Info, Length, Mass
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import accepts_units, faults_of, raise_if_any
+from ballscrew.basis.quantities import Acceleration, Angle, Array, Force, Info, Length, Mass
 
 #: Sides of the carriages along the rails and across them, in the order of catalogues: round the table.
 ALONG, ACROSS = np.array([-1.0, 1.0, 1.0, -1.0]), np.array([1.0, 1.0, -1.0, -1.0])
@@ -58,7 +58,7 @@ class GuidedTable(ByValue):
     with carriages at :math:`x_i = \pm l_1/2`, :math:`y_i = \pm l_2/2`: equilibrium of a stiff body on four springs that
     are alike. Carriages do not hold moments themselves here, and rails are straight: long carriages and errors of the
     bed change the shares. PMI2008's example comes out to 0.1 N.
-    Raises :class:`~ballscrew.errors.InputError` for values out of bounds.
+    Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
     """
 
     masses: Sequence[CarriedMass]

@@ -1,4 +1,4 @@
-"""The steady state in which a duty ends, with its margin to running away."""
+"""The steady state in which a duty ends, with the stability margin of its thermal loop."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ import math
 import numpy as np
 from scipy.optimize import root_scalar
 
-from ballscrew._arrays import ByValue
-from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Length, Power, Ratio
-from ballscrew.thermal.network import Network
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.axis.thermal.network import Network
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.quantities import Length, Power, Ratio
 
 #: Points of the powers among which an equilibrium is looked for.
 _POWERS = 400

@@ -9,16 +9,16 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import CubicSpline, RectBivariateSpline
 
-from ballscrew._arrays import ByValue
-from ballscrew.axis.duty import Duty
-from ballscrew.axis.screw_friction import ModelledScrew
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, InputError
-from ballscrew.evaluation.evaluator import evaluator
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Duration, Force, Power, Temperature
-from ballscrew.solvers.load_distribution import preload_of
+from ballscrew.axis.duty_cycle.duty import Duty
+from ballscrew.axis.duty_cycle.screw_friction import ModelledScrew
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.quantities import Duration, Force, Power, Temperature
+from ballscrew.engine.evaluation.evaluator import evaluator
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.solvers.load_distribution import preload_of
 
 #: Temperatures of the oil that the map has, K; beyond them the answer has no meaning.
 COLDEST, HOTTEST = 258.15, 393.15
@@ -99,7 +99,8 @@ class StateMaps(ByValue):
 def state_maps(duty: Duty) -> StateMaps:
     """The friction of the distinct states of a duty at every temperature and preload; kept for the next surroundings.
 
-    Raises :class:`~ballscrew.errors.InputError` for an element without an oil, and for an oil that has no temperature.
+    Raises :class:`~ballscrew.basis.errors.InputError` for an element without an oil, and for an oil that has no
+    temperature.
     """
     driven = duty.driven
     if not isinstance(driven, ModelledScrew):

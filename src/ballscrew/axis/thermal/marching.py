@@ -1,4 +1,5 @@
-"""Networks of heat through time, side by side, by exact steps of their linear parts (:mod:`~ballscrew.thermal.modes`).
+"""Networks of heat through time, side by side, by exact steps of their linear parts
+(:mod:`~ballscrew.axis.thermal.modes`).
 
 A *slot* is a time in which the networks stay the same: that of a duty whose heat is spread over its stroke, or one
 place after the other of a nut that moves.
@@ -13,11 +14,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ballscrew._arrays import ByValue
-from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Duration
-from ballscrew.thermal.modes import Modes, Step
-from ballscrew.thermal.network import FrictionFactor, Network
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.axis.thermal.modes import Modes, Step
+from ballscrew.axis.thermal.network import FrictionFactor, Network
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.quantities import Duration
+from ballscrew.physics.equations.preload import backward_half_load
 
 #: Steps in the time in which the nut warms up, and in the time that has passed: friction then changes little in one.
 PER_NUT, PER_TIME = 8.0, 30.0
@@ -75,8 +77,7 @@ class Slot(ByValue):
 
     def preload(self, excess: Numbers) -> Numbers:
         """Preload of each network whose shaft is so much warmer than its nut, N."""
-        share = np.maximum(1 + self._per_kelvin * excess, 0.0)
-        return self._array("preload_set") * share**1.5
+        return backward_half_load(self._array("preload_set"), -self._per_kelvin * excess)
 
     @functools.cached_property
     def _per_kelvin(self) -> Numbers:

@@ -19,10 +19,10 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from ballscrew._arrays import ByValue
-from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Duration
-from ballscrew.thermal.network import Network
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.axis.thermal.network import Network
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.quantities import Duration
 
 #: Below it the functions φ are summed as series, whose further terms are beyond rounding.
 _SMALL, _TERMS = 0.5, 14

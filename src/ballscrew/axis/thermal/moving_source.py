@@ -13,13 +13,13 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew._arrays import ByValue
-from ballscrew.axis.duty import Duty
-from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Duration
-from ballscrew.thermal.friction_map import FrictionMap, state_maps
-from ballscrew.thermal.marching import Piece
-from ballscrew.thermal.network import Network, nut_length_of
+from ballscrew.axis.duty_cycle.duty import Duty
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.axis.thermal.friction_map import FrictionMap, state_maps
+from ballscrew.axis.thermal.marching import Piece
+from ballscrew.axis.thermal.network import Network, nut_length_of
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.quantities import Duration
 
 #: A cycle longer than this share of the time is followed place by place; shorter ones pass each place so often that
 #: their heat is spread.

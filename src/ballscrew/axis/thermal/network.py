@@ -10,21 +10,22 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew._arrays import ByValue
-from ballscrew.axis.duty import Duty
-from ballscrew.components.nut import Nut, SingleNut
-from ballscrew.components.screw import BallScrew
-from ballscrew.equations import geometry, heat, hertz
-from ballscrew.errors import Fault, InputError
-from ballscrew.friction.result import FrictionResult
-from ballscrew.motion.states import Numbers
-from ballscrew.quantities import AngularSpeed, Conductance, Force, HeatTransfer, Length, Power, Ratio
-from ballscrew.solvers.load_distribution import preload_of
-from ballscrew.supports.mounted_bearing import MountedBearing
-from ballscrew.thermal import surroundings as air
-from ballscrew.thermal.friction_map import COLDEST, HOTTEST, FrictionMap, friction_map
-from ballscrew.thermal.shaft import CAPACITY, CONDUCTIVITY, DENSITY, EXPANSION, Shaft
-from ballscrew.thermal.surroundings import Surroundings
+from ballscrew.axis.duty_cycle.duty import Duty
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.axis.supports.mounted_bearing import MountedBearing
+from ballscrew.axis.thermal import surroundings as air
+from ballscrew.axis.thermal.friction_map import COLDEST, HOTTEST, FrictionMap, friction_map
+from ballscrew.axis.thermal.shaft import CAPACITY, CONDUCTIVITY, DENSITY, EXPANSION, Shaft
+from ballscrew.axis.thermal.surroundings import Surroundings
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.quantities import AngularSpeed, Conductance, Force, HeatTransfer, Length, Power, Ratio
+from ballscrew.physics.components.nut import Nut, SingleNut
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.equations import geometry, heat, hertz
+from ballscrew.physics.equations.preload import backward_half_load
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.solvers.load_distribution import preload_of
 
 #: Gap between shaft and nut that the grease fills, over the ball diameter, and its conductivity: assumptions.
 GAP_SHARE, GREASE_CONDUCTIVITY = 0.1, 0.14
@@ -177,14 +178,11 @@ class Network(ByValue):
         return found
 
     def preload(self, excess: Any) -> Any:
-        r"""Preload where the shaft is so much warmer than the nut, N; zero where it is lost.
-
-        .. math:: F = F_0 \left(\frac{\delta_0 + \delta_T}{\delta_0}\right)^{3/2}
-        """
+        """Preload where the shaft is so much warmer than the nut, N; zero where it is lost."""
         if not self.preload_set:
             return 0.0 * excess
-        share = np.maximum(1 + self.approach_per_kelvin * excess / self.approach_set, 0.0)
-        return self.preload_set * share**1.5
+        # heat adds to the approach what a displacement would take
+        return backward_half_load(self.preload_set, -(self.approach_per_kelvin * excess / self.approach_set))
 
     def power(self, temperatures: Numbers) -> Power:
         """Mean friction power of the nut, W."""
@@ -210,9 +208,9 @@ def network_of(
 ) -> Network:
     """The network of a duty in its surroundings; a map of its ``friction`` that is there is not made again.
 
-    Raises :class:`~ballscrew.errors.InputError` without a length of the shaft, for a motion that does not fit on it,
-    for an ambient temperature at which the oil is not known, and as
-    :func:`~ballscrew.thermal.friction_map.friction_map` does.
+    Raises :class:`~ballscrew.basis.errors.InputError` without a length of the shaft, for a motion that does not fit on
+    it, for an ambient temperature at which the oil is not known, and as
+    :func:`~ballscrew.axis.thermal.friction_map.friction_map` does.
     """
     if not COLDEST <= surroundings.ambient <= HOTTEST:
         known = " to ".join(f"{end - ZERO_CELSIUS:g} °C" for end in (COLDEST, HOTTEST))

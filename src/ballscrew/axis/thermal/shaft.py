@@ -17,9 +17,9 @@ import math
 
 import numpy as np
 
-from ballscrew._arrays import ByValue
-from ballscrew.motion.states import Numbers
-from ballscrew.quantities import (
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.quantities import (
     Conductance,
     Conductivity,
     Density,

@@ -8,20 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew._arrays import ByValue
-from ballscrew.axis.to_and_fro import to_and_fro
-from ballscrew.components.nut import SingleNut
-from ballscrew.errors import Fault, InputError, raise_if_any
-from ballscrew.evaluation.evaluator import evaluator
-from ballscrew.evaluation.outputs import OPERATION
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.friction.element import FrictionElement
-from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Length
-from ballscrew.solvers.load_distribution import preload_of
-from ballscrew.thermal.equilibrium import equilibrium
-from ballscrew.thermal.friction_map import WORTH_COMPILING, FrictionMap, grid_of
-from ballscrew.thermal.network import (
+from ballscrew.axis.duty_cycle.to_and_fro import to_and_fro
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.axis.thermal.equilibrium import equilibrium
+from ballscrew.axis.thermal.friction_map import WORTH_COMPILING, FrictionMap, grid_of
+from ballscrew.axis.thermal.network import (
     Network,
     approach_of,
     conductance_of_balls,
@@ -30,7 +21,16 @@ from ballscrew.thermal.network import (
     nut_length_of,
     power_of_supports,
 )
-from ballscrew.thermal.surroundings import Surroundings
+from ballscrew.axis.thermal.surroundings import Surroundings
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import Fault, InputError, raise_if_any
+from ballscrew.basis.quantities import Length
+from ballscrew.engine.evaluation.evaluator import evaluator
+from ballscrew.engine.evaluation.outputs import OPERATION
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.physics.components.nut import SingleNut
+from ballscrew.physics.friction.element import FrictionElement
+from ballscrew.physics.solvers.load_distribution import preload_of
 
 #: Inputs that follow from the heat, and cannot be given to each point.
 OF_HEAT = ("temperature", "viscosity", "pressure_viscosity_coefficient", "temperature_coefficient")
@@ -49,7 +49,7 @@ class SteadyPoints(ByValue):
     #: Preload, N, and growth of the shaft, m.
     preload: Numbers
     growth: Numbers
-    #: Margin to running away, and whether there is a steady state.
+    #: Stability margin of the thermal loop, and whether there is a steady state.
     margin: Numbers
     exists: Any
     #: The network of one of the points that move; None where none does.
@@ -69,8 +69,8 @@ def steady_points(
     """The steady state of each point, whose load and speed it has; one that stands is as warm as its surroundings.
 
     ``points`` has one value for each point of each input; ``also`` is what rubs on the shaft besides. Raises
-    :class:`~ballscrew.errors.InputError` for inputs that follow from the heat, and as
-    :func:`~ballscrew.thermal.network.network_of` does.
+    :class:`~ballscrew.basis.errors.InputError` for inputs that follow from the heat, and as
+    :func:`~ballscrew.axis.thermal.network.network_of` does.
     """
     remedy = "leave it out: it follows from the heat"
     raise_if_any([Fault(f"sweep.{name}", "is not free", "", remedy) for name in OF_HEAT if name in points])

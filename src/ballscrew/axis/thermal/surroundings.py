@@ -5,9 +5,9 @@ from __future__ import annotations
 import dataclasses
 from typing import Annotated
 
-from ballscrew._arrays import ByValue
-from ballscrew.errors import Fault, faults_of, raise_if_any
-from ballscrew.quantities import Conductance, HeatTransfer, Info, Length, Mass, Ratio, Temperature
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import Fault, faults_of, raise_if_any
+from ballscrew.basis.quantities import Conductance, HeatTransfer, Info, Length, Mass, Ratio, Temperature
 
 #: Air at 40 °C: kinematic viscosity m²/s, thermal conductivity W/(m K), Prandtl number; as recalled.
 AIR_VISCOSITY, AIR_CONDUCTIVITY, AIR_PRANDTL = 17.0e-6, 0.0270, 0.706
@@ -28,7 +28,7 @@ STILL = 9.0
 class Surroundings(ByValue):
     """Ambient temperature, and the ways of heat out of the screw.
 
-    Raises :class:`~ballscrew.errors.InputError` for values out of bounds, and for a bore without a coolant.
+    Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds, and for a bore without a coolant.
     """
 
     ambient: Annotated[

@@ -8,17 +8,17 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, InputError, accepts_units
-from ballscrew.evaluation.outputs import attributes_of
-from ballscrew.evaluation.plan import STARVED, Configuration, Plan
-from ballscrew.friction.element import FrictionElement
-from ballscrew.friction.model import FrictionModel
-from ballscrew.quantities import Info, Length, Quantity
-from ballscrew.sweeps.sweep import sweep
-from ballscrew.thermal.steady_points import SteadyPoints, steady_points
-from ballscrew.thermal.surroundings import Surroundings
+from ballscrew.axis.thermal.steady_points import SteadyPoints, steady_points
+from ballscrew.axis.thermal.surroundings import Surroundings
+from ballscrew.basis.errors import Fault, InputError, accepts_units
+from ballscrew.basis.quantities import Info, Length, Quantity
+from ballscrew.engine.evaluation.outputs import attributes_of
+from ballscrew.engine.evaluation.plan import STARVED, Configuration, Plan
+from ballscrew.engine.sweeps.sweep import sweep
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.element import FrictionElement
+from ballscrew.physics.friction.model import FrictionModel
 
 #: What the heat does at each point, besides the outputs.
 HEAT: Mapping[str, Quantity] = {
@@ -26,7 +26,7 @@ HEAT: Mapping[str, Quantity] = {
     "nut_temperature": Quantity("nut_temperature", "K", Info("T_n", "steady temperature of the nut", "degC")),
     "warm_preload": Quantity("warm_preload", "N", Info("F_{pr}", "preload in the steady state")),
     "shaft_growth": Quantity("shaft_growth", "m", Info(r"\Delta L", "growth of the shaft in the steady state", "um")),
-    "heat_margin": Quantity("heat_margin", "1", Info("1 - g", "margin to running away")),
+    "heat_margin": Quantity("heat_margin", "1", Info("1 - g", "stability margin of the thermal loop")),
 }
 #: Where there is a steady state.
 STEADY = "validity_steady_state"
@@ -47,13 +47,17 @@ def warm_sweep(
     done: Callable[[int, int], None] | None = None,
     **varied: Any,
 ) -> xr.Dataset:
-    """:func:`~ballscrew.sweeps.sweep.sweep` with each point in its own steady state.
+    """:func:`~ballscrew.engine.sweeps.sweep.sweep` with each point in its own steady state.
 
-    Each point goes to and fro over the ``stroke`` under its load until it is warm
-    (:func:`~ballscrew.thermal.steady_heat.steady_heat`), with what rubs on the shaft besides (``also``). Its results
-    are those of the oil and the preload then; one without a steady state has none, and is not valid. The dataset has
-    :data:`HEAT` beside the outputs. Raises :class:`~ballscrew.errors.InputError` as ``sweep`` and ``steady_heat`` do,
-    and for inputs that follow from the heat.
+    ``model``, ``screw``, ``lubricant``, ``outputs`` and ``varied`` are those of a sweep. Each point goes to and fro
+    over the ``stroke`` (m) under its load until it is warm (:func:`~ballscrew.axis.thermal.steady_heat.steady_heat`) in
+    its ``surroundings``, with what rubs on the shaft besides (``also``). ``shaft_length`` (m) is taken where the
+    surroundings have none. Its results are those of the oil and the preload then; one without a steady state has none,
+    and is not valid. ``done(finished, total)`` is told the points. The dataset that is returned has :data:`HEAT` beside
+    the outputs.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` as ``sweep`` and ``steady_heat`` do, and for inputs that follow
+    from the heat.
     """
     subject = Configuration(model, screw, lubricant)
     air = surroundings or Surroundings()

@@ -11,20 +11,20 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from ballscrew import units
-from ballscrew._arrays import ByValue, lazy
-from ballscrew.axis.duty import Duty
-from ballscrew.errors import Fault, InputError, accepts_units
-from ballscrew.friction.starvation import NEARLY_ALL, differs
-from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Duration, Energy, Info, Length, Power, Quantity, Torque
-from ballscrew.records import Measured, Message, Record
-from ballscrew.thermal.equilibrium import Equilibrium, equilibrium
-from ballscrew.thermal.friction_map import friction_map
-from ballscrew.thermal.marching import Slot, marched
-from ballscrew.thermal.moving_source import Itinerary, is_long, itinerary_of
-from ballscrew.thermal.network import Network, network_of
-from ballscrew.thermal.surroundings import Surroundings
+from ballscrew.axis.duty_cycle.duty import Duty
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.axis.thermal.equilibrium import Equilibrium, equilibrium
+from ballscrew.axis.thermal.friction_map import friction_map
+from ballscrew.axis.thermal.marching import Slot, marched
+from ballscrew.axis.thermal.moving_source import Itinerary, is_long, itinerary_of
+from ballscrew.axis.thermal.network import Network, network_of
+from ballscrew.axis.thermal.surroundings import Surroundings
+from ballscrew.basis import units
+from ballscrew.basis.arrays import ByValue, lazy
+from ballscrew.basis.errors import Fault, InputError, accepts_units
+from ballscrew.basis.quantities import Duration, Energy, Info, Length, Power, Quantity, Torque
+from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.physics.friction.starvation import NEARLY_ALL, differs
 
 #: Relative and absolute tolerance of the integration; temperatures are then right to 1e-5 K.
 RTOL, ATOL = 1e-6, 1e-6
@@ -50,14 +50,17 @@ def warm_up(
     shaft_length: Length | None = None,
     moving: bool | None = None,
 ) -> WarmUp:
-    """Temperatures over hours of a duty that starts with everything at the ambient temperature.
+    """Temperatures over hours of a duty that starts with everything at the ambient temperature: a :class:`WarmUp`.
 
-    The nut heats the shaft as often as it is at a place where the cycle is short against the hours, and goes along with
-    its heat where it is long (:mod:`~ballscrew.thermal.moving_source`); ``moving`` chooses one. Then the axis may stand
-    for a time (``cool_down``), in still air unless the convection is given. ``shaft_length`` is taken where the
-    surroundings have none. The oil is as warm as nut and shaft make it, whatever temperatures a motion gives.
-    Raises :class:`~ballscrew.errors.InputError` for times that are not positive, and as
-    :func:`~ballscrew.thermal.network.network_of` does.
+    The ``duty`` repeats in its ``surroundings`` for a ``time`` (s), of which ``outputs`` instants at even steps are
+    kept. The nut heats the shaft as often as it is at a place where the cycle is short against the hours, and goes
+    along with its heat where it is long (:mod:`~ballscrew.axis.thermal.moving_source`); ``moving`` chooses one. Then
+    the axis may stand for a time (``cool_down``, s), in still air unless the convection is given. ``shaft_length`` (m)
+    is taken where the surroundings have none. The oil is as warm as nut and shaft make it, whatever temperatures a
+    motion gives.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for times that are not positive, and as
+    :func:`~ballscrew.axis.thermal.network.network_of` does.
     """
     if not time > 0 or not cool_down >= 0:
         raise InputError(Fault("warm_up.time", "must be positive", f"{time:g} s", 'give "4 h"'))
@@ -297,7 +300,7 @@ class WarmUp(ByValue):
     def compensation_table(self, step: Length = 0.05) -> tuple[Numbers, Numbers]:
         """Places from the fixed bearing at even steps and the end, and the growth there at the last instant of work, m.
 
-        Raises :class:`~ballscrew.errors.InputError` for a step that is not positive.
+        Raises :class:`~ballscrew.basis.errors.InputError` for a step that is not positive.
         """
         shaft = self.network.shaft
         if not step > 0:
@@ -324,7 +327,7 @@ def _records(found: WarmUp) -> list[Record]:
     end = found.equilibrium
     message = (
         Message(
-            "settles with the nut at {temperature}; gain of the loop {gain}, which runs away at 1",
+            "settles with the nut at {temperature}; gain of the thermal loop {gain}, thermal runaway at 1",
             {
                 "temperature": Measured(end.nut_temperature, _TEMPERATURE, 3),
                 "gain": Measured(1 - end.margin, digits=2),

@@ -5,29 +5,29 @@ from __future__ import annotations
 import dataclasses
 import itertools
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew._arrays import ByValue
-from ballscrew.axis.duty import Duty
-from ballscrew.axis.screw_friction import WORTH_RECORDING
-from ballscrew.errors import Fault, accepts_units, nearest, raise_if_any
-from ballscrew.evaluation.evaluator import evaluator
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Duration, Length, Ratio, fields_of
-from ballscrew.thermal.equilibrium import Equilibrium, equilibrium
-from ballscrew.thermal.marching import Piece, Slot, marched
-from ballscrew.thermal.moving_source import Itinerary
-from ballscrew.thermal.network import FrictionFactor, Network
-from ballscrew.thermal.surroundings import PREFIX, VARIED, Surroundings
-from ballscrew.thermal.warm_up import WarmUp, warm_up
-from ballscrew.uncertainty.band_evaluation import faults_of_inputs, faults_of_options
-from ballscrew.uncertainty.bands import Interval
-from ballscrew.uncertainty.default_uncertainties import default_uncertainties
-from ballscrew.uncertainty.distributions import Distribution, allowed
-from ballscrew.uncertainty.sampling import JointNormal, Sampler, sobol_sequence
+from ballscrew.axis.duty_cycle.duty import Duty
+from ballscrew.axis.duty_cycle.screw_friction import WORTH_RECORDING
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.axis.thermal.equilibrium import Equilibrium, equilibrium
+from ballscrew.axis.thermal.marching import Piece, Slot, marched
+from ballscrew.axis.thermal.moving_source import Itinerary
+from ballscrew.axis.thermal.network import FrictionFactor, Network
+from ballscrew.axis.thermal.surroundings import PREFIX, VARIED, Surroundings
+from ballscrew.axis.thermal.warm_up import WarmUp, warm_up
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import Fault, accepts_units, nearest, raise_if_any
+from ballscrew.basis.quantities import Duration, Length, Ratio, fields_of
+from ballscrew.engine.evaluation.evaluator import evaluator
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.uncertainty.band_evaluation import faults_of_inputs, faults_of_options
+from ballscrew.engine.uncertainty.bands import Interval
+from ballscrew.engine.uncertainty.default_uncertainties import default_uncertainties
+from ballscrew.engine.uncertainty.distributions import Distribution, allowed
+from ballscrew.engine.uncertainty.sampling import JointNormal, Sampler, sobol_sequence
 
 #: Samples where none are asked for, and of heat that goes along with the nut, which takes longer.
 SAMPLES, SAMPLES_ALONG = 512, 64
@@ -115,61 +115,31 @@ def warm_up_band(
     shaft_length: Length | None = None,
     done: Callable[[int, int], None] | None = None,
 ) -> WarmUpBand:
-    """Bands of :func:`~ballscrew.thermal.warm_up.warm_up` for uncertain surroundings and friction.
+    """Bands of :func:`~ballscrew.axis.thermal.warm_up.warm_up` for uncertain surroundings and friction.
 
-    ``uncertain`` names inputs of the surroundings as ``surroundings.ball_conductance`` and those of the friction as
-    :func:`~ballscrew.sweeps.sweep.sweep` does; left out, it is :func:`uncertain_surroundings`. Inputs of the friction
-    change it by a factor at the ambient temperature and one at the last of the central transient; the preload counts
-    in full. The temperature of the oil is computed, so it has no distribution. Samples are drawn from a Sobol'
-    sequence, and each is a transient of its own; those whose oil or preload leave what is known are counted
-    (``known_share``, ``steady_share``) and no longer in the bands. ``joint`` has inputs of the friction that depend
-    on each other. Raises :class:`~ballscrew.errors.InputError` for unknown names and options, and as ``warm_up`` does.
+    Returns a :class:`WarmUpBand`. ``duty``, ``surroundings``, ``time`` (s), ``cool_down`` (s), ``outputs`` and
+    ``shaft_length`` (m) are those of ``warm_up``. A band holds the share ``level`` of the ``samples``, by default
+    :data:`SAMPLES`, or :data:`SAMPLES_ALONG` where the heat goes along with the nut; the same ``seed`` gives the same
+    bands. ``done(finished, total)`` is told the samples. ``uncertain`` names inputs of the surroundings as
+    ``surroundings.ball_conductance`` and those of the friction as :func:`~ballscrew.engine.sweeps.sweep.sweep` does;
+    left out, it is :func:`uncertain_surroundings`. Inputs of the friction change it by a factor at the ambient
+    temperature and one at the last of the central transient; the preload counts in full. The temperature of the oil is
+    computed, so it has no distribution. Samples are drawn from a Sobol' sequence, and each is a transient of its own;
+    those whose oil or preload leave what is known are counted (``known_share``, ``steady_share``) and no longer in the
+    bands. ``joint`` has inputs of the friction that depend on each other.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for unknown names and options, and as ``warm_up`` does.
     """
     central = warm_up(
         duty, surroundings, time=time, cool_down=cool_down, outputs=outputs, shaft_length=shaft_length
     )  # fmt: skip
-    network = central.network
     if samples is None:
         samples = SAMPLES if central.along is None else SAMPLES_ALONG
-    drawn = dict(uncertain_surroundings(network) if uncertain is None else uncertain)
-    driven: Any = duty.driven
-    subject = Configuration(driven.model, driven.screw, driven.lubricant)
-    of_air = {name: one for name, one in drawn.items() if name.startswith(PREFIX)}
-    of_friction = {name: one for name, one in drawn.items() if name not in of_air}
-    raise_if_any(
-        [*faults_of_options((), samples, seed, level, None), *_faults(of_air, of_friction),
-         *faults_of_inputs(subject, of_friction, joint)]
-    )  # fmt: skip
-    sampler = Sampler(subject, of_friction, {}, (), joint)
-    shares = sobol_sequence(len(of_air) + len(sampler.names), samples, seed)
-    quantities = fields_of(Surroundings)
-    values = {
-        name: np.clip(one.quantile(row), *allowed(quantities[name.removeprefix(PREFIX)].info))
-        for (name, one), row in zip(of_air.items(), shares, strict=False)
-    }
-    frictions = sampler.inputs_at(shares[len(of_air) :])
-    factors = _factors(central, frictions, samples)
-    preload = frictions.get("preload", frictions.get("nut.preload"))
-    networks = [
-        sampled(
-            network,
-            {name.removeprefix(PREFIX): float(of[i]) for name, of in values.items()},
-            preload=None if preload is None else float(preload[i]),
-            factor=factors[i] if factors else None,
-        )
-        for i in range(samples)
-    ]
+    drawn = dict(uncertain_surroundings(central.network) if uncertain is None else uncertain)
+    raise_if_any([*faults_of_options((), samples, seed, level, None), *_faults(duty, drawn, joint)])
+    networks = _networks(central, _draws(duty, drawn, joint, samples, seed), samples)
     instants = _instants(time, cool_down, outputs)
-    parts: list[dict[str, Numbers]] = []
-    ends: list[Equilibrium] = []
-    at_once = _AT_ONCE if central.along is None else _AT_ONCE_ALONG
-    for first in range(0, samples, at_once):
-        some = networks[first : first + at_once]
-        parts.append(_transients(some, instants, duty.mean_speed, central.along))
-        ends += [equilibrium(one) for one in some]
-        if done is not None:
-            done(min(first + at_once, samples), samples)
-    series = {name: np.concatenate([part[name] for part in parts], axis=1) for name in OVER_TIME}
+    series, ends = _outcomes(central, networks, instants, done)
     steady = {name: np.array([_steady(end, name, duty.mean_speed) for end in ends]) for name in STEADY}
     exist = np.array([end.exists for end in ends])
     margins = np.array([end.margin for end in ends])
@@ -182,14 +152,82 @@ def warm_up_band(
     )  # fmt: skip
 
 
-def _faults(of_air: Mapping[str, Any], of_friction: Mapping[str, Any]) -> list[Fault]:
+class _Draws(NamedTuple):
+    """Samples of the uncertain inputs by name: of the surroundings, without their prefix, and of the friction."""
+
+    of_air: Mapping[str, Numbers]
+    of_friction: Mapping[str, Numbers]
+
+
+def _subject(duty: Duty) -> Configuration:
+    driven: Any = duty.driven
+    return Configuration(driven.model, driven.screw, driven.lubricant)
+
+
+def _parted(uncertain: Mapping[str, Distribution]) -> tuple[dict[str, Distribution], dict[str, Distribution]]:
+    """Uncertain inputs as those of the surroundings and those of the friction."""
+    of_air = {name: one for name, one in uncertain.items() if name.startswith(PREFIX)}
+    return of_air, {name: one for name, one in uncertain.items() if name not in of_air}
+
+
+def _draws(
+    duty: Duty, uncertain: Mapping[str, Distribution], joint: JointNormal | None, samples: int, seed: int
+) -> _Draws:
+    of_air, of_friction = _parted(uncertain)
+    sampler = Sampler(_subject(duty), of_friction, {}, (), joint)
+    shares = sobol_sequence(len(of_air) + len(sampler.names), samples, seed)
+    quantities = fields_of(Surroundings)
+    values: dict[str, Numbers] = {}
+    for (written, one), row in zip(of_air.items(), shares, strict=False):
+        name = written.removeprefix(PREFIX)
+        values[name] = np.clip(one.quantile(row), *allowed(quantities[name].info))
+    return _Draws(values, sampler.inputs_at(shares[len(of_air) :]))
+
+
+def _networks(central: WarmUp, draws: _Draws, samples: int) -> list[Network]:
+    """The network of each sample."""
+    factors = _factors(central, draws.of_friction, samples)
+    preload = draws.of_friction.get("preload", draws.of_friction.get("nut.preload"))
+    return [
+        sampled(
+            central.network,
+            {name: float(of[i]) for name, of in draws.of_air.items()},
+            preload=None if preload is None else float(preload[i]),
+            factor=factors[i] if factors else None,
+        )
+        for i in range(samples)
+    ]
+
+
+def _outcomes(
+    central: WarmUp,
+    networks: Sequence[Network],
+    instants: tuple[Numbers, Numbers],
+    done: Callable[[int, int], None] | None,
+) -> tuple[dict[str, Numbers], list[Equilibrium]]:
+    """Numbers over time, instants by networks, and where each network ends, some networks at a time."""
+    parts: list[dict[str, Numbers]] = []
+    ends: list[Equilibrium] = []
+    at_once, count = _AT_ONCE if central.along is None else _AT_ONCE_ALONG, len(networks)
+    for first in range(0, count, at_once):
+        some = networks[first : first + at_once]
+        parts.append(_transients(some, instants, central.duty.mean_speed, central.along))
+        ends += [equilibrium(one) for one in some]
+        if done is not None:
+            done(min(first + at_once, count), count)
+    return {name: np.concatenate([part[name] for part in parts], axis=1) for name in OVER_TIME}, ends
+
+
+def _faults(duty: Duty, uncertain: Mapping[str, Distribution], joint: JointNormal | None) -> list[Fault]:
+    of_air, of_friction = _parted(uncertain)
     known = [PREFIX + name for name in VARIED]
     found = [
         Fault(f"band.uncertain.{name}", "has no band", "", nearest(name, known)) for name in of_air if name not in known
     ]
     own = [name for name in of_friction if name in _OF_NETWORK and "preload" not in name]
     remedy = "leave it out: it is that of the duty, or follows from the heat"
-    return found + [Fault(f"band.uncertain.{name}", "has no band over a transient", "", remedy) for name in own]
+    found += [Fault(f"band.uncertain.{name}", "has no band over a transient", "", remedy) for name in own]
+    return [*found, *faults_of_inputs(_subject(duty), of_friction, joint)]
 
 
 def sampled(

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ballscrew.errors import Fault
-from ballscrew.quantities import fields_of
-from ballscrew.thermal.surroundings import PREFIX, VARIED, Surroundings
-from ballscrew.uncertainty.distributions import Distribution
-from ballscrew.uncertainty.uncertain_value import parse_uncertain
+from ballscrew.axis.thermal.surroundings import PREFIX, VARIED, Surroundings
+from ballscrew.basis.errors import Fault
+from ballscrew.basis.quantities import fields_of
+from ballscrew.engine.uncertainty.distributions import Distribution
+from ballscrew.engine.uncertainty.uncertain_value import parse_uncertain
 
 
 def written_bands(table: Mapping[str, Any]) -> tuple[dict[str, Distribution], frozenset[str]]:

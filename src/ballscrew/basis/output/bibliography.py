@@ -7,7 +7,7 @@ import unicodedata
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
-from ballscrew.references import bibliography
+from ballscrew.basis.references import bibliography
 
 _FIELD = re.compile(r"^\s*(\w+)\s*=\s*\{(.*)\},?\s*$", re.MULTILINE)
 #: Accents of LaTeX that stand over the next letter, as Unicode combines them.

@@ -7,25 +7,25 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from ballscrew import units
-from ballscrew._displayed import Displayed
-from ballscrew.axis.axis import Axis
-from ballscrew.axis.motor import Motor
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.nut import Nut
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.components.screw import BallScrew
-from ballscrew.friction.calibrations import Calibration
-from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.plausibility import IMPLAUSIBLE, implausible, named_parts
-from ballscrew.motion.profiles import Motion
-from ballscrew.records import Measured, Message, Record
-from ballscrew.screw_tables.nut_kinds import LISTED
-from ballscrew.sizing.catalogue import CatalogueRow
-from ballscrew.sizing.installation import Installation, Limits
-from ballscrew.supports.mounted_bearing import MountedBearing
-from ballscrew.thermal.surroundings import Surroundings
-from ballscrew.uncertainty.distributions import Distribution
+from ballscrew.axis.duty_cycle.axis import Axis
+from ballscrew.axis.duty_cycle.motor import Motor
+from ballscrew.axis.motion.profiles import Motion
+from ballscrew.axis.supports.mounted_bearing import MountedBearing
+from ballscrew.axis.thermal.surroundings import Surroundings
+from ballscrew.basis import units
+from ballscrew.basis.displayed import Displayed
+from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.cases.screw_tables.nut_kinds import LISTED
+from ballscrew.engine.uncertainty.distributions import Distribution
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.nut import Nut
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.calibrations import Calibration
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.plausibility import IMPLAUSIBLE, implausible, named_parts
+from ballscrew.physics.sizing.catalogue import CatalogueRow
+from ballscrew.physics.sizing.installation import Installation, Limits
 
 _TOO_MANY = Message("{balls} loaded balls, and the {turns} turns of {row} hold {most}: check the number")
 #: The limits of the checks where a case gives none.
@@ -66,7 +66,8 @@ class Case(Displayed):
     #: Numbers that were derived from others.
     notes: Sequence[PreloadNote] = ()
     #: Distributions of inputs that the file gives, in SI, named as sweeps name inputs; the rest of the case has
-    #: their central values. :func:`~ballscrew.cases.uncertain_inputs.all_of` adds the defaults of the others.
+    #: their central values. :func:`~ballscrew.cases.case_files.uncertain_inputs.all_of` adds the defaults of the
+    #: others.
     uncertain: Mapping[str, Distribution] = dataclasses.field(default_factory=dict[str, Distribution])
     #: Inputs that the file gives as exact (± 0).
     exact: frozenset[str] = frozenset()
@@ -90,7 +91,8 @@ class Case(Displayed):
     travels: bool = False
     #: Whether the file gives the speed of the nut: of another lead, it is another speed of the screw.
     speed_of_nut: bool = False
-    #: Warnings of numbers that the file writes so that they could be others (:mod:`ballscrew.cases.spelling`).
+    #: Warnings of numbers that the file writes so that they could be others
+    #: (:mod:`ballscrew.cases.case_files.spelling`).
     doubtful_numbers: Sequence[Record] = ()
     #: The bearings of the shaft by their place on it.
     bearings: Mapping[str, MountedBearing] = dataclasses.field(default_factory=dict[str, MountedBearing])

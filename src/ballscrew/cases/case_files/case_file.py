@@ -1,7 +1,7 @@
 """Case files: TOML or JSON with units in, checked parts out.
 
 Every fault of a file is found before anything is computed, and each is one line in the words of
-:mod:`ballscrew.errors`.
+:mod:`ballscrew.basis.errors`.
 """
 
 from __future__ import annotations
@@ -12,11 +12,24 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ballscrew import units
-from ballscrew.case_schema.duty_schema import DUTY_TABLES
-from ballscrew.case_schema.fields import NutSpeed, is_nut_speed
-from ballscrew.case_schema.option_faults import in_options
-from ballscrew.case_schema.schema import (
+from ballscrew.axis.supports.mounted_bearing import MountedBearing
+from ballscrew.axis.thermal.written_bands import written_bands
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError, closest, nearest
+from ballscrew.basis.quantities import fields_of
+from ballscrew.basis.units import in_display_units
+from ballscrew.cases.case_files import case_text, duty_tables, nut_tables, project, support_tables, uncertain_inputs
+from ballscrew.cases.case_files.case import USUAL_LIMITS
+from ballscrew.cases.case_files.case import Case as Case
+from ballscrew.cases.case_files.inputs import inputs as inputs
+from ballscrew.cases.case_files.lubricants import lubricant_of
+from ballscrew.cases.case_files.named_calibration import calibrated_by_table, with_calibration
+from ballscrew.cases.case_files.provenance import references as references
+from ballscrew.cases.case_files.spelling import doubtful
+from ballscrew.cases.schema.duty_schema import DUTY_TABLES
+from ballscrew.cases.schema.fields import NutSpeed, is_nut_speed
+from ballscrew.cases.schema.option_faults import in_options
+from ballscrew.cases.schema.schema import (
     DEFAULT_MODEL,
     LAWS,
     MODELS,
@@ -25,30 +38,19 @@ from ballscrew.case_schema.schema import (
     name_of_law,
     places_of,
 )
-from ballscrew.case_schema.sections import Sections, validated_sections
-from ballscrew.case_schema.support_schema import SUPPORT_TABLES
-from ballscrew.cases import case_text, duty_tables, nut_tables, project, support_tables, uncertain_inputs
-from ballscrew.cases.case import USUAL_LIMITS
-from ballscrew.cases.case import Case as Case
-from ballscrew.cases.inputs import inputs as inputs
-from ballscrew.cases.lubricants import lubricant_of
-from ballscrew.cases.named_calibration import calibrated_by_table, with_calibration
-from ballscrew.cases.provenance import references as references
-from ballscrew.cases.spelling import doubtful
-from ballscrew.components.materials import Lubricant, Material
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.components.ratings import rating_of
-from ballscrew.components.screw import MATERIALS, BallScrew
-from ballscrew.components.traits import traits_of
-from ballscrew.errors import Fault, InputError, closest, nearest
-from ballscrew.friction.calibrations import calibration as named_calibration
-from ballscrew.friction.law_names import coefficients
-from ballscrew.friction.model import FrictionModel
-from ballscrew.quantities import fields_of
-from ballscrew.screw_tables.nut_kinds import LISTED, LOSSES
-from ballscrew.sizing.catalogue import CatalogueRow
-from ballscrew.thermal.written_bands import written_bands
-from ballscrew.units import in_display_units
+from ballscrew.cases.schema.sections import Sections, validated_sections
+from ballscrew.cases.schema.support_schema import SUPPORT_TABLES
+from ballscrew.cases.screw_tables.nut_kinds import LISTED, LOSSES
+from ballscrew.physics.components.materials import Lubricant, Material
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.ratings import rating_of
+from ballscrew.physics.components.screw import MATERIALS, BallScrew
+from ballscrew.physics.components.traits import traits_of
+from ballscrew.physics.friction.calibrations import calibration as named_calibration
+from ballscrew.physics.friction.law_names import coefficients
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.sizing.catalogue import CatalogueRow
+from ballscrew.physics.sizing.installation import Installation
 
 _NEEDED = ("screw", "lubricant", "operation")
 #: What somebody keeps with a case; no command reads it.
@@ -77,7 +79,8 @@ def load(
 def read(path: str | Path) -> dict[str, Any]:
     """The tables of a case file, TOML or JSON, or of a design in a project file: ``project.toml#name``.
 
-    Raises :class:`~ballscrew.errors.InputError` if it is none, and for a project of several designs without a name.
+    Raises :class:`~ballscrew.basis.errors.InputError` if it is none, and for a project of several designs without a
+    name.
     """
     return project.design_at(path)
 
@@ -137,42 +140,25 @@ def build(
     ``moves`` needs an axis and a motion and no operating point: without one it has that of steady travel.
     """
     tables, chosen = with_calibration(tables, calibration), () if calibration is None else ("model.calibration",)
-    unknown = [name for name in tables if name not in SECTIONS]
-    faults = [Fault(name, "unknown section", "", _meant(name, tables[name])) for name in unknown]
-    misspelt = {closest(name, SECTIONS) for name in unknown}
+    faults = _unknown_sections(tables)
     sections = validated_sections(tables)
     efficiency = duty_tables.efficiency(sections, model, moves, faults)
-    faults += [
-        Fault(name, "missing section", "", f"add a table [{name}]{_beside(name, tables)}")
-        for name in duty_tables.needed(_NEEDED, moves, efficiency)
-        if name not in tables and name not in misspelt
-    ]
+    faults += _missing_sections(tables, duty_tables.needed(_NEEDED, moves, efficiency))
     made = _screw(sections, folder, rows, faults) if "screw" in sections else _NO_SCREW
     lubricant, oil = lubricant_of(sections, folder, faults) if "lubricant" in sections else (None, {})
-    axis, motion, motor, surroundings = duty_tables.moved(sections, folder, faults)
-    axis = support_tables.guided(sections, axis, folder, lubricant, faults)
+    moved = duty_tables.moved(sections, folder, faults)
+    moved = moved._replace(axis=support_tables.guided(sections, moved.axis, folder, lubricant, faults))
     if efficiency is None:
         friction_model = _model(sections, model, faults, folder if allow_code else None)
     else:  # no model counts, and no oil of the screw: any stands in
         friction_model = MODELS[DEFAULT_MODEL]
-    sweep = _sweep(tables.get("sweep", {}), faults)
-    fit = tables.get("calibration", {})
-    if not isinstance(fit, dict):
-        faults.append(Fault("calibration", "must be a table", str(fit), "leave it as ballscrew fit wrote it"))
-    elif "constant_torque" in fit:
-        remedy = 'fit again, or move it: [losses] constant = {law = "known", constant_torque = "…"}'
-        problem = "is of an earlier version, in which it was left out of the torque"
-        faults.append(Fault("calibration.constant_torque", problem, str(fit["constant_torque"]), remedy))
+    sweep, fit = _sweep(tables.get("sweep", {}), faults), _fit(tables.get("calibration", {}), faults)
     nut, notes = nut_tables.nut_of(sections, *made, faults)
-    mounted = nut_tables.installation(sections, faults) if "installation" in sections else None
-    bearings = support_tables.bearings(sections, folder, lubricant, mounted, faults)
-    mounted = support_tables.mounted_on(mounted, bearings)
+    mounted, bearings = _mounting(sections, folder, lubricant, faults)
     limits = nut_tables.limits(sections, faults) if "limits" in sections else USUAL_LIMITS
     screw = made.screw if made.screw is None or nut is None else dataclasses.replace(made.screw, nut=nut)
-    operation = _operation(sections, screw, faults) if "operation" in sections else None
     travels = moves and "operation" not in sections
-    if travels and axis is not None and motion is not None and screw is not None:
-        operation = duty_tables.travel(axis, motion, screw.lead)
+    operation = _travel(moved, screw) if travels else _operation(sections, screw, faults)
     if efficiency is not None and lubricant is None:
         lubricant = Lubricant.from_grade("ISO VG 100")
     if faults or screw is None or lubricant is None or operation is None or friction_model is None:
@@ -196,10 +182,10 @@ def build(
         exact=exact | exact_air,
         calibration=None if calibrated_by is None else named_calibration(calibrated_by),
         fit=fit,
-        axis=axis,
-        motion=motion,
-        motor=motor,
-        surroundings=surroundings,
+        axis=moved.axis,
+        motion=moved.motion,
+        motor=moved.motor,
+        surroundings=moved.surroundings,
         uncertain_surroundings=of_air,
         given_surroundings=frozenset(tables.get("surroundings", {})),
         efficiency=efficiency,
@@ -209,6 +195,25 @@ def build(
         bearings=bearings,
         uncertain_supports=support_tables.distributions(sections),
     )
+
+
+def _unknown_sections(tables: Mapping[str, Any]) -> list[Fault]:
+    """The faults of sections that no case has."""
+    return [
+        Fault(name, "unknown section", "", _meant(name, content))
+        for name, content in tables.items()
+        if name not in SECTIONS
+    ]
+
+
+def _missing_sections(tables: Mapping[str, Any], needed: Sequence[str]) -> list[Fault]:
+    """The faults of sections that a case needs; one that is misspelt has its fault already."""
+    misspelt = {closest(name, SECTIONS) for name in tables if name not in SECTIONS}
+    return [
+        Fault(name, "missing section", "", f"add a table [{name}]{_beside(name, tables)}")
+        for name in needed
+        if name not in tables and name not in misspelt
+    ]
 
 
 def _rating(screw: BallScrew, made: _MadeScrew) -> float | None:
@@ -273,7 +278,9 @@ def _screw(
 
 
 def _operation(sections: Sections, screw: BallScrew | None, faults: list[Fault]) -> OperatingState | None:
-    """The load and the speed; a speed of the nut turns the screw by its lead."""
+    """The load and the speed; a speed of the nut turns the screw by its lead. None without such a section."""
+    if "operation" not in sections:
+        return None
     before = len(faults)
     values = sections.values_of("operation", faults)
     speed = values.get("screw_speed")
@@ -282,6 +289,22 @@ def _operation(sections: Sections, screw: BallScrew | None, faults: list[Fault])
             return None  # its own faults are there already
         values["screw_speed"] = 2 * math.pi * speed / screw.lead
     return OperatingState(**values) if len(faults) == before else None
+
+
+def _travel(moved: duty_tables.Moved, screw: BallScrew | None) -> OperatingState | None:
+    """The operating point of steady travel in the motion; None where a part of it is faulty."""
+    if moved.axis is None or moved.motion is None or screw is None:
+        return None
+    return duty_tables.travel(moved.axis, moved.motion, screw.lead)
+
+
+def _mounting(
+    sections: Sections, folder: Path, lubricant: Lubricant | None, faults: list[Fault]
+) -> tuple[Installation | None, Mapping[str, MountedBearing]]:
+    """The installation of the screw, and the bearings of its shaft by their place."""
+    mounted = nut_tables.installation(sections, faults) if "installation" in sections else None
+    bearings = support_tables.bearings(sections, folder, lubricant, mounted, faults)
+    return support_tables.mounted_on(mounted, bearings), bearings
 
 
 def _model(sections: Sections, chosen: str | None, faults: list[Fault], code: Path | None) -> FrictionModel | None:
@@ -333,4 +356,16 @@ def _sweep(table: Any, faults: list[Fault]) -> Mapping[str, str]:
         return {}
     remedy = 'write "100:4000:14 N" or "100, 200, 500 N"'
     faults += [Fault(f"sweep.{n}", "must be text", str(v), remedy) for n, v in table.items() if not isinstance(v, str)]
+    return table
+
+
+def _fit(table: Any, faults: list[Fault]) -> dict[str, Any]:
+    """The table [calibration], as a fit wrote it."""
+    if not isinstance(table, dict):
+        faults.append(Fault("calibration", "must be a table", str(table), "leave it as ballscrew fit wrote it"))
+        return {}
+    if "constant_torque" in table:
+        remedy = 'fit again, or move it: [losses] constant = {law = "known", constant_torque = "…"}'
+        problem = "is of an earlier version, in which it was left out of the torque"
+        faults.append(Fault("calibration.constant_torque", problem, str(table["constant_torque"]), remedy))
     return table

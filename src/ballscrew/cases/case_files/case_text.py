@@ -11,9 +11,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, NoReturn
 
-from ballscrew.errors import Fault, InputError
-from ballscrew.files import read_bytes
-from ballscrew.friction.law_names import LAWS
+from ballscrew.basis.atomic_files import read_bytes
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.physics.friction.law_names import LAWS
 
 #: Bytes of a case file at most, and bits of a whole number in it: no float is larger.
 LARGEST_FILE, LARGEST_INTEGER = 4_000_000, 1024
@@ -38,7 +38,7 @@ _TOKEN = re.compile(
 
 
 def tables_at(path: Path) -> dict[str, Any]:
-    """The tables of a file. Raises :class:`~ballscrew.errors.InputError` if it has none."""
+    """The tables of a file. Raises :class:`~ballscrew.basis.errors.InputError` if it has none."""
     try:
         content = read_bytes(path, LARGEST_FILE)
     except (OSError, ValueError) as error:
@@ -49,7 +49,7 @@ def tables_at(path: Path) -> dict[str, Any]:
 
 
 def tables_in(content: bytes, where: str) -> dict[str, Any]:
-    """The tables that are written in the content of a file. Raises :class:`~ballscrew.errors.InputError`."""
+    """The tables that are written in the content of a file. Raises :class:`~ballscrew.basis.errors.InputError`."""
     try:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError:
@@ -93,7 +93,7 @@ def comments_at(path: Path) -> int:
 def for_json(where: str, value: Any, notes: list[str], depth: int = 0) -> Any:
     """The tables of a design as JSON has them, with a note for each value that is kept as text.
 
-    Raises :class:`~ballscrew.errors.InputError` where they are nested too deeply for an answer.
+    Raises :class:`~ballscrew.basis.errors.InputError` where they are nested too deeply for an answer.
     """
     if depth > _DEEPEST_DESIGN:
         raise InputError(Fault(where, "is nested too deeply", "", f"{_DEEPEST_DESIGN} levels at most in a design"))

@@ -4,22 +4,22 @@ from __future__ import annotations
 
 from typing import Any
 
-from ballscrew import units
-from ballscrew.case_schema.schema import LAWS, MODELS, name_of_law
-from ballscrew.cases.case import Case
-from ballscrew.cases.lubricants import described, shown_temperature
-from ballscrew.cases.named_calibration import vendor_rows_like
-from ballscrew.components.contact import RaceState
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.nut import Bodies, Nut
-from ballscrew.components.nut_losses import Seals
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.components.screw import BallScrew
-from ballscrew.components.traits import traits_of
-from ballscrew.friction.law_names import coefficients
-from ballscrew.friction.result import FrictionResult
-from ballscrew.quantities import fields_of, quantities_of
-from ballscrew.screw_tables.nut_kinds import kind_of
+from ballscrew.basis import units
+from ballscrew.basis.quantities import fields_of, quantities_of
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.lubricants import described, shown_temperature
+from ballscrew.cases.case_files.named_calibration import vendor_rows_like
+from ballscrew.cases.schema.schema import LAWS, MODELS, name_of_law
+from ballscrew.cases.screw_tables.nut_kinds import kind_of
+from ballscrew.physics.components.contact import RaceState
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.nut import Bodies, Nut
+from ballscrew.physics.components.nut_losses import Seals
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.components.traits import traits_of
+from ballscrew.physics.friction.law_names import coefficients
+from ballscrew.physics.friction.result import FrictionResult
 
 #: What is assumed of a grease.
 _OF_GREASE = "grease: the film of its base oil, no thickener in it, no churning of a fresh filling"

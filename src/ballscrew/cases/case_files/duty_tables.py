@@ -12,10 +12,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew import units
-from ballscrew.axis.axis import Axis
-from ballscrew.axis.motor import Motor
-from ballscrew.case_schema.duty_schema import (
+from ballscrew.axis.duty_cycle.axis import Axis
+from ballscrew.axis.duty_cycle.motor import Motor
+from ballscrew.axis.motion.profiles import Motion, Segment
+from ballscrew.axis.motion.trajectory import Trajectory
+from ballscrew.axis.thermal.surroundings import Surroundings
+from ballscrew.basis import units
+from ballscrew.basis.errors import MISSING, Fault, InputError, nearest
+from ballscrew.basis.overflow import overflow_as_input_error
+from ballscrew.basis.quantities import fields_of
+from ballscrew.cases.schema.duty_schema import (
     CONSTANT_EFFICIENCY,
     KEYS,
     MOTIONS,
@@ -25,15 +31,9 @@ from ballscrew.case_schema.duty_schema import (
     duty_sections,
     fields_of_motion,
 )
-from ballscrew.case_schema.schema import MODELS, read_table
-from ballscrew.case_schema.sections import Sections
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.errors import MISSING, Fault, InputError, nearest
-from ballscrew.motion.profiles import Motion, Segment
-from ballscrew.motion.trajectory import Trajectory
-from ballscrew.overflow import overflow_as_input_error
-from ballscrew.quantities import fields_of
-from ballscrew.thermal.surroundings import Surroundings
+from ballscrew.cases.schema.schema import MODELS, read_table
+from ballscrew.cases.schema.sections import Sections
+from ballscrew.physics.components.operating_state import OperatingState
 
 #: What a question about a motion needs besides the screw.
 NEEDED = ("axis", "motion")
@@ -76,7 +76,9 @@ def travel(axis: Axis, motion: Motion, lead: float) -> OperatingState:
 
 
 def efficiency(sections: Sections, chosen: str | None, moves: bool, faults: list[Fault]) -> float | None:
-    """The efficiency of the rule of that name; None for a model, which :mod:`~ballscrew.cases.case_file` makes."""
+    """The efficiency of the rule of that name; None for a model, which :mod:`~ballscrew.cases.case_files.case_file`
+    makes.
+    """
     table = sections.tables.get("model", {})
     if not isinstance(table, dict):
         return None
@@ -132,7 +134,7 @@ def _motion(sections: Sections, folder: Path, faults: list[Fault]) -> Motion | N
     if len(faults) > before:
         return None
     if kind == TRAJECTORY:
-        from ballscrew.motion.trajectory_file import read_trajectory  # loads pandas
+        from ballscrew.axis.motion.trajectory_file import read_trajectory  # loads pandas
 
         return _made("motion", functools.partial(read_trajectory, folder / values["file"]), faults)
     if "segment" in values:

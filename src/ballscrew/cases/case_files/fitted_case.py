@@ -12,20 +12,20 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew import units
-from ballscrew.calibration.calibrated_model import CalibratedModel
-from ballscrew.calibration.fit import CONSTANT_LOSS
-from ballscrew.calibration.fit_result import Estimate
-from ballscrew.calibration.problem import CONSTANT_TORQUE
-from ballscrew.cases import case_file
-from ballscrew.cases.case import Case
-from ballscrew.cases.lubricants import OF_NAMED_OIL
-from ballscrew.cases.named_calibration import written_out
-from ballscrew.cases.provenance import of_case, references
-from ballscrew.components.materials import Lubricant
-from ballscrew.files import atomic_write
-from ballscrew.quantities import Quantity, fields_of
-from ballscrew.uncertainty.distributions import normal_half_width
+from ballscrew.basis import units
+from ballscrew.basis.atomic_files import atomic_write
+from ballscrew.basis.quantities import Quantity, fields_of
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.lubricants import OF_NAMED_OIL
+from ballscrew.cases.case_files.named_calibration import written_out
+from ballscrew.cases.case_files.provenance import of_case, references
+from ballscrew.engine.uncertainty.distributions import normal_half_width
+from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
+from ballscrew.evidence.calibration.fit import CONSTANT_LOSS
+from ballscrew.evidence.calibration.fit_result import Estimate
+from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
+from ballscrew.physics.components.materials import Lubricant
 
 _HEAD = "A calibrated model, written by ballscrew fit. Numbers that are not identified have no error behind them."
 #: The name of a fitted constant torque among the inputs of a case.

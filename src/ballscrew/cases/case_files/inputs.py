@@ -5,15 +5,15 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
-from ballscrew.case_schema.duty_schema import CONSTANT_EFFICIENCY
-from ballscrew.case_schema.schema import LAWS, name_of_law
-from ballscrew.cases import duty_tables, support_tables
-from ballscrew.cases.case import USUAL_LIMITS, Case
-from ballscrew.components.nut import Nut
-from ballscrew.components.screw import MATERIALS, BallScrew
-from ballscrew.quantities import fields_of
-from ballscrew.screw_tables.nut_kinds import ENDS, kind_of
-from ballscrew.sizing.installation import Installation
+from ballscrew.basis.quantities import fields_of
+from ballscrew.cases.case_files import duty_tables, support_tables
+from ballscrew.cases.case_files.case import USUAL_LIMITS, Case
+from ballscrew.cases.schema.duty_schema import CONSTANT_EFFICIENCY
+from ballscrew.cases.schema.schema import LAWS, name_of_law
+from ballscrew.cases.screw_tables.nut_kinds import ENDS, kind_of
+from ballscrew.physics.components.nut import Nut
+from ballscrew.physics.components.screw import MATERIALS, BallScrew
+from ballscrew.physics.sizing.installation import Installation
 
 
 def inputs(case: Case) -> dict[str, Any]:

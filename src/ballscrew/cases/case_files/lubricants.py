@@ -7,14 +7,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ballscrew import units
-from ballscrew.case_schema.sections import Sections
-from ballscrew.cases.oils import named_oil
-from ballscrew.components.data_sheet import SHEET_TEMPERATURE, DataSheet
-from ballscrew.components.materials import TEMPERATURE, Lubricant
-from ballscrew.errors import MISSING, Fault, InputError
-from ballscrew.quantities import fields_of
-from ballscrew.units import in_display_units
+from ballscrew.basis import units
+from ballscrew.basis.errors import MISSING, Fault, InputError
+from ballscrew.basis.quantities import fields_of
+from ballscrew.basis.units import in_display_units
+from ballscrew.cases.case_files.oils import named_oil
+from ballscrew.cases.schema.sections import Sections
+from ballscrew.physics.components.data_sheet import SHEET_TEMPERATURE, DataSheet
+from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
 
 #: What tells an oil, each on its own; a library and a data sheet go together, the sheet over the library.
 _POINTS = ("kinematic_viscosity_40", "kinematic_viscosity_100")
@@ -54,38 +54,66 @@ def lubricant_of(sections: Sections, folder: Path, faults: list[Fault]) -> tuple
 
 def _contradictions(table: Mapping[str, Any]) -> list[Fault]:
     """Faults of a table that tells its oil in two ways, in half a way, or not at all."""
+    return [*_told_twice(table), *_told_in_half(table), *_not_told(table)]
+
+
+def _points(table: Mapping[str, Any]) -> list[str]:
+    """The viscosities of a data sheet that a table has."""
+    return [name for name in _POINTS if name in table]
+
+
+def _of_data_sheet(table: Mapping[str, Any]) -> list[str]:
+    """The other numbers of a data sheet that a table has."""
+    return [name for name in fields_of(DataSheet) if name in table and name not in _POINTS]
+
+
+def _follows_temperature(table: Mapping[str, Any]) -> bool:
+    """Test whether a table tells an oil at all temperatures."""
+    return "grade" in table or "oil" in table or bool(_points(table))
+
+
+def _told_twice(table: Mapping[str, Any]) -> list[Fault]:
+    """Faults of a table with two ways of telling an oil."""
+    pairs = [("viscosity", "grade", "the grade")]
+    pairs += [(other, name, name) for name in ("oil", *_points(table)[:1]) for other in ("grade", "viscosity")]
+    return [
+        Fault(f"lubricant.{one}", f"contradicts {words}", f"{table[one]} and {table[other]}", "give one of the two")
+        for one, other, words in pairs
+        if one in table and other in table
+    ]
+
+
+def _told_in_half(table: Mapping[str, Any]) -> list[Fault]:
+    """Faults of keys that tell an oil only beside others, which a table lacks."""
     faults: list[Fault] = []
-    points = [name for name in _POINTS if name in table]
-    if "grade" in table and "viscosity" in table:
-        given = f"{table['viscosity']} and {table['grade']}"
-        faults.append(Fault("lubricant.viscosity", "contradicts the grade", given, "give one of the two"))
-    for name in ("oil", *points[:1]):
-        for other in ("grade", "viscosity"):
-            if name in table and other in table:
-                given = f"{table[other]} and {table[name]}"
-                faults.append(Fault(f"lubricant.{other}", f"contradicts {name}", given, "give one of the two"))
-    follows = "grade" in table or "oil" in table or bool(points)
-    if not follows and "temperature" in table:
+    points, others = _points(table), _of_data_sheet(table)
+    if "temperature" in table and not _follows_temperature(table):
         remedy = 'add {lubricant.grade}"ISO VG 100", or kinematic_viscosity_40 and kinematic_viscosity_100'
         faults.append(
             Fault("lubricant.temperature", "needs a grade or a data sheet", str(table["temperature"]), remedy)
         )
-    if len(points) == 1 and "oil" not in table:
+    if "oil" in table:
+        return faults
+    if len(points) == 1:
         missing = next(name for name in _POINTS if name not in table)
         faults.append(Fault(f"lubricant.{missing}", MISSING, "", f'add {{lubricant.{missing}}}"… cSt"'))
-    others = [name for name in fields_of(DataSheet) if name in table and name not in _POINTS]
-    if others and not points and "oil" not in table:
+    if others and not points:
         remedy = "add kinematic_viscosity_40 and kinematic_viscosity_100, or leave it out"
         faults.append(Fault(f"lubricant.{others[0]}", "is of a data sheet", str(table[others[0]]), remedy))
-    if "oil_file" in table and "oil" not in table:
+    if "oil_file" in table:
         faults.append(Fault("lubricant.oil_file", "needs the name of an oil", str(table["oil_file"]), 'add oil = "…"'))
-    if not follows and not others and not {"viscosity", "temperature"} & set(table):
-        remedy = (
-            'add kinematic_viscosity_40 and kinematic_viscosity_100, or grade = "ISO VG 100", and a temperature, '
-            'or viscosity = "… mPa s"'
-        )
-        faults.append(Fault("lubricant.viscosity", MISSING, "", remedy))
     return faults
+
+
+def _not_told(table: Mapping[str, Any]) -> list[Fault]:
+    """The fault of a table that tells no oil at all."""
+    if _follows_temperature(table) or _of_data_sheet(table) or {"viscosity", "temperature"} & set(table):
+        return []
+    remedy = (
+        'add kinematic_viscosity_40 and kinematic_viscosity_100, or grade = "ISO VG 100", and a temperature, '
+        'or viscosity = "… mPa s"'
+    )
+    return [Fault("lubricant.viscosity", MISSING, "", remedy)]
 
 
 def _shown(fault: Fault, table: Mapping[str, Any]) -> Fault:

@@ -6,13 +6,13 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
-from ballscrew.case_schema.schema import name_of_law
-from ballscrew.cases.case import Case
-from ballscrew.errors import Fault, raise_if_any
-from ballscrew.friction.calibrations import calibrated, calibration
-from ballscrew.friction.law_names import coefficients
-from ballscrew.friction.model import FrictionModel
-from ballscrew.validation.nearest import NearRows, near_rows
+from ballscrew.basis.errors import Fault, raise_if_any
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.schema.schema import name_of_law
+from ballscrew.evidence.validation.nearest import NearRows, near_rows
+from ballscrew.physics.friction.calibrations import calibrated, calibration
+from ballscrew.physics.friction.law_names import coefficients
+from ballscrew.physics.friction.model import FrictionModel
 
 #: Written for a calibration on the command line: the model as it is.
 NO_CALIBRATION = "none"
@@ -32,7 +32,7 @@ def with_calibration(tables: Mapping[str, Any], name: str | None) -> Mapping[str
 def calibrated_by_table(model: FrictionModel, table: Mapping[str, Any]) -> FrictionModel:
     """The model with the calibration that ``[model]`` names.
 
-    Raises :class:`~ballscrew.errors.InputError` for an unknown name, and where the table sets what it sets.
+    Raises :class:`~ballscrew.basis.errors.InputError` for an unknown name, and where the table sets what it sets.
     """
     friction: Any = table.get("friction")
     name, found = table["calibration"], calibration(table["calibration"])

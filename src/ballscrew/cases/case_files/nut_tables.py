@@ -8,22 +8,22 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ballscrew.case_schema.schema import law_of
-from ballscrew.case_schema.sections import Sections
-from ballscrew.cases.case import PreloadNote
-from ballscrew.components.nut import Bodies, Nut, Scatter, SingleNut
-from ballscrew.components.nut_losses import ParasiticLaw
-from ballscrew.components.screw import SINGLE_NUT, BallScrew
-from ballscrew.equations import geometry
-from ballscrew.errors import MISSING, Fault, InputError, nearest
-from ballscrew.quantities import fields_of
-from ballscrew.screw_tables import catalogue
-from ballscrew.screw_tables.nut_kinds import ENDS, LOSSES, NUT_FIELDS, NUTS, Share
-from ballscrew.sizing.catalogue import TURNS_WITHOUT_LOAD, CatalogueRow, is_shipped
-from ballscrew.sizing.installation import Installation, Limits
-from ballscrew.sizing.listed_nut import lists_preload
-from ballscrew.sizing.listed_nut import nut_of as listed_nut
-from ballscrew.sizing.ratings import Ratings, ratings_of
+from ballscrew.basis.errors import MISSING, Fault, InputError, nearest
+from ballscrew.basis.quantities import fields_of
+from ballscrew.cases.case_files.case import PreloadNote
+from ballscrew.cases.schema.schema import law_of
+from ballscrew.cases.schema.sections import Sections
+from ballscrew.cases.screw_tables import catalogue
+from ballscrew.cases.screw_tables.nut_kinds import ENDS, LOSSES, NUT_FIELDS, NUTS, Share
+from ballscrew.physics.components.nut import Bodies, Nut, Scatter, SingleNut
+from ballscrew.physics.components.nut_losses import ParasiticLaw
+from ballscrew.physics.components.screw import SINGLE_NUT, BallScrew
+from ballscrew.physics.equations import geometry
+from ballscrew.physics.sizing.catalogue import TURNS_WITHOUT_LOAD, CatalogueRow, is_shipped
+from ballscrew.physics.sizing.installation import Installation, Limits
+from ballscrew.physics.sizing.listed_nut import lists_preload
+from ballscrew.physics.sizing.listed_nut import nut_of as listed_nut
+from ballscrew.physics.sizing.ratings import Ratings, ratings_of
 
 #: The nut of a case that names one without preload.
 SINGLE = SingleNut(angle_under_load=True)
@@ -114,10 +114,7 @@ def nut_of(
         nut, notes = dataclasses.replace(SINGLE_NUT, spacer_balls=spacers), ()
     bodies = _bodies(sections, row, has_preload, faults)
     scatter = sections.values_of("deviations", faults) if "deviations" in sections else None
-    losses = {
-        **({} if of_row is None else of_row.losses),
-        **(_losses(sections, faults) if "losses" in sections else {}),
-    }
+    losses = {**({} if of_row is None else of_row.losses), **_losses(sections, faults)}
     if len(faults) > before or nut is None:
         return None, ()
     made = {
@@ -126,12 +123,19 @@ def nut_of(
         "losses": losses,
     }
     nut = dataclasses.replace(nut, **{name: part for name, part in made.items() if part})
-    try:
-        if screw is not None and nut.bodies is not None:
-            nut.bodies.sized(screw)
-    except InputError as error:
-        faults += error.faults
+    faults += _faults_of_bodies(nut, screw)
     return nut, notes
+
+
+def _faults_of_bodies(nut: Nut, screw: BallScrew | None) -> Sequence[Fault]:
+    """Faults of bodies that do not fit the screw."""
+    if screw is None or nut.bodies is None:
+        return ()
+    try:
+        nut.bodies.sized(screw)
+    except InputError as error:
+        return error.faults
+    return ()
 
 
 def _bodies(
@@ -159,18 +163,13 @@ def _nut(
     if len(faults) > before:
         return None, ()
     kind = values.pop("type", (row.nut or "single") if row is not None else None)
-    if kind is None:
-        faults.append(Fault("nut.type", MISSING, "", "add {nut.type}" + _either(NUTS)))
-    elif kind not in NUTS:
-        faults.append(Fault("nut.type", "unknown kind of nut", kind, nearest(kind, NUTS)))
-    else:
-        faults += _misplaced(kind, table)
-        if "preload" in fields_of(NUTS[kind]) and row is not None and not {"preload", "oversize"} & set(values):
-            values |= _preload_of(row)
-        if "preload" in fields_of(NUTS[kind]) and not {"preload", "oversize"} & set(values):
-            remedy = 'add {nut.preload}"3 kN", or "7 %" of the dynamic load rating'
-            faults.append(Fault("nut.preload", MISSING, "", remedy))
-    if len(faults) > before or kind is None:
+    if kind not in NUTS:
+        missing = Fault("nut.type", MISSING, "", "add {nut.type}" + _either(NUTS))
+        faults.append(missing if kind is None else Fault("nut.type", "unknown kind of nut", kind, nearest(kind, NUTS)))
+        return None, ()
+    faults += _misplaced(kind, table)
+    values = _with_preload(kind, values, row, faults)
+    if len(faults) > before:
         return None, ()
     if row is not None and row.spacer_balls:
         values.setdefault("spacer_balls", True)
@@ -193,6 +192,19 @@ def _nut(
         return None, ()
     made = {**values, "preload": preload * rating}
     return NUTS[kind](**made), (PreloadNote(preload, rating, source),)
+
+
+def _with_preload(
+    kind: str, values: Mapping[str, Any], row: CatalogueRow | None, faults: list[Fault]
+) -> dict[str, Any]:
+    """The fields of a nut, with the preload that the row lists where the kind needs one and none is given."""
+    if "preload" not in fields_of(NUTS[kind]) or {"preload", "oversize"} & set(values):
+        return dict(values)
+    of_row = {} if row is None else _preload_of(row)
+    if not of_row:
+        remedy = 'add {nut.preload}"3 kN", or "7 %" of the dynamic load rating'
+        faults.append(Fault("nut.preload", MISSING, "", remedy))
+    return {**values, **of_row}
 
 
 def _with_spacers(screw: BallScrew, faults: list[Fault]) -> BallScrew | None:
@@ -230,7 +242,9 @@ def _either(names: Any) -> str:
 
 
 def _losses(sections: Sections, faults: list[Fault]) -> dict[str, ParasiticLaw]:
-    """The laws of the table, by what they are of."""
+    """The laws of the table, by what they are of; none without a table."""
+    if "losses" not in sections:
+        return {}
     before = len(faults)
     sections.values_of("losses", faults)
     if len(faults) > before:

@@ -13,12 +13,12 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from ballscrew.case_schema.fields import section_of
-from ballscrew.case_schema.schema import read_table
-from ballscrew.components.data_sheet import DataSheet
-from ballscrew.errors import Fault, InputError, nearest
-from ballscrew.files import read_bytes
-from ballscrew.quantities import fields_of
+from ballscrew.basis.atomic_files import read_bytes
+from ballscrew.basis.errors import Fault, InputError, nearest
+from ballscrew.basis.quantities import fields_of
+from ballscrew.cases.schema.fields import section_of
+from ballscrew.cases.schema.schema import read_table
+from ballscrew.physics.components.data_sheet import DataSheet
 
 #: Bytes of a file of oils at most.
 LARGEST_FILE = 4_000_000
@@ -54,13 +54,14 @@ def _is_consistency(name: str, sheet: DataSheet) -> bool:
 
 
 def oils(path: str | Path | None = None) -> Oils:
-    """The oils and greases of the library, or of a file of one's own, by name.
+    """The oils and greases of the library, or of a file of one's own, by name: :class:`Oils`.
 
+    ``path`` is that of the file; without it the library is read.
     ``bs.Lubricant.from_sheet(bs.oils()["Arcanol LOAD150"], temperature=313.15)`` is the oil at a temperature. A file
     has a table ``[oils."name"]`` with units for each (``data/oils.toml`` is of the same form). The numbers of a grease
     are those of its base oil.
 
-    Raises :class:`~ballscrew.errors.InputError` with all faults of the file.
+    Raises :class:`~ballscrew.basis.errors.InputError` with all faults of the file.
     """
     if path is None:
         return _shipped()

@@ -11,14 +11,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from ballscrew.cases import case_file, case_text, project
-from ballscrew.cases.project import Design
-from ballscrew.errors import Fault, InputError
-from ballscrew.files import read_bytes
-from ballscrew.screw_tables import catalogue
-from ballscrew.sizing.catalogue import CatalogueRow
-from ballscrew.tables.sheets import is_spreadsheet
-from ballscrew.torque_logs.preview import preview
+from ballscrew.basis.atomic_files import read_bytes
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.cases.case_files import case_file, case_text, project
+from ballscrew.cases.case_files.project import Design
+from ballscrew.cases.screw_tables import catalogue
+from ballscrew.files.tables.sheets import is_spreadsheet
+from ballscrew.files.torque_logs.preview import preview
+from ballscrew.physics.sizing.catalogue import CatalogueRow
 
 #: Endings of files that are tables as text.
 _TABLES = (".csv", ".tsv")
@@ -43,7 +43,7 @@ class OpenedFile:
 
 
 def opened(path: Path) -> OpenedFile:
-    """The designs of a file. Raises :class:`~ballscrew.errors.InputError` where it has none.
+    """The designs of a file. Raises :class:`~ballscrew.basis.errors.InputError` where it has none.
 
     Tables that no case has are kept aside. Values that JSON has not are kept as text: dates, what is not finite, and
     whole numbers beyond 2^53.

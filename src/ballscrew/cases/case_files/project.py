@@ -11,8 +11,8 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from ballscrew.cases import case_text
-from ballscrew.errors import Fault, InputError, nearest, raise_if_any
+from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
+from ballscrew.cases.case_files import case_text
 
 #: The name that marks a project, and the version that is written and read.
 KEY, VERSION = "ballscrew_project", 1
@@ -35,7 +35,7 @@ def is_project(tables: Mapping[str, Any]) -> bool:
 
 
 def designs_of(tables: Mapping[str, Any], where: str) -> list[Design]:
-    """The designs of a project. Raises :class:`~ballscrew.errors.InputError` with all faults of its form."""
+    """The designs of a project. Raises :class:`~ballscrew.basis.errors.InputError` with all faults of its form."""
     version = tables.get(KEY)
     if type(version) is not int or version != VERSION:
         given = "" if version is None else str(version)
@@ -95,7 +95,7 @@ def tables_of(designs: Iterable[Design]) -> dict[str, Any]:
 def read(path: str | Path) -> list[Design]:
     """The designs of a project file, or the one of a case file, which is called as the file.
 
-    Raises :class:`~ballscrew.errors.InputError`.
+    Raises :class:`~ballscrew.basis.errors.InputError`.
     """
     file, name = _parts(path)
     tables = case_text.tables_at(file)

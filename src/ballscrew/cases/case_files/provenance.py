@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from ballscrew._version import __version__
-from ballscrew.case_schema.duty_schema import CONSTANT_EFFICIENCY
-from ballscrew.cases.case import Case
-from ballscrew.components.materials import Lubricant
-from ballscrew.references import citations_of, documentation, keys_in
+from ballscrew.basis.references import citations_of, documentation, keys_in
+from ballscrew.basis.version import __version__
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.schema.duty_schema import CONSTANT_EFFICIENCY
+from ballscrew.physics.components.materials import Lubricant
 
 
 def of_case(case: Case) -> dict[str, Any]:

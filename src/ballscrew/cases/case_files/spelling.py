@@ -13,18 +13,18 @@ from typing import Any, get_args
 
 from pydantic import BaseModel
 
-from ballscrew import units
-from ballscrew.case_schema.schema import sections
-from ballscrew.components.ratings import PRELOAD_SHARES
-from ballscrew.errors import Fault
-from ballscrew.quantities import Quantity, within_bounds
-from ballscrew.records import Measured, Message, Record
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault
+from ballscrew.basis.quantities import Quantity, within_bounds
+from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.cases.schema.schema import sections
+from ballscrew.physics.components.ratings import PRELOAD_SHARES
 
 #: The id of the warning.
 THOUSANDS = "inputs.thousands"
 #: One to three digits, a point, three digits, and a unit: as a number with its thousands parted, or three decimals.
 _EITHER = re.compile(r"\s*([-+]?[1-9]\d{0,2})\.(\d{3})(?![\d.,'])\s*(\D.*)?")
-_READ = Message('"{written}" is read as {plain}: write "{thousands}" if that is meant, else "{plain}"')
+_READ = Message('"{written}" is read as {plain}: write "{thousands}" if that is meant, else "{decimal}"')
 #: What may be a thousand times as large on another screw.
 _OF_ANY_SIZE = ("operation.axial_load", "operation.screw_speed", "nut.preload")
 _FORCES = {"operation.axial_load": (0.0, 1.0), "nut.preload": PRELOAD_SHARES}
@@ -74,7 +74,8 @@ def _doubt(where: str, text: str, quantity: Quantity, rating: float | None) -> R
     plain, with_thousands = (
         f"{number} {unit}".strip() for number in (f"{float(_decimal(match)):g}", whole + thousandths)
     )
-    message = _READ.of(written=text.strip(), plain=plain, thousands=with_thousands)
+    decimal = f"{_decimal(match)}0 {unit}".strip() if _EITHER.fullmatch(plain) else plain  # which is not asked again
+    message = _READ.of(written=text.strip(), plain=plain, thousands=with_thousands, decimal=decimal)
     return Record(
         id=THOUSANDS,
         subject=where,

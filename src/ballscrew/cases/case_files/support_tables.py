@@ -7,15 +7,8 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from ballscrew.axis.axis import Axis
-from ballscrew.case_schema.sections import Sections
-from ballscrew.case_schema.support_schema import OIL
-from ballscrew.cases.oils import named_oil
-from ballscrew.components.materials import Lubricant
-from ballscrew.errors import MISSING, Fault, InputError, nearest, shown
-from ballscrew.quantities import fields_of
-from ballscrew.sizing.installation import Ends, Installation
-from ballscrew.supports.element_laws import (
+from ballscrew.axis.duty_cycle.axis import Axis
+from ballscrew.axis.supports.element_laws import (
     BEARING_LAWS,
     GUIDE_LAWS,
     MOUNTING,
@@ -26,11 +19,18 @@ from ballscrew.supports.element_laws import (
     missing,
     numbers_of,
 )
-from ballscrew.supports.mounted_bearing import MountedBearing
-from ballscrew.supports.rows import guide_rows, support_units
-from ballscrew.supports.table import CarriedMass, GuidedTable
-from ballscrew.uncertainty.distributions import Distribution
-from ballscrew.uncertainty.uncertain_value import UncertainValue, parse_uncertain
+from ballscrew.axis.supports.mounted_bearing import MountedBearing
+from ballscrew.axis.supports.rows import guide_rows, support_units
+from ballscrew.axis.supports.table import CarriedMass, GuidedTable
+from ballscrew.basis.errors import MISSING, Fault, InputError, nearest, shown
+from ballscrew.basis.quantities import fields_of
+from ballscrew.cases.case_files.oils import named_oil
+from ballscrew.cases.schema.sections import Sections
+from ballscrew.cases.schema.support_schema import OIL
+from ballscrew.engine.uncertainty.distributions import Distribution
+from ballscrew.engine.uncertainty.uncertain_value import UncertainValue, parse_uncertain
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.sizing.installation import Ends, Installation
 
 #: What a row of a catalogue tells of a bearing.
 _OF_UNIT = ("bore", "outside_diameter", "contact_angle")

@@ -9,22 +9,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ballscrew.case_schema.fields import NUT_SPEED, is_nut_speed, is_share, without_percent
-from ballscrew.cases.case import Case
-from ballscrew.components.materials import TEMPERATURE, Lubricant
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, raise_if_any
-from ballscrew.evaluation.outputs import inputs_of
-from ballscrew.friction.calibrations import Calibration
-from ballscrew.friction.model import FrictionModel
-from ballscrew.quantities import Quantity
-from ballscrew.screw_tables.nut_kinds import PERCENT
-from ballscrew.uncertainty.default_uncertainties import default_distributions
-from ballscrew.uncertainty.distributions import Distribution, Normal, scaled
-from ballscrew.uncertainty.uncertain_value import UncertainValue, describe_distribution, parse_uncertain
+from ballscrew.basis.errors import Fault, raise_if_any
+from ballscrew.basis.quantities import Quantity
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.schema.fields import NUT_SPEED, is_nut_speed, is_share, without_percent
+from ballscrew.cases.screw_tables.nut_kinds import PERCENT
+from ballscrew.engine.evaluation.outputs import inputs_of
+from ballscrew.engine.uncertainty.default_uncertainties import default_distributions
+from ballscrew.engine.uncertainty.distributions import Distribution, Normal, scaled
+from ballscrew.engine.uncertainty.uncertain_value import UncertainValue, describe_distribution, parse_uncertain
+from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.calibrations import Calibration
+from ballscrew.physics.friction.model import FrictionModel
 
 if TYPE_CHECKING:
-    from ballscrew.uncertainty.sampling import JointNormal
+    from ballscrew.engine.uncertainty.sampling import JointNormal
 
 #: The source of what stands in the case file.
 GIVEN = "given"
@@ -82,10 +82,10 @@ def joint_of(case: Case, inputs: Mapping[str, Uncertain]) -> JointNormal | None:
     """The correlated errors that a fit or a named calibration left; None where there are none.
 
     Of a fit, numbers count that are still uncertain and still what it found. Raises
-    :class:`~ballscrew.errors.InputError` for a table ``[calibration]`` that is not as a fit writes it.
+    :class:`~ballscrew.basis.errors.InputError` for a table ``[calibration]`` that is not as a fit writes it.
     """
     # loads xarray: only where inputs are sampled
-    from ballscrew.uncertainty.sampling import JointNormal
+    from ballscrew.engine.uncertainty.sampling import JointNormal
 
     if case.fit:
         faults: list[Fault] = []
@@ -111,7 +111,7 @@ def joint_of(case: Case, inputs: Mapping[str, Uncertain]) -> JointNormal | None:
 def _joint_of_fit(table: Any, known: Mapping[str, Any], faults: list[Fault]) -> JointNormal | None:
     """The correlated numbers of ``[calibration]``; errors in it are added to ``faults``."""
     # loads xarray: only where inputs are sampled
-    from ballscrew.uncertainty.sampling import JointNormal
+    from ballscrew.engine.uncertainty.sampling import JointNormal
 
     try:
         names = tuple(table["numbers"])

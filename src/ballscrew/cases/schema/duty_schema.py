@@ -8,14 +8,14 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, BeforeValidator, Field, WithJsonSchema
 
-from ballscrew import units
-from ballscrew.axis.axis import Axis
-from ballscrew.axis.motor import Motor
-from ballscrew.case_schema.fields import json_of, section_of, si_value
-from ballscrew.errors import Fault
-from ballscrew.motion.profiles import SCurve, Segment, Segments, Sine, Trapezoid
-from ballscrew.quantities import Info, Quantity, fields_of
-from ballscrew.thermal.surroundings import BRACINGS, VARIED, Surroundings
+from ballscrew.axis.duty_cycle.axis import Axis
+from ballscrew.axis.duty_cycle.motor import Motor
+from ballscrew.axis.motion.profiles import SCurve, Segment, Segments, Sine, Trapezoid
+from ballscrew.axis.thermal.surroundings import BRACINGS, VARIED, Surroundings
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault
+from ballscrew.basis.quantities import Info, Quantity, fields_of
+from ballscrew.cases.schema.fields import json_of, section_of, si_value
 
 #: The tables of a case that moves.
 DUTY_TABLES = ("axis", "motion", "motor", "surroundings")

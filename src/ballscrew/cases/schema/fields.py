@@ -11,12 +11,12 @@ from typing import Annotated, Any
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema, create_model
 from pydantic_core import PydanticCustomError
 
-from ballscrew import units
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.errors import Fault, fault_of
-from ballscrew.quantities import Info, Quantity, fields_of
-from ballscrew.screw_tables.nut_kinds import NUT_FIELDS, PERCENT, Share
-from ballscrew.uncertainty import uncertain_value
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, fault_of
+from ballscrew.basis.quantities import Info, Quantity, fields_of
+from ballscrew.cases.screw_tables.nut_kinds import NUT_FIELDS, PERCENT, Share
+from ballscrew.engine.uncertainty import uncertain_value
+from ballscrew.physics.components.operating_state import OperatingState
 
 #: What stands in the schema as an example: examples/feed_drive.toml, and what has no default.
 EXAMPLES: Mapping[str, str | float] = {
@@ -96,8 +96,8 @@ EXAMPLES: Mapping[str, str | float] = {
 }
 
 
-#: Marks of a distribution, which a plain number has not; :func:`~ballscrew.uncertainty.uncertain_value.parse_uncertain`
-#: reads it.
+#: Marks of a distribution, which a plain number has not;
+#: :func:`~ballscrew.engine.uncertainty.uncertain_value.parse_uncertain` reads it.
 _DISTRIBUTION = r"±|\+\s*/?\s*[-−–]|\("
 
 

@@ -16,8 +16,8 @@ from collections.abc import Generator, Mapping
 from pathlib import Path
 from typing import Any
 
-from ballscrew.errors import MISSING, Fault, InputError, nearest
-from ballscrew.friction.law_names import coefficients
+from ballscrew.basis.errors import MISSING, Fault, InputError, nearest
+from ballscrew.physics.friction.law_names import coefficients
 
 #: A law of a module, as it is written.
 OUTSIDE = re.compile(r"[A-Za-z_][\w.]*:[A-Za-z_][\w.]*")
@@ -30,7 +30,7 @@ _imported: set[str] = set()
 def law_from_outside(where: str, written: str, folder: Path | None) -> Any:
     """The function or the class that is written as ``module:name``; None for the folder forbids it.
 
-    Raises :class:`~ballscrew.errors.InputError` in one line.
+    Raises :class:`~ballscrew.basis.errors.InputError` in one line.
     """
     if not OUTSIDE.fullmatch(written):
         raise InputError(Fault(where, "is no law of a module", written, 'write "module:name", as in "mine:my_law"'))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Collection, Iterable, Mapping
 
-from ballscrew.errors import MISSING, Fault
+from ballscrew.basis.errors import MISSING, Fault
 
 #: The options by the field that they set.
 OPTIONS: Mapping[str, str] = {

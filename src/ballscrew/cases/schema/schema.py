@@ -10,33 +10,33 @@ from __future__ import annotations
 import dataclasses
 import functools
 import reprlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, WithJsonSchema, create_model
 
-from ballscrew.axis.axis import Axis
-from ballscrew.axis.motor import Motor
-from ballscrew.case_schema.duty_schema import CONSTANT_EFFICIENCY, DUTY_TABLES, duty_sections, efficiency_field
-from ballscrew.case_schema.fields import EXAMPLES as EXAMPLES
-from ballscrew.case_schema.fields import NUT_SPEED, defaults_of, json_of, read_preload, read_speed, section_of
-from ballscrew.case_schema.law_import import OUTSIDE, law_from_outside, with_plain_numbers
-from ballscrew.case_schema.support_schema import SUPPORT_TABLES, support_sections
-from ballscrew.components.data_sheet import SHEET_TEMPERATURE, DataSheet
-from ballscrew.components.materials import INPUTS_OF_SHEET, Lubricant, Material, grades
-from ballscrew.components.nut import Bodies, DoubleNut, Scatter
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.components.outside_laws import name_of as outside_name
-from ballscrew.components.screw import MATERIALS, BallScrew
-from ballscrew.errors import MISSING, Fault, InputError, closest, nearest
-from ballscrew.friction.calibrations import calibrations
-from ballscrew.friction.law_names import LAWS as LAWS
-from ballscrew.friction.law_names import coefficients
-from ballscrew.friction.model import FrictionModel, presets
-from ballscrew.quantities import Quantity, fields_of
-from ballscrew.screw_tables.nut_kinds import ENDS, LISTED, LOSSES, NUT_FIELDS, NUTS
-from ballscrew.sizing.installation import Installation, Limits
+from ballscrew.axis.duty_cycle.axis import Axis
+from ballscrew.axis.duty_cycle.motor import Motor
+from ballscrew.basis.errors import MISSING, Fault, InputError, closest, nearest
+from ballscrew.basis.quantities import Quantity, fields_of
+from ballscrew.cases.schema.duty_schema import CONSTANT_EFFICIENCY, DUTY_TABLES, duty_sections, efficiency_field
+from ballscrew.cases.schema.fields import EXAMPLES as EXAMPLES
+from ballscrew.cases.schema.fields import NUT_SPEED, defaults_of, json_of, read_preload, read_speed, section_of
+from ballscrew.cases.schema.law_import import OUTSIDE, law_from_outside, with_plain_numbers
+from ballscrew.cases.schema.support_schema import SUPPORT_TABLES, support_sections
+from ballscrew.cases.screw_tables.nut_kinds import ENDS, LISTED, LOSSES, NUT_FIELDS, NUTS
+from ballscrew.physics.components.data_sheet import SHEET_TEMPERATURE, DataSheet
+from ballscrew.physics.components.materials import INPUTS_OF_SHEET, Lubricant, Material, grades
+from ballscrew.physics.components.nut import Bodies, DoubleNut, Scatter
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.outside_laws import name_of as outside_name
+from ballscrew.physics.components.screw import MATERIALS, BallScrew
+from ballscrew.physics.friction.calibrations import calibrations
+from ballscrew.physics.friction.law_names import LAWS as LAWS
+from ballscrew.physics.friction.law_names import coefficients
+from ballscrew.physics.friction.model import FrictionModel, presets
+from ballscrew.physics.sizing.installation import Installation, Limits
 
 MODELS = presets()
 DEFAULT_MODEL = "reference"
@@ -344,18 +344,9 @@ def _fault(section: str, model: type[BaseModel], problem: dict[str, Any]) -> Fau
         case "fault":
             return Fault(where, problem["ctx"]["problem"], problem["ctx"]["given"], problem["ctx"]["remedy"])
         case "missing":
-            parts = (BallScrew, OperatingState, DataSheet, Axis, Motor)
-            quantity = {n: q for part in parts for n, q in fields_of(part).items()}.get(path[-1])
-            unit = "" if quantity is None else f" {quantity.shown_in}"
-            sample = "a number" if quantity is not None and quantity.unit == "1" else f'"…{unit}"'
-            return Fault(where, MISSING, "", f"add {{{where}}}{sample}")
+            return _missing_key(where, path[-1])
         case "extra_forbidden":
-            # a coefficient of a law, written without the slot of its law
-            slots = [slot for slot in LAWS if any(path[-1] in coefficients_of(slot, name) for name in LAWS[slot])]
-            if where == f"model.{path[-1]}" and slots:
-                return Fault(where, "unknown key", "", f'did you mean "{slots[0]}.{path[-1]}"?')
-            known = _known(model, path[:-1])
-            return Fault(where, "unknown key", "", nearest(path[-1], known), meant=closest(path[-1], known))
+            return _unknown_key(where, path[-1], _known(model, path[:-1]))
         case "model_type" | "dict_type" | "model_attributes_type":
             return Fault(where, "must be a table", given, f"write [{where}]")
         case "list_type":
@@ -367,6 +358,23 @@ def _fault(section: str, model: type[BaseModel], problem: dict[str, Any]) -> Fau
             return Fault(where, "must be text", given, "put it in quotes")
         case _:
             return Fault(where, problem["msg"], given)
+
+
+def _missing_key(where: str, key: str) -> Fault:
+    """The fault of a key that is not there, with a sample of its unit."""
+    parts = (BallScrew, OperatingState, DataSheet, Axis, Motor)
+    quantity = {n: q for part in parts for n, q in fields_of(part).items()}.get(key)
+    unit = "" if quantity is None else f" {quantity.shown_in}"
+    sample = "a number" if quantity is not None and quantity.unit == "1" else f'"…{unit}"'
+    return Fault(where, MISSING, "", f"add {{{where}}}{sample}")
+
+
+def _unknown_key(where: str, key: str, known: Sequence[str]) -> Fault:
+    """The fault of a key that is not known; a coefficient may be written without the slot of its law."""
+    slots = [slot for slot in LAWS if any(key in coefficients_of(slot, name) for name in LAWS[slot])]
+    if where == f"model.{key}" and slots:
+        return Fault(where, "unknown key", "", f'did you mean "{slots[0]}.{key}"?')
+    return Fault(where, "unknown key", "", nearest(key, known), meant=closest(key, known))
 
 
 def _known(model: type[BaseModel], path: list[str]) -> list[str]:

@@ -6,10 +6,10 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
-from ballscrew.case_schema.duty_schema import DUTY_TABLES
-from ballscrew.case_schema.schema import NUT_TABLES, validated
-from ballscrew.case_schema.support_schema import SUPPORT_TABLES
-from ballscrew.errors import Fault
+from ballscrew.basis.errors import Fault
+from ballscrew.cases.schema.duty_schema import DUTY_TABLES
+from ballscrew.cases.schema.schema import NUT_TABLES, validated
+from ballscrew.cases.schema.support_schema import SUPPORT_TABLES
 
 #: The sections with a schema, in the order of messages.
 _VALIDATED = ("screw", "lubricant", "operation", "model", *NUT_TABLES, *DUTY_TABLES, *SUPPORT_TABLES)

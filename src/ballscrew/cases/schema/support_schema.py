@@ -8,12 +8,12 @@ from typing import Annotated, Any
 
 from pydantic import BaseModel, Field, WithJsonSchema
 
-from ballscrew.case_schema.fields import section_of
-from ballscrew.components.materials import grades
-from ballscrew.supports.bearing import SupportBearing
-from ballscrew.supports.element_laws import BEARING_LAWS, GUIDE_LAWS, MOUNTING, STATICS, UNCERTAIN, fields_of_laws
-from ballscrew.supports.guide import LinearGuide
-from ballscrew.supports.mounted_bearing import PLACES, MountedBearing
+from ballscrew.axis.supports.bearing import SupportBearing
+from ballscrew.axis.supports.element_laws import BEARING_LAWS, GUIDE_LAWS, MOUNTING, STATICS, UNCERTAIN, fields_of_laws
+from ballscrew.axis.supports.guide import LinearGuide
+from ballscrew.axis.supports.mounted_bearing import PLACES, MountedBearing
+from ballscrew.cases.schema.fields import section_of
+from ballscrew.physics.components.materials import grades
 
 #: The tables on what holds the shaft and carries the table.
 SUPPORT_TABLES = ("bearings", "guides")

@@ -9,14 +9,17 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ballscrew import units
-from ballscrew._version import __version__
-from ballscrew.components.nut_losses import SEAL_MAKER, SEAL_SOURCE, Seals
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, InputError, closest, nearest, raise_if_any
-from ballscrew.quantities import Quantity, fields_of, quantities_of
-from ballscrew.screw_tables.nut_kinds import LISTED, NUTS, Share, kind_in
-from ballscrew.sizing.catalogue import (
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError, closest, nearest, raise_if_any
+from ballscrew.basis.quantities import Quantity, fields_of, quantities_of
+from ballscrew.basis.version import __version__
+from ballscrew.cases.screw_tables.nut_kinds import LISTED, NUTS, Share, kind_in
+from ballscrew.files.tables import column_names
+from ballscrew.files.tables.headings import Column
+from ballscrew.files.tables.rows import Row, made, read
+from ballscrew.physics.components.nut_losses import SEAL_MAKER, SEAL_SOURCE, Seals
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.sizing.catalogue import (
     CONFORMITY_DOUBT,
     TURNS_WITHOUT_LOAD,
     CatalogueRow,
@@ -24,10 +27,7 @@ from ballscrew.sizing.catalogue import (
     catalogue,
     is_shipped,
 )
-from ballscrew.sizing.listed_nut import lists_preload
-from ballscrew.tables import column_names
-from ballscrew.tables.headings import Column
-from ballscrew.tables.rows import Row, made, read
+from ballscrew.physics.sizing.listed_nut import lists_preload
 
 #: Quantities of a row that are listed, and that follow from it.
 FIELDS = fields_of(CatalogueRow)
@@ -81,9 +81,11 @@ class Screws(dict[str, CatalogueRow]):
 def screws(path: str | Path, *, keep_going: bool = False) -> Screws:
     """The rows of a table of screws of one's own, CSV or a spreadsheet, by name: ``screws("mine.csv")["A"].screw()``.
 
-    ``notes`` of what is returned names columns that are not used, and with ``keep_going`` rows that are left out.
-    Raises :class:`~ballscrew.errors.InputError` with all faults of the table; with ``keep_going`` only if no row is
-    good.
+    Returns :class:`Screws` of the file ``path``. Their ``notes`` name columns that are not used, and with
+    ``keep_going`` rows that are left out.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` with all faults of the table; with ``keep_going`` only if no row
+    is good.
     """
     path = Path(path)
     table = read(path, COLUMNS)

@@ -5,14 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from ballscrew.components import nut_losses
-from ballscrew.components.nut import Nut
-from ballscrew.components.nut_losses import ParasiticLaw
-from ballscrew.quantities import Info, Quantity, fields_of
-from ballscrew.sizing.catalogue import CatalogueRow
-from ballscrew.sizing.installation import Ends
-from ballscrew.sizing.listed_nut import NUTS as NUTS
-from ballscrew.tables.cells import Share as Share
+from ballscrew.basis.quantities import Info, Quantity, fields_of
+from ballscrew.files.tables.cells import Share as Share
+from ballscrew.physics.components import nut_losses
+from ballscrew.physics.components.nut import Nut
+from ballscrew.physics.components.nut_losses import ParasiticLaw
+from ballscrew.physics.sizing.catalogue import CatalogueRow
+from ballscrew.physics.sizing.installation import Ends
+from ballscrew.physics.sizing.listed_nut import NUTS as NUTS
 
 #: What catalogues call them in words, besides "nut" and "flange". A single nut that is preloaded may be two of the
 #: kinds: nothing is guessed.

@@ -15,15 +15,15 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, create_model
 
-from ballscrew import units
-from ballscrew.case_schema.fields import section_of
-from ballscrew.case_schema.schema import read_table, sections, without_null
-from ballscrew.cases import case_file
-from ballscrew.cases.case import Case
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.errors import MISSING, Fault, InputError, nearest, raise_if_any
-from ballscrew.quantities import AngularSpeed, Info, Length, Quantity, Temperature, Torque, fields_of
-from ballscrew.solvers.load_distribution import preload_of
+from ballscrew.basis import units
+from ballscrew.basis.errors import MISSING, Fault, InputError, nearest, raise_if_any
+from ballscrew.basis.quantities import AngularSpeed, Info, Length, Quantity, Temperature, Torque, fields_of
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.schema.fields import section_of
+from ballscrew.cases.schema.schema import read_table, sections, without_null
+from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.solvers.load_distribution import preload_of
 
 #: The version of the format that this program writes and reads.
 FORMAT = 1
@@ -180,7 +180,7 @@ def json_schema() -> dict[str, Any]:
 
 
 def read(path: Path) -> TorqueCard:
-    """The card of a file. Raises :class:`~ballscrew.errors.InputError` with all faults found."""
+    """The card of a file. Raises :class:`~ballscrew.basis.errors.InputError` with all faults found."""
     tables = case_file.read(path)
     faults = [Fault(name, "unknown section", "", nearest(name, _KNOWN)) for name in tables if name not in _KNOWN]
     faults += [Fault(name, "missing section", "", _remedy(name)) for name in _NEEDED if name not in tables]

@@ -7,11 +7,11 @@ import os
 from pathlib import Path
 from typing import Any
 
-from ballscrew import units
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.files import atomic_write
-from ballscrew.quantities import fields_of
-from ballscrew.torque_cards.torque_card import TorqueCard, TorquePoint, case_tables, log_rows
+from ballscrew.basis import units
+from ballscrew.basis.atomic_files import atomic_write
+from ballscrew.basis.quantities import fields_of
+from ballscrew.cases.torque_cards.torque_card import TorqueCard, TorquePoint, case_tables, log_rows
+from ballscrew.physics.components.materials import TEMPERATURE
 
 _HEADINGS = ("speed [rpm]", "axial load [N]", "torque [N m]", "temperature [degC]")
 

@@ -1,11 +1,13 @@
-"""The kernel that fills the histogram of a sketch (:mod:`ballscrew.kernels.sketch`), and the layout of the bins."""
+"""The kernel that fills the histogram of a sketch (:mod:`ballscrew.compiler.kernels.sketch`), and the layout of the
+bins.
+"""
 
 from __future__ import annotations
 
 import functools
 
-from ballscrew.kernels.emission import SIGNATURE
-from ballscrew.kernels.kernel import Kernel
+from ballscrew.compiler.kernels.emission import SIGNATURE
+from ballscrew.compiler.kernels.kernel import Kernel
 
 #: Bits of the mantissa that tell bins apart.
 MANTISSA_BITS = 11

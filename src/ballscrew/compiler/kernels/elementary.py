@@ -12,7 +12,7 @@ import math
 import sys
 from collections.abc import Callable
 
-from ballscrew.kernels.ir import Value, Writer, constant, integer
+from ballscrew.compiler.kernels.ir import Value, Writer, constant, integer
 
 #: (exp(r) − 1 − r)/r² for |r| ≤ ln 2/2.
 EXP = (

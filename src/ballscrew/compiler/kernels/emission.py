@@ -9,16 +9,17 @@ room to spare, so that a point's result does not depend on where blocks begin an
 
 from __future__ import annotations
 
+import dataclasses
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
-from ballscrew.kernels import elementary, random
-from ballscrew.kernels.ir import Value, Writer, constant
-from ballscrew.tracing.program import Program, Source
-from ballscrew.tracing.steps import Operand, Step, choose
+from ballscrew.compiler.kernels import elementary, random
+from ballscrew.compiler.kernels.ir import Value, Writer, constant
+from ballscrew.compiler.tracing.program import Program, Source
+from ballscrew.compiler.tracing.steps import Operand, Step, choose
 
 #: Lanes of a vector, for programs of at most so many steps: a short program waits for its longest chain of
 #: operations, and many lanes keep the machine busy meanwhile; a long one runs out of registers and takes long to
@@ -37,6 +38,10 @@ _ON_MASKS = {
     np.bitwise_and: "and", np.bitwise_or: "or", np.bitwise_xor: "xor",
     np.logical_and: "and", np.logical_or: "or", np.logical_xor: "xor",
 }  # fmt: skip
+_EXTREMES = {np.maximum: "ogt", np.minimum: "olt"}
+_NOT = {np.invert, np.logical_not}
+#: How the absolute value compares with infinity; that of a NaN does not even with itself.
+_TO_INFINITY = {np.isnan: "uno", np.isfinite: "olt", np.isinf: "oeq"}
 _INTRINSICS = {np.sqrt: "sqrt", np.absolute: "fabs", np.floor: "floor", np.ceil: "ceil"}
 _TRUE, _ZERO, _ONE = Value("splat (i1 true)"), constant(0.0), constant(1.0)
 
@@ -75,24 +80,19 @@ def kernel_text(
     the rows, have a place for each column, and room for a vector more. Raises :class:`UnknownOperationError`.
     """
     w = Writer(lanes or lanes_for(program))
-    outputs = list(program.outputs)
     seen = [i for i, source in enumerate(sources) if source == "points"] if watched else []
     values = dict(enumerate(_emit_loops_and_loads(w, sources, seen)))
     emitter = StepEmitter(w, program, values)
     results = [
-        emitter.as_mask(program.outputs[n]) if masks[n] else emitter.as_number(program.outputs[n]) for n in outputs
+        (j, name, emitter.as_mask(i) if masks[name] else emitter.as_number(i))
+        for j, (name, i) in enumerate(program.outputs.items())
     ]
-    for j, name in enumerate(outputs):
-        if reduced and name in reduced:
-            _emit_reduction(w, j, reduced[name], results[j])
-    whole = [j for j, name in enumerate(outputs) if not (reduced and name in reduced)]
-    outputs, results = [outputs[j] for j in whole], [results[j] for j in whole]
-    types = [f"<{w.lanes} x i8>" if masks[name] else w.doubles for name in outputs]
-    stored = [
-        w.instruction(f"zext {w.masks} {result} to {kind}") if masks[name] else result
-        for name, result, kind in zip(outputs, results, types, strict=True)
-    ]
-    _emit_stores_and_loop_ends(w, types, stored, whole)
+    reduced = reduced or {}
+    for j, name, result in results:
+        if name in reduced:
+            _emit_reduction(w, j, reduced[name], result)
+    whole = [_stored(w, j, result, masks[name]) for j, name, result in results if name not in reduced]
+    _emit_stores_and_loop_ends(w, whole)
     lines = [*w.lines, *_emit_ends(w, seen, len(program.outputs)), "  ret void"]
     return "\n".join(
         [
@@ -224,28 +224,44 @@ def _emit_reduction(w: Writer, output: int, function: Any, value: Value) -> None
     w.lines.append(f"  store {w.doubles} {found}, ptr {address}, align 8")
 
 
-def _emit_stores_and_loop_ends(
-    w: Writer, types: Sequence[str], values: Sequence[Value], outputs: Sequence[int]
-) -> None:
+@dataclasses.dataclass(frozen=True)
+class _Stored:
+    """A result as its array holds it: the number of the output, a vector, and whether its elements are bytes."""
+
+    output: int
+    value: Value
+    is_mask: bool
+
+
+def _stored(w: Writer, output: int, result: Value, is_mask: bool) -> _Stored:
+    """A result as its array holds it; truth values are bytes there."""
+    return _Stored(output, w.instruction(f"zext {w.masks} {result} to {_bytes(w)}") if is_mask else result, is_mask)
+
+
+def _bytes(w: Writer) -> str:
+    return f"<{w.lanes} x i8>"
+
+
+def _emit_stores_and_loop_ends(w: Writer, results: Sequence[_Stored]) -> None:
     """Emit the stores of the results, non-temporal where asked for, and the ends of the loops."""
-    elements = ["i8" if kind.endswith("i8>") else "double" for kind in types]
     addresses = [
-        w.instruction(f"getelementptr {kind}, ptr %output{j}, i64 %place")
-        for j, kind in zip(outputs, elements, strict=True)
+        w.instruction(f"getelementptr {'i8' if one.is_mask else 'double'}, ptr %output{one.output}, i64 %place")
+        for one in results
     ]
-    stores = list(zip(types, values, addresses, elements, strict=True))
+    vectors = [f"{_bytes(w) if one.is_mask else w.doubles} {one.value}" for one in results]
+    stores = list(zip(vectors, addresses, [one.is_mask for one in results], strict=True))
     w.lines += ["  br i1 %is_full, label %store_all, label %store_some", "store_all:"]
     w.lines += ["  br i1 %stream, label %store_past_cache, label %store_to_cache", "store_past_cache:"]
-    for kind, value, address, element in stores:
-        past = "align 1" if element == "i8" else "align 64, !nontemporal !0"
-        w.lines.append(f"  store {kind} {value}, ptr {address}, {past}")
+    for vector, address, is_mask in stores:
+        past = "align 1" if is_mask else "align 64, !nontemporal !0"
+        w.lines.append(f"  store {vector}, ptr {address}, {past}")
     w.lines += ["  br label %points_done", "store_to_cache:"]
-    for kind, value, address, element in stores:
-        w.lines.append(f"  store {kind} {value}, ptr {address}, align {1 if element == 'i8' else 8}")
+    for vector, address, is_mask in stores:
+        w.lines.append(f"  store {vector}, ptr {address}, align {1 if is_mask else 8}")
     w.lines += ["  br label %points_done", "store_some:"]
-    for kind, value, address, element in stores:
-        size = "%points_left" if element == "i8" else "%bytes_left"
-        w.lines.append(f"  store {kind} {value}, ptr %spare")
+    for vector, address, is_mask in stores:
+        size = "%points_left" if is_mask else "%bytes_left"
+        w.lines.append(f"  store {vector}, ptr %spare")
         w.lines.append(f"  call void @llvm.memcpy.p0.p0.i64(ptr {address}, ptr %spare, i64 {size}, i1 false)")
     w.lines += ["  br label %points_done", "points_done:"]
     w.lines.append(f"  %next_column = add i64 %column, {w.lanes}")
@@ -295,38 +311,50 @@ class StepEmitter:
         return self.as_mask(int(what)) if kind == "step" else Value(f"splat (i1 {'true' if what else 'false'})")
 
     def _emit(self, step: Step) -> Value:
-        w, function, operands = self.w, step.function, step.operands
+        function, operands = step.function, step.operands
         if function is choose:
-            if step.is_mask:
-                mask, yes, no = map(self._mask, operands)
-                return w.instruction(f"select {w.masks} {mask}, {w.masks} {yes}, {w.masks} {no}")
-            return w.choose(self._mask(operands[0]), *map(self._number, operands[1:]))
-        if step.is_mask and function in _ON_MASKS:
-            return w.on_masks(_ON_MASKS[function], *map(self._mask, operands))
-        if step.is_mask and function in (np.invert, np.logical_not):
-            return w.on_masks("xor", self._mask(operands[0]), _TRUE)
+            return self._choice(step)
+        if step.is_mask and (function in _ON_MASKS or function in _NOT):
+            return self._of_masks(function, operands)
         if function is np.power and operands[1][0] == "constant":
             return self._power(self._number(operands[0]), float(operands[1][1]))
         numbers = [self._number(operand) for operand in operands]
         if function is np.log and operands[0][1] in self.nonnegative:
-            return w.call(elementary.LOG_OF_NONNEGATIVE, *numbers)
+            return self.w.call(elementary.LOG_OF_NONNEGATIVE, *numbers)
         if function is np.divide and operands[1] in self.shared and operands[0] != operands[1]:
             return self._product_with_inverse(operands[0], operands[1], numbers)
         if function in _ARITHMETIC:
-            return w.arithmetic(_ARITHMETIC[function], numbers[0], numbers[1])
+            return self.w.arithmetic(_ARITHMETIC[function], numbers[0], numbers[1])
+        if function in _EXTREMES:
+            return self._extreme(_EXTREMES[function], operands, numbers)
+        return self._of_numbers(function, numbers)
+
+    def _choice(self, step: Step) -> Value:
+        w, operands = self.w, step.operands
+        if step.is_mask:
+            mask, yes, no = map(self._mask, operands)
+            return w.instruction(f"select {w.masks} {mask}, {w.masks} {yes}, {w.masks} {no}")
+        return w.choose(self._mask(operands[0]), *map(self._number, operands[1:]))
+
+    def _of_masks(self, function: Any, operands: Sequence[tuple[str, Operand]]) -> Value:
+        """The result of a function of truth values."""
+        if function in _NOT:
+            return self.w.on_masks("xor", self._mask(operands[0]), _TRUE)
+        return self.w.on_masks(_ON_MASKS[function], *map(self._mask, operands))
+
+    def _of_numbers(self, function: Any, numbers: Sequence[Value]) -> Value:
+        """The result of any other function of numbers, whatever step or constant they are."""
+        w = self.w
         if function in _RELATIONS:
             return w.compare(_RELATIONS[function], numbers[0], numbers[1])
-        if function in (np.maximum, np.minimum):
-            return self._extreme("ogt" if function is np.maximum else "olt", operands, numbers)
         if function in _INTRINSICS:
             return w.intrinsic(_INTRINSICS[function], *numbers)
         if function is np.remainder:
             turns = w.intrinsic("floor", w.exact("fdiv", numbers[0], numbers[1]))
             return w.exact("fsub", numbers[0], w.exact("fmul", turns, numbers[1]))
-        if function in (np.isnan, np.isfinite, np.isinf):
-            relation = {np.isnan: "uno", np.isfinite: "olt", np.isinf: "oeq"}[function]
+        if function in _TO_INFINITY:
             size = w.intrinsic("fabs", numbers[0])
-            return w.compare(relation, size, size if function is np.isnan else elementary.INFINITY)
+            return w.compare(_TO_INFINITY[function], size, size if function is np.isnan else elementary.INFINITY)
         if function.__name__ in elementary.NAMES:
             return w.call(function.__name__, *numbers)
         raise UnknownOperationError(function.__name__)

@@ -25,8 +25,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.kernels.buffers import ALIGNMENT
-from ballscrew.tracing.program import Source
+from ballscrew.compiler.kernels.buffers import ALIGNMENT
+from ballscrew.compiler.tracing.program import Source
 
 #: Columns that are worked on at a time, row after row: tables of a dozen inputs then stay in the first cache.
 COLUMN_TILE = 512
@@ -59,7 +59,7 @@ def available() -> bool:
 
 
 class Kernel:
-    """A compiled kernel; see :mod:`ballscrew.kernels.emission` for what it does."""
+    """A compiled kernel; see :mod:`ballscrew.compiler.kernels.emission` for what it does."""
 
     def __init__(self, machine_code: bytes, sources: Sequence[Source]) -> None:
         llvm = _llvm()

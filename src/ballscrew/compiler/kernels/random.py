@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.kernels.ir import Value, Writer, constant, integer
+from ballscrew.compiler.kernels.ir import Value, Writer, constant, integer
 
 ROUNDS = 10
 #: Multipliers of the first and the third word, and what is added to the halves of the key after each round.

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ballscrew.kernels.ir import Value, Writer, constant
+from ballscrew.compiler.kernels.ir import Value, Writer, constant
 
 
 class LoopWriter(Writer):

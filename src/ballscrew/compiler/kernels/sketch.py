@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.kernels.counting import (
+from ballscrew.compiler.kernels.counting import (
     BINS,
     DROPPED_BITS,
     FRACTION_BITS,

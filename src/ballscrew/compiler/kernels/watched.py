@@ -11,16 +11,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.kernels.emission import ENDS_OF_EACH
-from ballscrew.kernels.kernel import Kernel
-from ballscrew.tracing.program import Source
+from ballscrew.compiler.kernels.emission import ENDS_OF_EACH
+from ballscrew.compiler.kernels.kernel import Kernel
+from ballscrew.compiler.tracing.program import Source
 
 #: The bits of infinity: of a positive number they are less, of NaN more; those of negative numbers are negative.
 _INFINITY = 0x7FF0000000000000
 
 
 class WatchedKernel:
-    """A kernel of a ``watched`` assembly (:func:`~ballscrew.kernels.emission.kernel_text`)."""
+    """A kernel of a ``watched`` assembly (:func:`~ballscrew.compiler.kernels.emission.kernel_text`)."""
 
     def __init__(self, text: str, sources: Sequence[Source], lanes: int) -> None:
         self._kernel = Kernel.of(text, sources)

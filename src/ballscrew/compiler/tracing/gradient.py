@@ -16,9 +16,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.tracing.program import required_steps
-from ballscrew.tracing.steps import Step, choose
-from ballscrew.tracing.tape import Tape, Traced
+from ballscrew.compiler.tracing.program import required_steps
+from ballscrew.compiler.tracing.steps import Step, choose
+from ballscrew.compiler.tracing.tape import Tape, Traced
 
 
 class UnknownDerivativeError(Exception):

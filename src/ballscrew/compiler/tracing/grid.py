@@ -3,18 +3,18 @@
 A grid is cut into rows (the leading axes) and columns (the trailing ones). A program recorded with its
 inputs in these two groups falls into three: one over the rows, one over the columns, and the steps
 that need both, which are left for every point and read the results of the other two as tables.
-Powers of products are factors of one group each (:mod:`ballscrew.tracing.tape`), so none is left.
+Powers of products are factors of one group each (:mod:`ballscrew.compiler.tracing.tape`), so none is left.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from ballscrew.tracing.program import Program, Source, required_steps
-from ballscrew.tracing.steps import COLUMNS, ROWS, Step
+from ballscrew.compiler.tracing.program import Program, Renumbering, Source, required_steps
+from ballscrew.compiler.tracing.steps import COLUMNS, ROWS, Step
 
 
 class Split(NamedTuple):
@@ -30,39 +30,41 @@ class Split(NamedTuple):
 
 def split(program: Program, groups: Sequence[int]) -> Split:
     """Cut a program whose inputs are in the groups given; an input in both groups has a value at each point."""
+    group, steps = _group_of_each(program, groups), dict(program.steps)
+    inner = [i for i in steps if group[i] in (0, ROWS | COLUMNS)]
+    read = {o for i in inner for o in steps[i].read} | {*program.outputs.values()}
+    tabled = sorted(i for i in read if group[i] in (ROWS, COLUMNS) or i < program.inputs)
+    kinds: dict[int, Source] = {ROWS: "rows", COLUMNS: "columns", ROWS | COLUMNS: "points"}
+    sources: list[tuple[Source, str]] = [(kinds[group[i]], str(i)) for i in tabled]
+    rows, columns = (_tables(program, steps, [i for i in tabled if group[i] == one]) for one in (ROWS, COLUMNS))
+    return Split(rows, columns, _points(program, steps, inner, tabled), tuple(sources))
+
+
+def _group_of_each(program: Program, groups: Sequence[int]) -> dict[int, int]:
+    """The groups of inputs that each input and each step depends on, a bit for each."""
     group = dict(enumerate(groups))
     for i, step in program.steps:
         group[i] = 0
         for kind, operand in step.operands:
             group[i] |= group[int(operand)] if kind == "step" else 0
-    inner = [(i, step) for i, step in program.steps if group[i] in (0, ROWS | COLUMNS)]
-    read = {int(o) for _, step in inner for kind, o in step.operands if kind == "step"} | {*program.outputs.values()}
-    tabled = sorted(i for i in read if group[i] in (ROWS, COLUMNS) or i < program.inputs)
-    steps = dict(program.steps)
-    masks = {i for i in tabled if i in steps and steps[i].is_mask}
+    return group
 
-    def tables(of: int) -> Program:
-        chosen = {str(i): i for i in tabled if group[i] == of}
-        return Program(program.inputs, required_steps(steps, chosen.values()), chosen, {}, program.nonnegative)
 
-    number = {i: k for k, i in enumerate(tabled)}
-    renumbered: list[tuple[int, Step]] = []
+def _tables(program: Program, steps: Mapping[int, Step], tabled: Sequence[int]) -> Program:
+    """The program of one axis: its outputs are the steps that the points read, by their number."""
+    chosen = {str(i): i for i in tabled}
+    needed = required_steps(steps, chosen.values())
+    return Program(program.inputs, needed, chosen, {}, program.nonnegative)
 
-    def write(step: Step) -> int:
-        renumbered.append((len(tabled) + len(renumbered), step))
-        return renumbered[-1][0]
 
-    for i in masks:  # tables hold numbers
-        number[i] = write(Step(np.not_equal, (("step", number[i]), ("constant", 0.0)), True))
-    for i, step in inner:
-        operands = tuple((kind, number[int(o)] if kind == "step" else o) for kind, o in step.operands)
-        number[i] = write(step._replace(operands=operands))
-    outputs = {name: number[i] for name, i in program.outputs.items()}
-    nonnegative = frozenset(number[i] for i in program.nonnegative if i in number)
-    points = Program(len(tabled), tuple(renumbered), outputs, program.constants, nonnegative)
-    kinds: dict[int, Source] = {ROWS: "rows", COLUMNS: "columns", ROWS | COLUMNS: "points"}
-    sources: list[tuple[Source, str]] = [(kinds[group[i]], str(i)) for i in tabled]
-    return Split(tables(ROWS), tables(COLUMNS), points, tuple(sources))
+def _points(program: Program, steps: Mapping[int, Step], inner: Sequence[int], tabled: Sequence[int]) -> Program:
+    """The program of what is left for every point, whose inputs are the tables."""
+    part = Renumbering(len(tabled), {i: k for k, i in enumerate(tabled)})
+    for i in {i for i in tabled if i in steps and steps[i].is_mask}:  # tables hold numbers
+        part.number[i] = part.add(Step(np.not_equal, (("step", part.number[i]), ("constant", 0.0)), True))
+    for i in inner:
+        part.move(i, steps[i])
+    return part.part_of(program)
 
 
 def inner_axes(shape: Sequence[int], fewest_columns: int) -> int:

@@ -7,11 +7,11 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from ballscrew.tracing.steps import Step, choose
+from ballscrew.compiler.tracing.steps import Step, choose
 
 
 class Recorder(Protocol):
-    """The part of a tape (:class:`~ballscrew.tracing.tape.Tape`) that logarithms are recorded with."""
+    """The part of a tape (:class:`~ballscrew.compiler.tracing.tape.Tape`) that logarithms are recorded with."""
 
     steps: list[Step | None]
     nonnegative: list[bool]
@@ -87,7 +87,7 @@ def _is_sum_of_recorded(tape: Recorder, index: int) -> bool:
         ):
             if any(kind == "constant" and not o > 0 for kind, o in step.operands):
                 return False
-            pending += [int(o) for kind, o in step.operands if kind == "step"]
+            pending += step.read
         else:
             factors.add(i)
     if sum(not tape.nonnegative[i] for i in factors) > 1:

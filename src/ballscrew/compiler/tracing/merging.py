@@ -13,9 +13,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.tracing.program import Program, required_steps
-from ballscrew.tracing.steps import Step
-from ballscrew.tracing.tape import Tape, Traced
+from ballscrew.compiler.tracing.program import Program, required_steps
+from ballscrew.compiler.tracing.steps import Step
+from ballscrew.compiler.tracing.tape import Tape, Traced
 
 
 class _LogarithmSum(NamedTuple):
@@ -88,7 +88,7 @@ def _sums(steps: Sequence[tuple[int, Step]]) -> dict[int, _LogarithmSum]:
 
 def _roots(steps: Sequence[tuple[int, Step]], outputs: set[int], sums: Mapping[int, _LogarithmSum]) -> set[int]:
     """The sums that are used by anything but another sum, or whose logarithm is taken."""
-    used = {int(o) for i, step in steps if i not in sums for kind, o in step.operands if kind == "step"}
+    used = {o for i, step in steps if i not in sums for o in step.read}
     used |= {i for one in sums.values() for part in (one.others, one.weights) for i in part}
     return {i for i in sums if i in used or i in outputs}
 

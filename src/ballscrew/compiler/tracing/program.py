@@ -17,8 +17,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.tracing.steps import Operand, Step
-from ballscrew.tracing.tape import Tape, Traced
+from ballscrew.compiler.tracing.steps import Operand, Step
+from ballscrew.compiler.tracing.tape import Tape, Traced
 
 #: The origin of the values of an input: one for each point, column or row of a grid, or a random number.
 Source = Literal["points", "columns", "rows", "random"]
@@ -62,6 +62,31 @@ class Program:
         return "\n".join([*lines, f"{dict(self.outputs)} {dict(self.constants)}"])
 
 
+class Renumbering:
+    """Steps on their way from a program into a part of it, which has numbers of its own: first those of its inputs."""
+
+    def __init__(self, inputs: int, number: dict[int, int]) -> None:
+        self.inputs = inputs
+        #: The number in the part by that in the whole: of the inputs to begin with.
+        self.number = number
+        self._steps: list[tuple[int, Step]] = []
+
+    def add(self, step: Step) -> int:
+        """Add a step whose operands have the numbers of the part; return its own."""
+        self._steps.append((self.inputs + len(self._steps), step))
+        return self._steps[-1][0]
+
+    def move(self, index: int, step: Step) -> None:
+        """Move a step of the whole, after those that it reads."""
+        self.number[index] = self.add(step.renumbered(self.number))
+
+    def part_of(self, program: Program) -> Program:
+        """The part, with the outputs of the whole."""
+        outputs = {name: self.number[i] for name, i in program.outputs.items()}
+        nonnegative = frozenset(self.number[i] for i in program.nonnegative if i in self.number)
+        return Program(self.inputs, tuple(self._steps), outputs, program.constants, nonnegative)
+
+
 def required_steps(steps: Mapping[int, Step], wanted: Iterable[int]) -> tuple[tuple[int, Step], ...]:
     """The steps that some of them depend on, each just before its first use, which keeps the live set small."""
     found: dict[int, None] = {}
@@ -69,17 +94,12 @@ def required_steps(steps: Mapping[int, Step], wanted: Iterable[int]) -> tuple[tu
         stack = [last]
         while stack:
             index = stack[-1]
-            missing = [
-                int(o)
-                for kind, o in (steps[index].operands if index in steps else ())
-                if kind == "step" and int(o) in steps and int(o) not in found
-            ]
-            if missing and index not in found:
+            if index not in steps or index in found:
+                stack.pop()
+            elif missing := [i for i in steps[index].read if i in steps and i not in found]:
                 stack += reversed(missing)
             else:
-                stack.pop()
-                if index in steps:
-                    found[index] = None
+                found[stack.pop()] = None
     return tuple((i, steps[i]) for i in found)
 
 
@@ -111,10 +131,7 @@ class Interpreter:
         steps, outputs = self.program.steps, self.program.outputs
         last_use = {o: i for i, step in steps for kind, o in step.operands if kind == "step"}
         position: dict[Operand, int] = {i: i for i in range(self.program.inputs)}
-        computed = {i for i, _ in steps}
-        for name, index in outputs.items():
-            if index in computed and index not in position:
-                position[index] = self._results[name] = self._new_slot()
+        position |= self._slots_of_results()
         calls: list[tuple[Any, list[int], int]] = []
         free: dict[bool, list[int]] = {True: [], False: []}
         for i, step in steps:
@@ -127,6 +144,15 @@ class Interpreter:
                     free[self.buffers[position[o]]].append(position[o])
         self._copies = {name: position[i] for name, i in outputs.items() if name not in self._results}
         return calls
+
+    def _slots_of_results(self) -> dict[Operand, int]:
+        """A slot for each step that is an output, which goes straight into the first result that it is."""
+        found: dict[Operand, int] = {}
+        computed = {i for i, _ in self.program.steps}
+        for name, index in self.program.outputs.items():
+            if index in computed and index not in found:
+                found[index] = self._results[name] = self._new_slot()
+        return found
 
     def _new_slot(self, value: Any = None) -> int:
         self._slots.append(value)

@@ -1,7 +1,7 @@
 """Programs with reductions over the rows of a grid, cut there: what each point needs, and what each column needs.
 
 The steps before a reduction have a value at each point (row and column), those behind it one for each column. Nothing
-is reduced twice (:mod:`ballscrew.tracing.tape` refuses that), so that a program is cut once.
+is reduced twice (:mod:`ballscrew.compiler.tracing.tape` refuses that), so that a program is cut once.
 """
 
 from __future__ import annotations
@@ -11,9 +11,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.tracing.program import Program, required_steps
-from ballscrew.tracing.steps import REDUCTIONS, ROWS, Step
-from ballscrew.tracing.tape import CannotRecordError
+from ballscrew.compiler.tracing.program import Program, Renumbering, required_steps
+from ballscrew.compiler.tracing.steps import REDUCTIONS, ROWS, Step
+from ballscrew.compiler.tracing.tape import CannotRecordError
 
 
 class Reduction(NamedTuple):
@@ -40,33 +40,36 @@ class Stages(NamedTuple):
 def cut_at_reductions(program: Program, groups: Sequence[int]) -> Stages:
     """Cut a program, whose inputs are in the groups given.
 
-    Raises :class:`~ballscrew.tracing.tape.CannotRecordError` where an output has a value at each row.
+    Raises :class:`~ballscrew.compiler.tracing.tape.CannotRecordError` where an output has a value at each row.
     """
-    steps = dict(program.steps)
-    rank = {i: k for k, i in enumerate(i for i, step in program.steps if step.function in REDUCTIONS)}
-    reductions: list[Reduction] = []
-    wanted: dict[str, int] = {}
-    for i, k in rank.items():
-        (_, values), *places = steps[i].operands
-        name = f"{k}" if steps[i].function in (np.sum, np.max) else f"of {values}"
-        wanted[name] = int(values)
-        reductions.append(Reduction(steps[i].function, name, rank[int(places[0][1])] if places else None))
-    before = Program(program.inputs, required_steps(steps, wanted.values()), wanted, {}, program.nonnegative)
-    inputs = program.inputs + len(rank)
-    number = {i: i for i in range(program.inputs)} | {i: program.inputs + k for i, k in rank.items()}
-    left = {i: step for i, step in program.steps if i not in rank}
-    renumbered: list[tuple[int, Step]] = []
-    for i, step in required_steps(left, program.outputs.values()):
-        operands = tuple((kind, number[int(o)] if kind == "step" else o) for kind, o in step.operands)
-        number[i] = inputs + len(renumbered)
-        renumbered.append((number[i], step._replace(operands=operands)))
-    outputs = {name: number[i] for name, i in program.outputs.items()}
-    read = {int(o) for _, step in renumbered for kind, o in step.operands if kind == "step"} | {*outputs.values()}
+    cut = [(i, step) for i, step in program.steps if step.function in REDUCTIONS]
+    rank = {i: k for k, (i, _) in enumerate(cut)}
+    reductions = [_reduction(step, rank[i], rank) for i, step in cut]
+    wanted = {one.values: step.read[0] for one, (_, step) in zip(reductions, cut, strict=True)}
+    needed = required_steps(dict(program.steps), wanted.values())
+    before = Program(program.inputs, needed, wanted, {}, program.nonnegative)
+    behind = _behind(program, rank)
+    read = {o for _, step in behind.steps for o in step.read} | {*behind.outputs.values()}
     if any(i in read and group & ROWS for i, group in enumerate(groups)):
         raise CannotRecordError("a result has a value in each row")
-    nonnegative = frozenset(number[i] for i in program.nonnegative if i in number)
-    behind = Program(inputs, tuple(renumbered), outputs, program.constants, nonnegative)
     return Stages(before, tuple(reductions), behind)
+
+
+def _reduction(step: Step, number: int, rank: Mapping[int, int]) -> Reduction:
+    """A step as a reduction; an array is kept once, whatever places are looked for in it."""
+    values, *places = step.read
+    name = f"{number}" if step.function in (np.sum, np.max) else f"of {values}"
+    return Reduction(step.function, name, rank[places[0]] if places else None)
+
+
+def _behind(program: Program, rank: Mapping[int, int]) -> Program:
+    """The program behind the reductions, of which each is an input, in their order."""
+    inputs = {i: i for i in range(program.inputs)} | {i: program.inputs + k for i, k in rank.items()}
+    part = Renumbering(program.inputs + len(rank), inputs)
+    left = {i: step for i, step in program.steps if i not in rank}
+    for i, step in required_steps(left, program.outputs.values()):
+        part.move(i, step)
+    return part.part_of(program)
 
 
 def reduced(reductions: Sequence[Reduction], values: Mapping[str, Any], done: Mapping[str, Any]) -> list[Any]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -22,6 +23,16 @@ class Step(NamedTuple):
     function: Any
     operands: tuple[tuple[str, Operand], ...]
     is_mask: bool
+
+    @property
+    def read(self) -> list[int]:
+        """The earlier steps among the operands."""
+        return [int(o) for kind, o in self.operands if kind == "step"]
+
+    def renumbered(self, number: Mapping[int, int]) -> Step:
+        """The same step, whose earlier steps have these numbers."""
+        operands = tuple((kind, number[int(o)] if kind == "step" else o) for kind, o in self.operands)
+        return Step(self.function, operands, self.is_mask)
 
 
 def choose(mask: Any, yes: Any, no: Any, out: NDArray[Any]) -> None:

@@ -10,7 +10,7 @@ up, so that x²/x is x, also where x is zero.
 Inputs may come in groups (the axes of a grid). A product of powers then becomes one factor for each
 group, so that a factor can be computed once for each value of its axis. On a tape that ``reduces``, the last axis of
 an array stands for the rows of a grid, and sums and greatest values along it are steps as well
-(:mod:`ballscrew.tracing.reductions`).
+(:mod:`ballscrew.compiler.tracing.reductions`).
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.tracing.cannot_record import CannotRecordError as CannotRecordError
-from ballscrew.tracing.cannot_record import NoAttributeError
-from ballscrew.tracing.cannot_record import why_not_recorded as why_not_recorded
-from ballscrew.tracing.logarithms import folds_into_exponent, logarithm, sum_of_logarithms
-from ballscrew.tracing.steps import COLUMNS, REDUCED, REDUCTIONS, ROWS, Step, choose
+from ballscrew.compiler.tracing.cannot_record import CannotRecordError as CannotRecordError
+from ballscrew.compiler.tracing.cannot_record import NoAttributeError
+from ballscrew.compiler.tracing.cannot_record import why_not_recorded as why_not_recorded
+from ballscrew.compiler.tracing.logarithms import folds_into_exponent, logarithm, sum_of_logarithms
+from ballscrew.compiler.tracing.steps import COLUMNS, REDUCED, REDUCTIONS, ROWS, Step, choose
 
 #: Whole powers up to this one are multiplied out.
 HIGHEST_WHOLE_POWER = 8
@@ -155,35 +155,21 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
         """Products, quotients and constant powers stay exponents; all else becomes a step."""
         if method != "__call__" or kwargs or ufunc.nout != 1:
             raise CannotRecordError(f"numpy.{ufunc.__name__} cannot be recorded as it is called here")
-        if ufunc is np.positive:
-            return self
-        if ufunc is np.negative:
-            return _multiply(self, -1.0, 1.0)
-        if ufunc is np.square:
-            return self._to_power(2.0)
-        if ufunc is np.sqrt:
-            return self._to_power(0.5)
-        if ufunc is np.multiply and not any(map(_is_mask, inputs)):
-            return _multiply(inputs[0], inputs[1], 1.0)
-        if ufunc is np.divide and not any(map(_is_mask, inputs)):
-            return _multiply(inputs[0], inputs[1], -1.0)
-        if ufunc in (np.add, np.subtract) and _is_nothing(inputs[1]) and not _is_mask(inputs[0]):
-            return inputs[0]
-        if ufunc is np.add and _is_nothing(inputs[0]) and not _is_mask(inputs[1]):
-            return inputs[1]
-        if ufunc is np.power:
-            return _power(*inputs)
-        if (
-            ufunc in (np.equal, np.not_equal)
-            and not isinstance(inputs[1], Traced)
-            and inputs[1] == 0
-            and self.scale != 0
-        ):
-            inputs = (Traced(self.tape, self.powers, 1.0, self.zero), inputs[1])  # the scale does not matter
+        without_step = _product_of_powers(ufunc, inputs) if ufunc in _OF_POWERS else _summand(ufunc, inputs)
+        if without_step is not None:
+            return without_step
+        if ufunc in (np.equal, np.not_equal):
+            inputs = self._without_scale(inputs)
         if not _takes_floats(ufunc, tuple(map(_is_mask, inputs))):
             raise CannotRecordError(f"numpy.{ufunc.__name__} takes no real numbers")
         is_mask = ufunc in MASKS or (ufunc in _TRUTH and all(map(_is_mask, inputs)))
         return self.tape.value(self.tape.record(ufunc, *map(_constant, inputs), is_mask=is_mask))
+
+    def _without_scale(self, inputs: tuple[Any, ...]) -> tuple[Any, ...]:
+        """The operands of a comparison with zero, for which a scale does not matter; of another as they are."""
+        if isinstance(inputs[1], Traced) or inputs[1] != 0 or self.scale == 0:
+            return inputs
+        return Traced(self.tape, self.powers, 1.0, self.zero), inputs[1]
 
     def __array_function__(
         self, function: Callable[..., Any], types: Any, args: Sequence[Any], kwargs: Mapping[str, Any]
@@ -280,14 +266,21 @@ def _product(tape: Tape, powers: Sequence[tuple[int, float]]) -> int:
         root = tape.value(_product(tape, [(i, p / 2) for i, p in powers]))
         return tape.record(np.multiply, root, root)
     broken = [(i, p) for i, p in powers if p != int(p)]
-    roots = broken if all(abs(p) == 0.5 for _, p in broken) else []
-    result: int | None = None
-    if broken and not roots:
-        broken = [(i, p) for i, p in powers if p != int(p) or folds_into_exponent(tape, i, p)]
-        powers = [(i, p) for i, p in powers if (i, p) not in broken]
-        result = tape.record(np.exp, sum_of_logarithms(tape, broken))
-    factors = [(i, p) for i, p in powers if p == int(p) for _ in range(int(abs(p)))]
-    factors += [(tape.record(np.sqrt, tape.value(i)), p) for i, p in roots]
+    if all(abs(p) == 0.5 for _, p in broken):
+        roots = [(tape.record(np.sqrt, tape.value(i)), p) for i, p in broken]
+        return _multiplied(tape, None, [*_multiplied_out(powers), *roots])
+    broken = [(i, p) for i, p in powers if p != int(p) or folds_into_exponent(tape, i, p)]
+    whole = [(i, p) for i, p in powers if (i, p) not in broken]
+    return _multiplied(tape, tape.record(np.exp, sum_of_logarithms(tape, broken)), _multiplied_out(whole))
+
+
+def _multiplied_out(powers: Sequence[tuple[int, float]]) -> list[tuple[int, float]]:
+    """The whole ones among powers as factors, each as often as it counts."""
+    return [(i, p) for i, p in powers if p == int(p) for _ in range(int(abs(p)))]
+
+
+def _multiplied(tape: Tape, result: int | None, factors: Sequence[tuple[int, float]]) -> int:
+    """The step that holds a result so far times factors, one after the other; those of a negative power divide."""
     for i, power in factors:
         if power < 0:
             start = 1.0 if result is None else tape.value(result)
@@ -296,6 +289,36 @@ def _product(tape: Tape, powers: Sequence[tuple[int, float]]) -> int:
             result = i if result is None else tape.record(np.multiply, tape.value(result), tape.value(i))
     assert result is not None, "a product has factors"
     return result
+
+
+#: Functions whose results are products of powers again, but for masks.
+_OF_POWERS = {np.positive, np.negative, np.square, np.sqrt, np.multiply, np.divide, np.power}
+
+
+def _product_of_powers(ufunc: np.ufunc, inputs: tuple[Any, ...]) -> Traced | None:
+    """The product, quotient or power of traced values without a step of its own; none of masks."""
+    if ufunc is np.positive:
+        return inputs[0]
+    if ufunc is np.negative:
+        return _multiply(inputs[0], -1.0, 1.0)
+    if ufunc is np.square:
+        return inputs[0]._to_power(2.0)
+    if ufunc is np.sqrt:
+        return inputs[0]._to_power(0.5)
+    if ufunc is np.power:
+        return _power(*inputs)
+    if any(map(_is_mask, inputs)):
+        return None
+    return _multiply(inputs[0], inputs[1], 1.0 if ufunc is np.multiply else -1.0)
+
+
+def _summand(ufunc: np.ufunc, inputs: tuple[Any, ...]) -> Any:
+    """The one operand of a sum or a difference that counts, where the other is nothing; else none."""
+    if ufunc in (np.add, np.subtract) and _is_nothing(inputs[1]) and not _is_mask(inputs[0]):
+        return inputs[0]
+    if ufunc is np.add and _is_nothing(inputs[0]) and not _is_mask(inputs[1]):
+        return inputs[1]
+    return None
 
 
 def _power(base: Any, exponent: Any) -> Traced:

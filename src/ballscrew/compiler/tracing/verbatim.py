@@ -1,6 +1,6 @@
 """Values that are recorded step by step as NumPy would evaluate them: no powers are collected, nothing is reordered.
 
-For short formulas whose roots and products are cheaper than the logarithms of :mod:`ballscrew.tracing.tape`.
+For short formulas whose roots and products are cheaper than the logarithms of :mod:`ballscrew.compiler.tracing.tape`.
 """
 
 from __future__ import annotations
@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.tracing.program import Program
-from ballscrew.tracing.steps import choose
-from ballscrew.tracing.tape import MASKS, CannotRecordError, Tape
+from ballscrew.compiler.tracing.program import Program
+from ballscrew.compiler.tracing.steps import choose
+from ballscrew.compiler.tracing.tape import MASKS, CannotRecordError, Tape
 
 
 class Verbatim(np.lib.mixins.NDArrayOperatorsMixin):

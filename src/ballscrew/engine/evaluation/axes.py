@@ -9,9 +9,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ballscrew._arrays import map_blocks
-from ballscrew.errors import Fault, fault_of, without_unit
-from ballscrew.quantities import Quantity
+from ballscrew.basis.arrays import map_blocks
+from ballscrew.basis.errors import Fault, fault_of, without_unit
+from ballscrew.basis.quantities import Quantity
 
 #: Numbers of a block: they are in the cache when they are read for the second time.
 BLOCK = 2**18

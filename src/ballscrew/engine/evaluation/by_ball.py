@@ -2,8 +2,9 @@
 
 The recording has two levels: what each operating point has, and what each of its balls has, whose loads and contact
 angles are inputs like any other. Sums and greatest values over the balls lead from the second to the first
-(:mod:`ballscrew.tracing.reductions`). The program is cut there, and its first part along points and balls: what does
-not depend on the ball is evaluated once for each point, by NumPy, and what does in one loop over balls and points.
+(:mod:`ballscrew.compiler.tracing.reductions`). The program is cut there, and its first part along points and balls:
+what does not depend on the ball is evaluated once for each point, by NumPy, and what does in one loop over balls and
+points.
 
 All plain numbers of the parts are inputs, so that nothing is recorded again when one changes: they cost nothing at any
 ball. Constants are exponents of laws, which are folded, and materials.
@@ -18,25 +19,25 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew._arrays import as_array
-from ballscrew.components.materials import INPUTS_OF_SHEET, TEMPERATURE
-from ballscrew.evaluation.axes import ends
-from ballscrew.evaluation.engines import ASKED_FOR, PAYS, Engine, why_numpy, worth_compiling
-from ballscrew.evaluation.outputs import NUT_OUTPUTS, OF_LOADS, OPERATION, Output, known_outputs
-from ballscrew.evaluation.plan import Configuration, Plan, read_input
-from ballscrew.evaluation.recordings import Recording, Structures, UnknownPartError, key_of
-from ballscrew.friction.loaded_balls import loads_of
-from ballscrew.kernels import kernel as kernels
-from ballscrew.kernels.buffers import aligned_array
-from ballscrew.kernels.emission import UnknownOperationError, kernel_text, lanes_for
-from ballscrew.kernels.kernel import Kernel
-from ballscrew.solvers.load_distribution import BallLoads, KindLoads
-from ballscrew.tracing.grid import Split, split
-from ballscrew.tracing.merging import merged_program
-from ballscrew.tracing.program import Program, Source, required_steps
-from ballscrew.tracing.reductions import Stages, cut_at_reductions, reduced
-from ballscrew.tracing.steps import COLUMNS, ROWS
-from ballscrew.tracing.tape import CannotRecordError, Tape
+from ballscrew.basis.arrays import as_array
+from ballscrew.compiler.kernels import kernel as kernels
+from ballscrew.compiler.kernels.buffers import aligned_array
+from ballscrew.compiler.kernels.emission import UnknownOperationError, kernel_text, lanes_for
+from ballscrew.compiler.kernels.kernel import Kernel
+from ballscrew.compiler.tracing.grid import Split, split
+from ballscrew.compiler.tracing.merging import merged_program
+from ballscrew.compiler.tracing.program import Program, Source, required_steps
+from ballscrew.compiler.tracing.reductions import Stages, cut_at_reductions, reduced
+from ballscrew.compiler.tracing.steps import COLUMNS, ROWS
+from ballscrew.compiler.tracing.tape import CannotRecordError, Tape
+from ballscrew.engine.evaluation.axes import ends
+from ballscrew.engine.evaluation.engines import ASKED_FOR, PAYS, Engine, why_numpy, worth_compiling
+from ballscrew.engine.evaluation.outputs import NUT_OUTPUTS, OF_LOADS, OPERATION, Output, known_outputs
+from ballscrew.engine.evaluation.plan import Configuration, Plan, read_input
+from ballscrew.engine.evaluation.recordings import Recording, Structures, UnknownPartError, key_of
+from ballscrew.physics.components.materials import INPUTS_OF_SHEET, TEMPERATURE
+from ballscrew.physics.friction.loaded_balls import loads_of
+from ballscrew.physics.solvers.load_distribution import BallLoads, KindLoads
 
 #: What each ball has of the solved loads.
 OF_BALLS = ("forward_load", "backward_load", "forward_angle", "backward_angle")

@@ -7,11 +7,11 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.components.screw import BallScrew
-from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.result import FrictionResult
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.result import FrictionResult
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -10,19 +10,19 @@ from typing import Any, Literal
 import numpy as np
 import xarray as xr
 
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import MISSING, Fault, InputError, nearest, raise_if_any
-from ballscrew.evaluation.engines import Engine, engine_faults
-from ballscrew.evaluation.evaluation import Evaluation
-from ballscrew.evaluation.outputs import OPERATION, Output, known_outputs
-from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.friction.model import FrictionModel
-from ballscrew.quantities import Info, Quantity
-from ballscrew.tracing.gradient import UnknownDerivativeError, partials
-from ballscrew.tracing.merging import merged_program
-from ballscrew.tracing.program import Program
-from ballscrew.tracing.tape import CannotRecordError
+from ballscrew.basis.errors import MISSING, Fault, InputError, nearest, raise_if_any
+from ballscrew.basis.quantities import Info, Quantity
+from ballscrew.compiler.tracing.gradient import UnknownDerivativeError, partials
+from ballscrew.compiler.tracing.merging import merged_program
+from ballscrew.compiler.tracing.program import Program
+from ballscrew.compiler.tracing.tape import CannotRecordError
+from ballscrew.engine.evaluation.engines import Engine, engine_faults
+from ballscrew.engine.evaluation.evaluation import Evaluation
+from ballscrew.engine.evaluation.outputs import OPERATION, Output, known_outputs
+from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.model import FrictionModel
 
 #: How derivatives can be had.
 Method = Literal["tape", "jax"]
@@ -45,19 +45,20 @@ def derivatives(
 ) -> xr.Dataset:
     r"""Outputs and their partial derivatives by inputs and coefficients, as labelled arrays in SI.
 
-    ``by`` names the inputs as :func:`~ballscrew.sweeps.sweep.sweep` does (``"axial_load"``, ``"ball_diameter"``,
-    ``"friction.boundary_friction_coefficient"``), varied or not; ``varied`` gives the points as there.
-    For each output ``y`` and input ``x`` the dataset has ``y`` and ``d_y_d_x``
+    ``model`` is evaluated on ``screw`` with ``lubricant``. ``by`` names the inputs as
+    :func:`~ballscrew.engine.sweeps.sweep.sweep` does (``"axial_load"``, ``"ball_diameter"``,
+    ``"friction.boundary_friction_coefficient"``), varied or not; ``varied`` gives the points, and ``outputs`` names the
+    results, as there. For each output ``y`` and input ``x`` the dataset has ``y`` and ``d_y_d_x``
     (:math:`\partial y/\partial x`, all other inputs held).
 
-    The derivatives are those of the formulas as they are evaluated, without differencing:
-    ``method="tape"`` differentiates what is recorded in reverse (:mod:`ballscrew.tracing.gradient`) and evaluates
-    it with either ``engine``; ``"jax"`` leaves it to JAX (the extra ``jax``), an independent way to
-    the same numbers. At a bend, such as the clamp of the friction coefficient, it is the slope of the branch
-    taken; where a power has no slope (no load, at rest) it is infinite or NaN. A number of balls
-    counts as continuous.
+    The derivatives are those of the formulas as they are evaluated, without differencing. Of the ``method`` ``"tape"``
+    differentiates what is recorded in reverse (:mod:`ballscrew.compiler.tracing.gradient`) and evaluates it with either
+    ``engine`` on so many ``threads``, telling ``done(finished, total)`` the points; ``"jax"`` leaves it to JAX (the
+    extra ``jax``), an independent way to the same numbers. At a bend, such as the clamp of the friction coefficient, it
+    is the slope of the branch taken; where a power has no slope (no load, at rest) it is infinite or NaN. A number of
+    balls counts as continuous.
 
-    Raises :class:`~ballscrew.errors.InputError` for unknown names, outputs that are truth values,
+    Raises :class:`~ballscrew.basis.errors.InputError` for unknown names, outputs that are truth values,
     inputs without a value, and laws that cannot be recorded.
     """
     faults = engine_faults("derivatives", engine)
@@ -74,7 +75,9 @@ def derivatives(
 
 
 def slopes_of(subject: Configuration, outputs: Sequence[str], by: Sequence[str], varied: Mapping[str, Any]) -> Slopes:
-    """A plan for outputs and their derivatives. Raises :class:`~ballscrew.errors.InputError` with all faults in it."""
+    """A plan for outputs and their derivatives. Raises :class:`~ballscrew.basis.errors.InputError` with all faults in
+    it.
+    """
     by = (by,) if isinstance(by, str) else tuple(dict.fromkeys(by))
     known = subject.inputs
     faults = [Fault("derivatives.by", "unknown input", name, nearest(name, known)) for name in by if name not in known]
@@ -158,7 +161,7 @@ def _unreadable(_: Any) -> Any:
 
 
 def _by_jax(slopes: Slopes) -> xr.Dataset:
-    from ballscrew.evaluation.jax_derivatives import jax_value_and_partials
+    from ballscrew.engine.evaluation.jax_derivatives import jax_value_and_partials
 
     everywhere = np.arange(slopes.total)
     shape = everywhere.shape

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Literal
 
-from ballscrew.errors import Fault
-from ballscrew.kernels import kernel as kernels
-from ballscrew.tracing.program import Program
+from ballscrew.basis.errors import Fault
+from ballscrew.compiler.kernels import kernel as kernels
+from ballscrew.compiler.tracing.program import Program
 
 #: What can evaluate a plan.
 Engine = Literal["numpy", "compiled"]

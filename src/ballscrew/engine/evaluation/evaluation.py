@@ -12,15 +12,25 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ballscrew._arrays import BLOCK_SIZE, map_blocks, processors
-from ballscrew.errors import (
+from ballscrew.basis.arrays import BLOCK_SIZE, map_blocks, processors
+from ballscrew.basis.errors import (
     Fault,
     InputError,
     raise_if_any,
 )
-from ballscrew.evaluation.axes import ends
-from ballscrew.evaluation.by_ball import BLOCK_OF_BALLS, ByBall, by_ball
-from ballscrew.evaluation.engines import (
+from ballscrew.compiler.kernels import kernel as kernels
+from ballscrew.compiler.kernels.buffers import ALIGNMENT, aligned_array
+from ballscrew.compiler.kernels.chain import LANES
+from ballscrew.compiler.kernels.emission import UnknownOperationError, lanes_for
+from ballscrew.compiler.kernels.kernel import Kernel
+from ballscrew.compiler.kernels.watched import WatchedKernel
+from ballscrew.compiler.tracing.grid import Split, inner_axes, rectangles
+from ballscrew.compiler.tracing.program import Program, Source
+from ballscrew.compiler.tracing.steps import COLUMNS, ROWS
+from ballscrew.compiler.tracing.tape import CannotRecordError
+from ballscrew.engine.evaluation.axes import ends
+from ballscrew.engine.evaluation.by_ball import BLOCK_OF_BALLS, ByBall, by_ball
+from ballscrew.engine.evaluation.engines import (
     ASKED_FOR,
     PAYS,
     SWEEP_ENGINES,
@@ -31,20 +41,10 @@ from ballscrew.evaluation.engines import (
     why_numpy,
     worth_compiling,
 )
-from ballscrew.evaluation.fingerprint import Fingerprint, fingerprint_of, package_digest
-from ballscrew.evaluation.outputs import OPERATION
-from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.evaluation.recordings import Recording, recording
-from ballscrew.kernels import kernel as kernels
-from ballscrew.kernels.buffers import ALIGNMENT, aligned_array
-from ballscrew.kernels.chain import LANES
-from ballscrew.kernels.emission import UnknownOperationError, lanes_for
-from ballscrew.kernels.kernel import Kernel
-from ballscrew.kernels.watched import WatchedKernel
-from ballscrew.tracing.grid import Split, inner_axes, rectangles
-from ballscrew.tracing.program import Program, Source
-from ballscrew.tracing.steps import COLUMNS, ROWS
-from ballscrew.tracing.tape import CannotRecordError
+from ballscrew.engine.evaluation.fingerprint import Fingerprint, fingerprint_of, package_digest
+from ballscrew.engine.evaluation.outputs import OPERATION
+from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.engine.evaluation.recordings import Recording, recording
 
 #: Fewest columns of a grid: a short row is mostly its beginning and its end.
 FEWEST_COLUMNS = 256
@@ -96,7 +96,7 @@ class Evaluation:
         ``times`` says how often all of it will be evaluated (see :meth:`at`). ``recorded`` records balls that differ
         however little work it is.
 
-        Raises :class:`~ballscrew.errors.InputError` for an engine that cannot be had.
+        Raises :class:`~ballscrew.basis.errors.InputError` for an engine that cannot be had.
         """
         raise_if_any(engine_faults("sweep", engine, SWEEP_ENGINES))
         if engine == "model":
@@ -147,7 +147,7 @@ class Evaluation:
         """The same formulas with other values on the axes; nothing is recorded or compiled again.
 
         For plans that were made ready for several ``times`` and whose formulas have these axes as inputs: those of one
-        dimension, and the numbers that :class:`~ballscrew.evaluation.derivatives.Slopes` differentiates by.
+        dimension, and the numbers that :class:`~ballscrew.engine.evaluation.derivatives.Slopes` differentiates by.
         """
         axes = {**self.plan.axes, **{name: xr.DataArray(value) for name, value in values.items()}}
         sizes = {str(d): size for axis in axes.values() for d, size in zip(axis.dims, axis.shape, strict=True)}
@@ -171,7 +171,7 @@ class Evaluation:
     ) -> None:
         """Evaluate the points of a block of the flattened grid; ``results`` has room for just these.
 
-        Raises :class:`~ballscrew.errors.InputError` for bad values of an axis that is checked where it is read.
+        Raises :class:`~ballscrew.basis.errors.InputError` for bad values of an axis that is checked where it is read.
         """
         total = block.stop - block.start
         found: _Ends = {name: [] for name in self.plan.unchecked}

@@ -11,25 +11,25 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew._arrays import BLOCK_SIZE, map_blocks
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import MISSING, Fault, InputError, nearest, raise_if_any, without_unit
-from ballscrew.evaluation.by_ball import BLOCK_OF_BALLS, ByBall, by_ball
-from ballscrew.evaluation.derivatives import JAX_INSTEAD, slope_name
-from ballscrew.evaluation.engines import ASKED_FOR, Engine, engine_faults, why_numpy
-from ballscrew.evaluation.outputs import OPERATION, Output
-from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.evaluation.recordings import Recording, recording
-from ballscrew.friction.model import FrictionModel
-from ballscrew.kernels import kernel as kernels
-from ballscrew.kernels.buffers import aligned_array
-from ballscrew.kernels.emission import UnknownOperationError
-from ballscrew.kernels.kernel import Kernel
-from ballscrew.quantities import Quantity, within_bounds
-from ballscrew.tracing.gradient import UnknownDerivativeError, partials
-from ballscrew.tracing.program import Program, Source
-from ballscrew.tracing.tape import CannotRecordError, Tape
+from ballscrew.basis.arrays import BLOCK_SIZE, map_blocks
+from ballscrew.basis.errors import MISSING, Fault, InputError, nearest, raise_if_any, without_unit
+from ballscrew.basis.quantities import Quantity, within_bounds
+from ballscrew.compiler.kernels import kernel as kernels
+from ballscrew.compiler.kernels.buffers import aligned_array
+from ballscrew.compiler.kernels.emission import UnknownOperationError
+from ballscrew.compiler.kernels.kernel import Kernel
+from ballscrew.compiler.tracing.gradient import UnknownDerivativeError, partials
+from ballscrew.compiler.tracing.program import Program, Source
+from ballscrew.compiler.tracing.tape import CannotRecordError, Tape
+from ballscrew.engine.evaluation.by_ball import BLOCK_OF_BALLS, ByBall, by_ball
+from ballscrew.engine.evaluation.derivatives import JAX_INSTEAD, slope_name
+from ballscrew.engine.evaluation.engines import ASKED_FOR, Engine, engine_faults, why_numpy
+from ballscrew.engine.evaluation.outputs import OPERATION, Output
+from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.engine.evaluation.recordings import Recording, recording
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.model import FrictionModel
 
 #: Points of a block, of few points and of many: results of many are stored past the cache.
 KERNEL_BLOCK, LARGE_KERNEL_BLOCK = 2**14, 2**17
@@ -55,17 +55,18 @@ def evaluator(
 ) -> Evaluator:
     """A function on arrays: outputs at values of the inputs, for optimisers, ODEs and control loops.
 
-    ``inputs`` and ``outputs`` are named as those of :func:`~ballscrew.sweeps.sweep.sweep`. All other inputs keep the
-    values of the parts, or those given as ``fixed`` numbers; ``axial_load`` and ``screw_speed`` are inputs or fixed.
-    ``by`` names inputs by which all outputs are differentiated as well: the derivative of ``y`` by ``x`` is
-    ``d_y_d_x``.
+    Returns an :class:`Evaluator` of ``model`` on ``screw`` with ``lubricant``. ``inputs`` and ``outputs`` are named as
+    those of :func:`~ballscrew.engine.sweeps.sweep.sweep`. All other inputs keep the values of the parts, or those given
+    as ``fixed`` numbers; ``axial_load`` and ``screw_speed`` are inputs or fixed. ``by`` names inputs by which all
+    outputs are differentiated as well: the derivative of ``y`` by ``x`` is ``d_y_d_x``.
 
     The model is recorded here, and compiled where the compiler is installed (the extra ``fast``); ``engine`` selects
-    ``"numpy"`` or ``"compiled"``. The first time that takes seconds for a nut whose balls differ; compiling that takes
-    more than one is logged before it starts, as information of the logger ``ballscrew``. What a model holds is read
-    now: an object that a law from outside changes later has no effect. Copies and pickles record anew.
+    ``"numpy"`` or ``"compiled"``; arrays are evaluated on so many ``threads``. The first time that takes seconds for a
+    nut whose balls differ; compiling that takes more than one is logged before it starts, as information of the logger
+    ``ballscrew``. What a model holds is read now: an object that a law from outside changes later has no effect. Copies
+    and pickles record anew.
 
-    Raises :class:`~ballscrew.errors.InputError` for unknown names, missing and bad fixed values, an engine that
+    Raises :class:`~ballscrew.basis.errors.InputError` for unknown names, missing and bad fixed values, an engine that
     cannot be had, and derivatives of truth values or of a law that cannot be recorded.
     """
     return Evaluator(Configuration(model, screw, lubricant), tuple(inputs), outputs, tuple(by), engine, threads, fixed)
@@ -173,7 +174,7 @@ class Evaluator:
 
         Numbers give numbers, arrays arrays. No value is refused: where an input is not finite or beyond its bounds, the
         results are NaN and truth values false; whether the model holds is the output ``valid``. Raises
-        :class:`~ballscrew.errors.InputError` for missing and unknown names, and for what is no number.
+        :class:`~ballscrew.basis.errors.InputError` for missing and unknown names, and for what is no number.
         """
         if named or len(values) != len(self.inputs):
             values = self._in_order(values, named)

@@ -25,7 +25,7 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.evaluation.origins import library, name_in_library, origin
+from ballscrew.engine.evaluation.origins import library, name_in_library, origin
 
 #: Names by which code gets at what is not among its values: files, the environment, other code.
 _BEYOND_VALUES = frozenset({
@@ -52,6 +52,16 @@ _PLAIN = frozenset({type(None), bool, int, float, complex, str, bytes, type(...)
 _SLOTS = types.MemberDescriptorType, types.GetSetDescriptorType
 _COMPILED = types.MethodDescriptorType, types.WrapperDescriptorType, types.ClassMethodDescriptorType
 _TABLES = dict, list, set
+_CONTAINERS = frozenset({list, tuple, dict, types.MappingProxyType, set, frozenset})
+#: Classes whose objects are told apart by some attributes, with the name that they go by, or else that of their class.
+_TOLD_BY: tuple[tuple[Any, str, tuple[str, ...]], ...] = (
+    (enum.Enum, "enum", ("__class__", "name")),
+    (functools.partial, "partial", ("func", "args", "keywords")),
+    (np.vectorize, "vectorize", ("pyfunc", "otypes", "excluded", "signature")),
+    ((classmethod, staticmethod), "", ("__func__",)),
+    (property, "property", ("fget", "fset")),
+    (functools.cached_property, "cached property", ("func",)),
+)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -78,7 +88,7 @@ def fingerprint_of(values: Mapping[str, Any]) -> Fingerprint:
 @functools.cache
 def package_digest() -> str:
     """A digest of the source and the data of this package, as installed."""
-    folder = Path(__file__).parents[1]
+    folder = Path(__file__).parents[2]
     found = hashlib.sha256()
     for path in sorted(path for kind in ("py", "toml") for path in folder.rglob(f"*.{kind}")):
         content = path.read_bytes()
@@ -138,35 +148,15 @@ class _Visit:
         kind = type(value)
         if named := name_in_library(value):
             return named.encode()
-        if kind in (list, tuple):
-            return self._all(kind.__name__, value)
-        if kind in (dict, types.MappingProxyType):
-            pairs = sorted((self._digest(k), v) for k, v in value.items()) if _plain_keys(value) else value.items()
-            return self._all("dict", (part for pair in pairs for part in pair))
-        if kind in (set, frozenset):
-            ordered = b"".join(sorted(map(self._digest, value)))
-            return b"set" + ordered if _plain_keys(value) else self._unknown("a set of objects")
-        if isinstance(value, np.generic) or (kind is np.ndarray and not value.dtype.hasobject):
-            return f"{value.dtype.str} {np.shape(value)} ".encode() + value.tobytes()
-        if kind is np.ndarray:
-            return self._all(f"objects {value.shape}", value.ravel().tolist())
-        if isinstance(value, enum.Enum):
-            return self._all("enum", (kind, value.name))
-        if isinstance(value, functools.partial):
-            return self._all("partial", (value.func, value.args, value.keywords))
-        if isinstance(value, np.vectorize):
-            return self._all("vectorize", (value.pyfunc, value.otypes, value.excluded, value.signature))
+        if kind in _CONTAINERS:
+            return self._of_container(value)
+        if isinstance(value, np.generic) or kind is np.ndarray:
+            return self._of_array(value)
+        for known, name, attributes in _TOLD_BY:
+            if isinstance(value, known):
+                return self._all(name or kind.__name__, [getattr(value, attribute) for attribute in attributes])
         if isinstance(value, types.MethodType):
-            found = getattr(type(value.__self__), value.__name__, None)
-            # a copy from another process has a function of its own beside that of its class
-            is_of_class = getattr(found, "__code__", None) == value.__func__.__code__
-            return self._all("method", (value.__self__, value.__name__ if is_of_class else value.__func__))
-        if isinstance(value, classmethod | staticmethod):
-            return self._all(kind.__name__, (value.__func__,))
-        if isinstance(value, property):
-            return self._all("property", (value.fget, value.fset))
-        if isinstance(value, functools.cached_property):
-            return self._all("cached property", (value.func,))
+            return self._of_method(value)
         if isinstance(value, types.BuiltinFunctionType):
             of_module = isinstance(value.__self__, types.ModuleType)
             return self._compiled(value.__name__) if of_module else self._all(value.__name__, (value.__self__,))
@@ -178,6 +168,30 @@ class _Visit:
         if isinstance(value, np.ufunc):
             return self._compiled(value.__name__)
         return self._of_object(value)
+
+    def _of_container(self, value: Any) -> bytes:
+        """What a container holds; in the order of its digests where it has no order that counts."""
+        kind = type(value)
+        if kind in (list, tuple):
+            return self._all(kind.__name__, value)
+        if kind in (set, frozenset):
+            ordered = b"".join(sorted(map(self._digest, value)))
+            return b"set" + ordered if _plain_keys(value) else self._unknown("a set of objects")
+        pairs = sorted((self._digest(k), v) for k, v in value.items()) if _plain_keys(value) else value.items()
+        return self._all("dict", (part for pair in pairs for part in pair))
+
+    def _of_array(self, value: Any) -> bytes:
+        """Type, shape and numbers of an array; of one of objects these."""
+        if isinstance(value, np.ndarray) and value.dtype.hasobject:
+            return self._all(f"objects {value.shape}", value.ravel().tolist())
+        return f"{value.dtype.str} {np.shape(value)} ".encode() + value.tobytes()
+
+    def _of_method(self, method: types.MethodType) -> bytes:
+        """The object of a method, and its name or its function."""
+        found = getattr(type(method.__self__), method.__name__, None)
+        # a copy from another process has a function of its own beside that of its class
+        is_of_class = getattr(found, "__code__", None) == method.__func__.__code__
+        return self._all("method", (method.__self__, method.__name__ if is_of_class else method.__func__))
 
     def _all(self, kind: str, parts: Iterable[Any]) -> bytes:
         return kind.encode() + b"(" + b",".join([self._digest(part) for part in parts]) + b")"

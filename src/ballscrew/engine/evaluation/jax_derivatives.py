@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew._arrays import blocks
-from ballscrew.errors import Fault, InputError
+from ballscrew.basis.arrays import blocks
+from ballscrew.basis.errors import Fault, InputError
 
 Field = NDArray[np.float64]
 
@@ -40,7 +40,7 @@ def jax_value_and_partials(
     by block; few are not worth compiling. Values differ from NumPy's by rounding. Runs where JAX runs,
     on a graphics processor if it has one; JAX is switched to double precision for this call alone.
 
-    Raises :class:`~ballscrew.errors.InputError` without JAX.
+    Raises :class:`~ballscrew.basis.errors.InputError` without JAX.
     """
     try:
         import jax

@@ -7,16 +7,16 @@ import functools
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ballscrew.components.contact import Contact, RaceState
-from ballscrew.components.materials import INPUTS_OF_SHEET, TEMPERATURE, Lubricant
-from ballscrew.components.nut import Nut
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.components.screw import SINGLE_NUT, BallScrew
-from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.result import MECHANISMS, FrictionResult
-from ballscrew.friction.validity import NUT_REASONS, REASONS
-from ballscrew.quantities import Info, Quantity, fields_of, quantities_of
-from ballscrew.solvers.load_distribution import BallLoads
+from ballscrew.basis.quantities import Info, Quantity, fields_of, quantities_of
+from ballscrew.physics.components.contact import Contact, RaceState
+from ballscrew.physics.components.materials import INPUTS_OF_SHEET, TEMPERATURE, Lubricant
+from ballscrew.physics.components.nut import Nut
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.screw import SINGLE_NUT, BallScrew
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
+from ballscrew.physics.friction.validity import NUT_REASONS, REASONS
+from ballscrew.physics.solvers.load_distribution import BallLoads
 
 #: The fields of the operating point, which every sweep needs.
 OPERATION = tuple(fields_of(OperatingState))

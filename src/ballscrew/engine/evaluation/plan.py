@@ -12,16 +12,17 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ballscrew._arrays import ByValue
-from ballscrew._version import __version__
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.nut import Nut, NutParts
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.components.screw import MATERIALS, BallScrew
-from ballscrew.components.traits import traits_of
-from ballscrew.errors import MISSING, Fault, nearest, raise_if_any
-from ballscrew.evaluation.axes import axis_of, ends, faults_of_axis
-from ballscrew.evaluation.outputs import (
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import MISSING, Fault, nearest, raise_if_any
+from ballscrew.basis.quantities import Quantity, fields_of, quantities_of
+from ballscrew.basis.records import Message, Record
+from ballscrew.basis.references import citations_of
+from ballscrew.basis.version import __version__
+from ballscrew.compiler.tracing.merging import merged_program
+from ballscrew.compiler.tracing.program import Program
+from ballscrew.compiler.tracing.tape import CannotRecordError, Tape, why_not_recorded
+from ballscrew.engine.evaluation.axes import axis_of, ends, faults_of_axis
+from ballscrew.engine.evaluation.outputs import (
     DEFAULT_OUTPUTS,
     NUT_OUTPUTS,
     OPERATION,
@@ -30,17 +31,16 @@ from ballscrew.evaluation.outputs import (
     inputs_of,
     known_outputs,
 )
-from ballscrew.friction import starvation
-from ballscrew.friction.model import SLOTS, FrictionModel
-from ballscrew.friction.plausibility import implausible, named_parts
-from ballscrew.friction.result import FrictionResult
-from ballscrew.quantities import Quantity, fields_of, quantities_of
-from ballscrew.records import Message, Record
-from ballscrew.references import citations_of
-from ballscrew.solvers.load_distribution import BallLoads
-from ballscrew.tracing.merging import merged_program
-from ballscrew.tracing.program import Program
-from ballscrew.tracing.tape import CannotRecordError, Tape, why_not_recorded
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.nut import Nut, NutParts
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.screw import MATERIALS, BallScrew
+from ballscrew.physics.components.traits import traits_of
+from ballscrew.physics.friction import starvation
+from ballscrew.physics.friction.model import SLOTS, FrictionModel
+from ballscrew.physics.friction.plausibility import implausible, named_parts
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.solvers.load_distribution import BallLoads
 
 #: Attributes of a dataset that is starved of oil: the friction torque as given and in a full bath where it is most so.
 STARVED = ("most_starved_torque", "most_starved_flooded_torque")
@@ -48,6 +48,8 @@ STARVED = ("most_starved_torque", "most_starved_flooded_torque")
 _JUDGED = 48
 #: Balls at all points up to which each point is judged.
 _FEW_BALLS = 2000
+#: Balls at the rows of a log that are solved for to judge starvation, and rows at once.
+_MOST_BALLS, _AT_ONCE = 20_000, 4096
 #: Corners of the inputs of oil and screw at most that tell whether that can be at all.
 _MOST_CORNERS = 4096
 _REPLENISHMENT = "inlet.replenishment_constant"
@@ -134,8 +136,8 @@ class Configuration(ByValue):
     def recorded(self, tape: Tape, points: Mapping[str, Any], wanted: Mapping[str, Output]) -> Program:
         """The outputs wanted as a program of the inputs of a tape, at points that are made of them.
 
-        Raises :class:`~ballscrew.tracing.tape.CannotRecordError` for a nut whose balls differ, and for a law that
-        wants plain arrays.
+        Raises :class:`~ballscrew.compiler.tracing.tape.CannotRecordError` for a nut whose balls differ, and for a law
+        that wants plain arrays.
         """
         with self.recording():
             result = self.at(points)
@@ -146,7 +148,7 @@ class Configuration(ByValue):
         """Turn every way in which a law fails to be recorded into one error that says which law, and why.
 
         What a law raises for another reason is raised as it is. Balls that differ are recorded ``by_ball`` only
-        (:mod:`ballscrew.evaluation.by_ball`).
+        (:mod:`ballscrew.engine.evaluation.by_ball`).
         """
         if self.nut.one_by_one and not by_ball:
             raise CannotRecordError("balls that differ are solved one by one, on plain arrays")
@@ -175,15 +177,25 @@ class Configuration(ByValue):
     def starvation(self, points: Mapping[str, Any], remark: Message | None = None) -> list[Record]:
         """The record of points, arrays of one length, that are starved of oil, with both torques where it is most so.
 
-        Of many points some, those of the ends of the inputs among them.
+        The torques are asked for at all points where oil that comes back late counts. Where these are too many balls
+        to solve for, some are taken that stand for all by the share of oil that is left, the least among them.
         """
         every = {name: np.atleast_1d(np.asarray(values, dtype=float)) for name, values in points.items()}
-        count = len(next(iter(every.values())))
-        ends_of_each = [int(end(values)) for values in every.values() for end in (np.argmin, np.argmax)]
-        places = np.unique([*ends_of_each, *np.linspace(0, count - 1, min(count, _JUDGED)).astype(int)])
-        found = self.at({name: values[places] for name, values in every.items()})
-        both = starvation.most_starved(found.screw_torque, found.flooded_torque)
-        return [] if both is None else _starvation_record(*both, remark)
+        there = self.changed({name: values for name, values in every.items() if name not in OPERATION})
+        left = starvation.replenished(there.model, there.screw, there.lubricant, every["screw_speed"])
+        left = np.broadcast_to(left, every["screw_speed"].shape)
+        places = np.flatnonzero(left < starvation.NEARLY_ALL)
+        most = max(_MOST_BALLS // self.balls, _JUDGED)
+        if places.size > most:
+            some = np.linspace(0, places.size - 1, most).astype(int)
+            places = places[np.argsort(left[places], kind="stable")][some]
+        torques: list[tuple[float, float]] = []
+        for first in range(0, places.size, _AT_ONCE):
+            found = self.at({name: values[places[first : first + _AT_ONCE]] for name, values in every.items()})
+            both = starvation.most_starved(found.screw_torque, found.flooded_torque)
+            torques += [] if both is None else [both]
+        most_of_all = starvation.most_starved(*np.transpose(torques)) if torques else None
+        return [] if most_of_all is None else _starvation_record(*most_of_all, remark)
 
     def attributes(self, varied: Sequence[str] = ()) -> dict[str, Any]:
         """Attributes of a dataset: constant inputs, sources, and the version."""
@@ -237,7 +249,7 @@ class Plan:
     ) -> Plan:
         """A plan from what a person gives; with ``later``, long axes are left to be checked where they are read.
 
-        Raises :class:`~ballscrew.errors.InputError` with all faults in it, which stand under ``section``.
+        Raises :class:`~ballscrew.basis.errors.InputError` with all faults in it, which stand under ``section``.
         """
         names = _wanted(section, outputs, subject.nut)
         axes, extremes = _axes(section, subject, varied, later=later)
@@ -258,7 +270,7 @@ class Plan:
         return ()
 
     def check(self, found: Mapping[str, np.ndarray]) -> None:
-        """Check what is unchecked by the ends of its values. Raises :class:`~ballscrew.errors.InputError`."""
+        """Check what is unchecked by the ends of its values. Raises :class:`~ballscrew.basis.errors.InputError`."""
         known = self.subject.inputs
         checked = [faults_of_axis(*known[name], self.axes[name].to_numpy(), held) for name, held in found.items()]
         raise_if_any([fault for faults in checked for fault in faults])
@@ -299,7 +311,7 @@ class Plan:
     def recorded(self, groups: Sequence[int] | None = None) -> Program:
         """The model as a program of the varying inputs, in groups where asked for.
 
-        Raises :class:`~ballscrew.tracing.tape.CannotRecordError` where it cannot be recorded.
+        Raises :class:`~ballscrew.compiler.tracing.tape.CannotRecordError` where it cannot be recorded.
         """
         tape = self.tape(groups)
         return self.subject.recorded(tape, self.fixed | self.traced(tape), self.wanted)

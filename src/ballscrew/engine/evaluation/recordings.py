@@ -5,7 +5,7 @@ inputs and the outputs. A law of this package that is a function counts as itsel
 known quickly whether it computes what it did (its globals, closures and attributes may change), so a model with one is
 recorded anew each time. A number that is the same at all points is a constant of the recording and part of its key:
 folded, it costs nothing at any point. Who changes it call by call makes it an input, of an axis or of
-:func:`~ballscrew.evaluation.evaluator.evaluator`.
+:func:`~ballscrew.engine.evaluation.evaluator.evaluator`.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ballscrew.kernels.emission import kernel_text
-from ballscrew.tracing.grid import Split, split
-from ballscrew.tracing.program import Program, Source
+from ballscrew.compiler.kernels.emission import kernel_text
+from ballscrew.compiler.tracing.grid import Split, split
+from ballscrew.compiler.tracing.program import Program, Source
 
 #: Most recordings that are kept, and most steps of all of them together, some 600 bytes each (assembly aside).
 MOST_RECORDINGS, MOST_STEPS = 256, 150_000
@@ -38,7 +38,10 @@ T = TypeVar("T")
 
 _PACKAGE = __name__.partition(".")[0]
 #: The rooms whose functions and constants are in a recording.
-_ROOMS = tuple(f"{_PACKAGE}.{room}" for room in ("equations", "components", "solvers", "friction", "tracing"))
+_ROOMS = tuple(
+    f"{_PACKAGE}.{room}"
+    for room in ("physics.equations", "physics.components", "physics.solvers", "physics.friction", "compiler.tracing")
+)
 _PLAIN = frozenset({int, bool, str, bytes, type(None)})
 
 

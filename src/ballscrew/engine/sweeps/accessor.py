@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import importlib
 from typing import Any
 
 import xarray as xr
+
+from ballscrew.basis.displayed import notebook
 
 
 @xr.register_dataset_accessor("ballscrew")
@@ -19,6 +20,6 @@ class SweepAccessor:
         """Picture of an output over the axes of the sweep: contours over two, a line over one.
 
         It is hatched or shaded where the model does not hold. A notebook shows the picture; its ``save(path)`` writes
-        .png, .svg or .pdf. Raises :class:`~ballscrew.errors.InputError` for an unknown output, and for more axes.
+        .png, .svg or .pdf. Raises :class:`~ballscrew.basis.errors.InputError` for an unknown output, and for more axes.
         """
-        return importlib.import_module("ballscrew.notebook.pictures").sweep_map(self._dataset, output)
+        return notebook("pictures").sweep_map(self._dataset, output)

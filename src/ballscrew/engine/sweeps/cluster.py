@@ -23,13 +23,13 @@ from collections.abc import Callable, Generator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
-from ballscrew.errors import (
+from ballscrew.basis.errors import (
     Fault,
     InputError,
 )
-from ballscrew.evaluation.evaluation import Evaluation
-from ballscrew.evaluation.fingerprint import package_digest
-from ballscrew.sweeps.store import FULL, Store
+from ballscrew.engine.evaluation.evaluation import Evaluation
+from ballscrew.engine.evaluation.fingerprint import package_digest
+from ballscrew.engine.sweeps.store import FULL, Store
 
 #: Tasks for each thread of the cluster that are under way or wait at the workers: some, so that no
 #: worker waits for the scheduler; few, so that the scheduler does not hold a million of them.
@@ -52,7 +52,7 @@ _evaluations: dict[tuple[str, str], Evaluation] = {}
 
 
 def check_cluster(cluster: Any) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` unless it is a client of a cluster with workers."""
+    """Raise :class:`~ballscrew.basis.errors.InputError` unless it is a client of a cluster with workers."""
     if importlib.util.find_spec("distributed") is None:
         raise InputError(Fault(_WHERE, "needs distributed", "", 'pip install "ballscrew[cluster]"'))
     import distributed
@@ -67,7 +67,7 @@ def check_cluster(cluster: Any) -> None:
 def cluster_client(address: str, where: str = _WHERE) -> Generator[Any]:
     """A client of the scheduler at an address.
 
-    Raises :class:`~ballscrew.errors.InputError` if no scheduler answers.
+    Raises :class:`~ballscrew.basis.errors.InputError` if no scheduler answers.
     """
     if importlib.util.find_spec("distributed") is None:
         raise InputError(Fault(where, "needs distributed", address, 'pip install "ballscrew[cluster]"'))

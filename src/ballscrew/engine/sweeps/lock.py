@@ -15,8 +15,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from ballscrew.errors import Fault, InputError
-from ballscrew.sweeps.store_entries import opened_as_file
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.engine.sweeps.store_entries import opened_as_file
 
 _fcntl: ModuleType | None = importlib.import_module("fcntl") if importlib.util.find_spec("fcntl") else None
 #: Error numbers of a file system without locks.
@@ -29,7 +29,7 @@ class Lock:
     The system's lock ends with the process, whatever ended it, and is not fooled by a process id
     that is used again. Where a file system has no locks, the process of this host is looked up by its
     id; where that is impossible too, the file alone counts.
-    Raises :class:`~ballscrew.errors.InputError` while another process holds it, and ``OSError``.
+    Raises :class:`~ballscrew.basis.errors.InputError` while another process holds it, and ``OSError``.
     """
 
     def __init__(self, path: Path, where: str, holds: Path) -> None:

@@ -1,6 +1,6 @@
 """A sweep on disk: a Zarr store that is filled block by block, and goes on where it was stopped.
 
-Files are written here and, by Zarr, in :mod:`~ballscrew.sweeps.store_layout`, and only inside the store::
+Files are written here and, by Zarr, in :mod:`~ballscrew.engine.sweeps.store_layout`, and only inside the store::
 
     map.zarr/zarr.json              last of all, by a rename: a store without it is not finished
     map.zarr/screw_torque/c/0/1     a chunk: the results of one block, one output
@@ -13,7 +13,7 @@ Files are written here and, by Zarr, in :mod:`~ballscrew.sweeps.store_layout`, a
 All checksums are bound to the plan by its digest, so that files of another store do not pass for those of this one.
 
 Every file is written under another name, brought to the disk, and renamed. What is damaged is found by
-sizes and checksums (:mod:`~ballscrew.sweeps.store_check`) and written again.
+sizes and checksums (:mod:`~ballscrew.engine.sweeps.store_check`) and written again.
 """
 
 from __future__ import annotations
@@ -36,18 +36,18 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ballscrew.errors import (
+from ballscrew.basis.errors import (
     Fault,
     InputError,
     raise_if_any,
 )
-from ballscrew.evaluation.evaluation import Engine, Evaluation
-from ballscrew.evaluation.plan import Plan
-from ballscrew.sweeps.store_check import LAYOUT, ROOT, Contents, Damage, file_in_place_of_a_folder, stored_plan
-from ballscrew.sweeps.store_entries import refuse_unsafe
-from ballscrew.sweeps.store_layout import lay_out
-from ballscrew.sweeps.store_plan import Blocks, description_of, differences, sealed
-from ballscrew.sweeps.store_rows import OTHER, WHERE, Content, row
+from ballscrew.engine.evaluation.evaluation import Engine, Evaluation
+from ballscrew.engine.evaluation.plan import Plan
+from ballscrew.engine.sweeps.store_check import LAYOUT, ROOT, Contents, Damage, file_in_place_of_a_folder, stored_plan
+from ballscrew.engine.sweeps.store_entries import refuse_unsafe
+from ballscrew.engine.sweeps.store_layout import lay_out
+from ballscrew.engine.sweeps.store_plan import Blocks, description_of, differences, sealed
+from ballscrew.engine.sweeps.store_rows import OTHER, WHERE, Content, row
 
 #: Suffixes that mean a file, not the folder of a store.
 _FILES = (".csv", ".xlsx", ".nc", ".json", ".toml")
@@ -90,8 +90,8 @@ class Store:
         """The store of a plan, new or begun, and its evaluation; nothing is written yet.
 
         A store that was begun keeps its engine. ``attributes`` go to the dataset with those of the plan.
-        Raises :class:`~ballscrew.errors.InputError` if something else lies there, and says what; for a link in the
-        store; and for a store of another user, unless ``trust``.
+        Raises :class:`~ballscrew.basis.errors.InputError` if something else lies there, and says what; for a link in
+        the store; and for a store of another user, unless ``trust``.
         """
         folder = _checked(path, plan)
         refuse_unsafe(folder, trust=trust)
@@ -120,7 +120,9 @@ class Store:
         return store, evaluation
 
     def check_from_worker(self) -> None:
-        """Raise :class:`~ballscrew.errors.InputError` where this process does not see the store that was begun."""
+        """Raise :class:`~ballscrew.basis.errors.InputError` where this process does not see the store that was
+        begun.
+        """
         _checked(self.path, self.plan)
         try:
             seen = stored_plan(self.path) == self.description
@@ -131,7 +133,7 @@ class Store:
             raise InputError(Fault(WHERE, "is not seen by a worker", host, "give a folder that all nodes share"))
 
     def check(self, stored: Mapping[str, Any] | None) -> None:
-        """Raise :class:`~ballscrew.errors.InputError` if another sweep is there, and say how it differs."""
+        """Raise :class:`~ballscrew.basis.errors.InputError` if another sweep is there, and say how it differs."""
         remedy = f"choose another name, or remove {self.path}"
         differing = [] if stored is None else differences(stored, self.description)
         raise_if_any([Fault(WHERE, "holds another sweep", words, remedy) for words in differing])
@@ -299,7 +301,7 @@ class Store:
 
     def opened(self) -> xr.Dataset:
         """The dataset of a complete store; values are read, and compared with their checksums, when asked for."""
-        from ballscrew.sweeps.store_reading import checked_store
+        from ballscrew.engine.sweeps.store_reading import checked_store
 
         return xr.open_zarr(checked_store(self.path), chunks=None, consolidated=True)[self.variables]
 
@@ -335,7 +337,8 @@ def stopping_cleanly(store: Store) -> Generator[None]:
     """Remove temporary files when the work stops, and report how many blocks are finished.
 
     A full disk or a lost cluster raises :class:`UnfinishedSweepError`; an interrupt carries the text as a note. A file
-    in place of a folder raises :class:`~ballscrew.errors.InputError`: it may be one of the user, and is not removed.
+    in place of a folder raises :class:`~ballscrew.basis.errors.InputError`: it may be one of the user, and is not
+    removed.
     """
     try:
         yield

@@ -12,9 +12,9 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
-from ballscrew.errors import Fault, InputError
-from ballscrew.sweeps.store_plan import FORMAT, Blocks, checksum, is_plan, read_sealed
-from ballscrew.sweeps.store_rows import BYTES, FALSE, OTHER, OWN, WHERE, Content, cells_of, row, unreadable
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.engine.sweeps.store_plan import FORMAT, Blocks, checksum, is_plan, read_sealed
+from ballscrew.engine.sweeps.store_rows import BYTES, FALSE, OTHER, OWN, WHERE, Content, cells_of, row, unreadable
 
 #: The metadata of the dataset, and of each variable.
 ROOT = "zarr.json"
@@ -65,10 +65,12 @@ class Verification:
 def verify(store: str | os.PathLike[str]) -> Verification:
     """Read all files of the store of a sweep and compare size and CRC-32 with those noted when they were written.
 
-    Nothing is changed: the sweep that filled the store computes damaged blocks again
-    (``bs.sweep(…, to=…, verify=True)``, ``ballscrew sweep … --verify``). CRC-32 finds damage by accident, not a change
-    on purpose. Raises :class:`~ballscrew.errors.InputError` for a folder that is not the store of a sweep, whose plan
-    is damaged, or whose checksums cannot be read.
+    Returns a :class:`Verification` of the folder ``store``. Nothing is changed: the sweep that filled the store
+    computes damaged blocks again (``bs.sweep(…, to=…, verify=True)``, ``ballscrew sweep … --verify``). CRC-32 finds
+    damage by accident, not a change on purpose.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for a folder that is not the store of a sweep, whose plan is
+    damaged, or whose checksums cannot be read.
     """
     path = Path(store).absolute()
     document = stored_plan(path, foreign=_A_STORE, damaged=_A_COPY)
@@ -86,8 +88,8 @@ def verify(store: str | os.PathLike[str]) -> Verification:
 def stored_plan(folder: Path, *, foreign: str = "choose another name", damaged: str = OTHER) -> dict[str, Any] | None:
     """The document of the store in a folder; None where there is no store yet.
 
-    Raises :class:`~ballscrew.errors.InputError` where something else is, with the remedy ``foreign``, and for a plan
-    that is ``damaged``: it is not touched.
+    Raises :class:`~ballscrew.basis.errors.InputError` where something else is, with the remedy ``foreign``, and for a
+    plan that is ``damaged``: it is not touched.
     """
     path = folder / OWN / "plan.json"
     try:
@@ -139,7 +141,9 @@ class Noted:
     rows: Mapping[int, bytes]
 
     def check(self, key: str, content: Any) -> None:
-        """Raise :class:`~ballscrew.errors.InputError` for a file that is not as it was written; None is no file."""
+        """Raise :class:`~ballscrew.basis.errors.InputError` for a file that is not as it was written; None is no
+        file.
+        """
         noted = self._of(key)
         if noted is None:
             return
@@ -207,7 +211,7 @@ class Contents:
     def rows(self) -> dict[int, bytes]:
         """The rows of the finished blocks; damaged ones are left out.
 
-        Raises :class:`~ballscrew.errors.InputError` where nobody may read them: they may all be good.
+        Raises :class:`~ballscrew.basis.errors.InputError` where nobody may read them: they may all be good.
         """
         found: dict[int, bytes] = {}
         table = self.own / "blocks.csv"
@@ -340,7 +344,7 @@ class Contents:
     def noted(self) -> Noted:
         """Sizes and checksums by file, to compare what is read with.
 
-        Raises :class:`~ballscrew.errors.InputError` where they cannot be read.
+        Raises :class:`~ballscrew.basis.errors.InputError` where they cannot be read.
         """
         layout = None
         with contextlib.suppress(OSError, ValueError, TypeError):

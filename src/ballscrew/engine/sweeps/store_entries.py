@@ -7,16 +7,16 @@ import stat
 from collections.abc import Iterator
 from pathlib import Path
 
-from ballscrew.errors import Fault, InputError
-from ballscrew.sweeps.store_rows import OWN, WHERE, unreadable
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.engine.sweeps.store_rows import OWN, WHERE, unreadable
 
 
 def refuse_unsafe(folder: Path, *, trust: bool) -> None:
     """Check the folder of a store before anything is written into it.
 
     A link in it could lead a write to a file elsewhere, and the owner of a folder can replace any entry by a link at
-    any time. Raises :class:`~ballscrew.errors.InputError` for a link, and unless ``trust`` for a folder of another
-    user.
+    any time. Raises :class:`~ballscrew.basis.errors.InputError` for a link, and unless ``trust`` for a folder of
+    another user.
     """
     try:
         top = folder.lstat()

@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ballscrew.evaluation.outputs import attributes_of
-from ballscrew.evaluation.plan import Plan
-from ballscrew.sweeps.store_check import ROOT
-from ballscrew.sweeps.store_plan import Blocks
-from ballscrew.sweeps.store_rows import Content
+from ballscrew.engine.evaluation.outputs import attributes_of
+from ballscrew.engine.evaluation.plan import Plan
+from ballscrew.engine.sweeps.store_check import ROOT
+from ballscrew.engine.sweeps.store_plan import Blocks
+from ballscrew.engine.sweeps.store_rows import Content
 
 #: LZ4 with the bytes of equal weight side by side: a map of seven outputs takes 0.72 of its bytes, and
 #: a disk slower than a processor compresses has the less to do. Zstandard saves 0.02 more at most and

@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew._version import __version__
-from ballscrew.evaluation.fingerprint import Fingerprint, package_digest
-from ballscrew.evaluation.plan import Configuration, Plan
+from ballscrew.basis.version import __version__
+from ballscrew.engine.evaluation.fingerprint import Fingerprint, package_digest
+from ballscrew.engine.evaluation.plan import Configuration, Plan
 
 #: Version of the layout of a store.
 FORMAT = 3

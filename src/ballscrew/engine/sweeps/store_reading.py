@@ -8,13 +8,13 @@ from typing import Any
 
 from zarr.storage import LocalStore, WrapperStore
 
-from ballscrew.sweeps.store_check import Contents, Noted, stored_plan
+from ballscrew.engine.sweeps.store_check import Contents, Noted, stored_plan
 
 
 class CheckedStore(WrapperStore[LocalStore]):
     """The folder of a complete store, read only.
 
-    Reading raises :class:`~ballscrew.errors.InputError` for a file that is damaged, missing, or of another sweep.
+    Reading raises :class:`~ballscrew.basis.errors.InputError` for a file that is damaged, missing, or of another sweep.
     """
 
     async def get(self, key: str, prototype: Any, byte_range: Any = None) -> Any:

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ballscrew.errors import (
+from ballscrew.basis.errors import (
     Fault,
     InputError,
 )

@@ -12,15 +12,15 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ballscrew.errors import Fault, InputError
-from ballscrew.evaluation.engines import Engine
-from ballscrew.evaluation.evaluation import Evaluation
-from ballscrew.evaluation.plan import Plan
-from ballscrew.sweeps.cluster import check_cluster, fill_on_cluster
-from ballscrew.sweeps.lock import Lock
-from ballscrew.sweeps.store import Store, stopping_cleanly
-from ballscrew.sweeps.store_entries import refuse_unsafe
-from ballscrew.sweeps.store_rows import WHERE, Content
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.engine.evaluation.engines import Engine
+from ballscrew.engine.evaluation.evaluation import Evaluation
+from ballscrew.engine.evaluation.plan import Plan
+from ballscrew.engine.sweeps.cluster import check_cluster, fill_on_cluster
+from ballscrew.engine.sweeps.lock import Lock
+from ballscrew.engine.sweeps.store import Store, stopping_cleanly
+from ballscrew.engine.sweeps.store_entries import refuse_unsafe
+from ballscrew.engine.sweeps.store_rows import WHERE, Content
 
 #: Outputs of a block that are compressed and written at a time.
 WRITERS = 4
@@ -47,8 +47,9 @@ def stream(
     of the plan. ``done(finished, total)`` reports points, first those finished before.
     Blocks whose files are damaged are computed again, and the log tells. Of finished blocks sizes and checksums are
     compared before a run goes on, of a complete store sizes, with ``verify`` also checksums.
-    Raises :class:`~ballscrew.errors.InputError` if something else is there or another process
-    writes it, and :class:`~ballscrew.sweeps.store.UnfinishedSweepError` if the disk is full or the cluster is lost.
+    Raises :class:`~ballscrew.basis.errors.InputError` if something else is there or another process
+    writes it, and :class:`~ballscrew.engine.sweeps.store.UnfinishedSweepError` if the disk is full or the cluster is
+    lost.
     """
     if cluster is not None:
         check_cluster(cluster)

@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.nut import Nut
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, InputError, raise_if_any
-from ballscrew.evaluation.engines import SweepEngine
-from ballscrew.evaluation.evaluation import Evaluation
-from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.friction.model import FrictionModel
-from ballscrew.sweeps import accessor as accessor
-from ballscrew.sweeps.stream import stream
+from ballscrew.basis.errors import Fault, InputError, raise_if_any
+from ballscrew.engine.evaluation.engines import SweepEngine
+from ballscrew.engine.evaluation.evaluation import Evaluation
+from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.engine.sweeps import accessor as accessor
+from ballscrew.engine.sweeps.stream import stream
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.nut import Nut
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.model import FrictionModel
 
 if TYPE_CHECKING:
     import distributed
@@ -41,16 +41,15 @@ def sweep(
     trust: bool = False,
     **varied: Any,
 ) -> xr.Dataset:
-    """Evaluate a model over the values given, and return them with names, units and sources.
+    """Evaluate a model over the values given, and return a dataset of them with names, units and sources.
 
-    ``varied`` gives values to any field of the operating point (``axial_load`` and ``screw_speed``
-    are needed), the screw, the lubricant or the model, in SI; coefficients of laws as
-    ``**{"friction.boundary_friction_coefficient": [...]}``. A sequence becomes a dimension of its
-    own name; ``xarray.DataArray`` values that share a dimension vary together along it, so random
-    points are ``xr.DataArray(values, dims="point")``. The dataset has the dimensions in the order
-    given. Only the ``outputs`` asked for are kept (see
-    :func:`~ballscrew.evaluation.outputs.known_outputs`; a default handful otherwise). A ``nut``
-    takes the place of that of the screw; its fields are varied as ``**{"nut.preload": [...]}``.
+    ``model`` is evaluated on ``screw`` with ``lubricant``. ``varied`` gives values to any field of the operating point
+    (``axial_load`` and ``screw_speed`` are needed), the screw, the lubricant or the model, in SI; coefficients of laws
+    as ``**{"friction.boundary_friction_coefficient": [...]}``. A sequence becomes a dimension of its own name;
+    ``xarray.DataArray`` values that share a dimension vary together along it, so random points are
+    ``xr.DataArray(values, dims="point")``. The dataset has the dimensions in the order given. Only the ``outputs``
+    asked for are kept (see :func:`~ballscrew.engine.evaluation.outputs.known_outputs`; a default handful otherwise). A
+    ``nut`` takes the place of that of the screw; its fields are varied as ``**{"nut.preload": [...]}``.
 
     Work goes block by block on a few threads, of ``block_size`` points at most, and
     ``done(finished, total)`` reports the points.
@@ -71,9 +70,9 @@ def sweep(
     see the folder ``to`` under the same path. The blocks of a lost worker are evaluated again. Each block takes
     one thread unless ``threads`` says otherwise. It needs the extra ``cluster``.
 
-    Raises :class:`~ballscrew.errors.InputError` for unknown names and missing or bad values, and for
+    Raises :class:`~ballscrew.basis.errors.InputError` for unknown names and missing or bad values, and for
     a folder that holds something else or that another process writes into; and
-    :class:`~ballscrew.sweeps.store.UnfinishedSweepError` when the disk is full or the cluster is lost.
+    :class:`~ballscrew.engine.sweeps.store.UnfinishedSweepError` when the disk is full or the cluster is lost.
     """
     counts = {"block_size": block_size, "threads": threads}
     raise_if_any(

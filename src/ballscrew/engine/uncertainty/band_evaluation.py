@@ -9,19 +9,19 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.equations import transmission
-from ballscrew.errors import (
+from ballscrew.basis.errors import (
     Fault,
     fault_of,
     nearest,
 )
-from ballscrew.evaluation.comparison import Candidate
-from ballscrew.evaluation.engines import Engine, engine_faults
-from ballscrew.evaluation.outputs import OPERATION, known_outputs
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.friction import directions
-from ballscrew.uncertainty.distributions import Distribution, distribution_fault, within
-from ballscrew.uncertainty.sampling import Joint, Sampler, sobol_sequence
+from ballscrew.engine.evaluation.comparison import Candidate
+from ballscrew.engine.evaluation.engines import Engine, engine_faults
+from ballscrew.engine.evaluation.outputs import OPERATION, known_outputs
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.uncertainty.distributions import Distribution, distribution_fault, within
+from ballscrew.engine.uncertainty.sampling import Joint, Sampler, sobol_sequence
+from ballscrew.physics.equations import transmission
+from ballscrew.physics.friction import directions
 
 #: How the outputs begin that say for which reason a sample is not valid.
 VALIDITY = "validity_"

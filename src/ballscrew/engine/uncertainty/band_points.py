@@ -11,11 +11,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ballscrew.evaluation.comparison import Candidate
-from ballscrew.evaluation.engines import Engine
-from ballscrew.evaluation.evaluation import Evaluation
-from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.uncertainty.band_evaluation import (
+from ballscrew.engine.evaluation.comparison import Candidate
+from ballscrew.engine.evaluation.engines import Engine
+from ballscrew.engine.evaluation.evaluation import Evaluation
+from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.engine.uncertainty.band_evaluation import (
     DERIVED_OUTPUTS,
     BandEvaluator,
     Sample,
@@ -26,8 +26,8 @@ from ballscrew.uncertainty.band_evaluation import (
     sample_probabilities,
     tails,
 )
-from ballscrew.uncertainty.distributions import Distribution, within
-from ballscrew.uncertainty.sampling import Joint
+from ballscrew.engine.uncertainty.distributions import Distribution, within
+from ballscrew.engine.uncertainty.sampling import Joint
 
 #: Samples of all points that are evaluated at a time: with twenty inputs they take about forty megabytes.
 _AT_A_TIME = 2**18
@@ -70,7 +70,9 @@ def bands_of(
     engine: Engine | None,
     done: Callable[[int], None] | None = None,
 ) -> PointBands:
-    """The bands of :func:`~ballscrew.uncertainty.bands.band` at the points of a group; ``done`` gets the samples."""
+    """The bands of :func:`~ballscrew.engine.uncertainty.bands.band` at the points of a group; ``done`` gets the
+    samples.
+    """
     computed = evaluated_outputs(outputs)
     evaluator = BandEvaluator.of(
         group.subject, group.uncertain[0], group.joints[0], group.values, group.alternatives, engine, computed

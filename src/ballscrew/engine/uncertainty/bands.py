@@ -13,19 +13,13 @@ from typing import Any, NamedTuple, overload
 import numpy as np
 import xarray as xr
 
-from ballscrew._displayed import Displayed
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, accepts_units, nearest, raise_if_any
-from ballscrew.evaluation.comparison import Candidate
-from ballscrew.evaluation.engines import Engine
-from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.friction import directions
-from ballscrew.friction.model import (
-    FrictionModel,
-)
-from ballscrew.quantities import AngularSpeed, Force
-from ballscrew.uncertainty.band_evaluation import (
+from ballscrew.basis.displayed import Displayed
+from ballscrew.basis.errors import Fault, accepts_units, nearest, raise_if_any
+from ballscrew.basis.quantities import AngularSpeed, Force
+from ballscrew.engine.evaluation.comparison import Candidate
+from ballscrew.engine.evaluation.engines import Engine
+from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.engine.uncertainty.band_evaluation import (
     DERIVED_OUTPUTS,
     POSITIVE,
     VALIDITY,
@@ -41,9 +35,15 @@ from ballscrew.uncertainty.band_evaluation import (
     sample_probabilities,
     tails,
 )
-from ballscrew.uncertainty.band_points import PointGroup, bands_of
-from ballscrew.uncertainty.distributions import Distribution
-from ballscrew.uncertainty.sampling import Joint
+from ballscrew.engine.uncertainty.band_points import PointGroup, bands_of
+from ballscrew.engine.uncertainty.distributions import Distribution
+from ballscrew.engine.uncertainty.sampling import Joint
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction import directions
+from ballscrew.physics.friction.model import (
+    FrictionModel,
+)
 
 #: The ends of an interval, as the names of variables in a dataset end.
 ENDS = ("low", "high")
@@ -171,29 +171,32 @@ def band(
     done: Callable[[int, int], None] | None = None,
     **varied: Any,
 ) -> Band | xr.Dataset:
-    """Intervals of outputs for uncertain inputs and alternative laws.
+    """Intervals of outputs for uncertain inputs and alternative laws: a :class:`Band`, or a dataset over axes.
 
-    ``uncertain`` names inputs as :func:`~ballscrew.sweeps.sweep.sweep` does; they are independent, but for those of
-    ``joint``. Each distribution is cut at the bounds of its quantity. The load in N and the speed in rad/s are the
-    central ones; either may be among the uncertain.
+    ``model``, ``screw`` and ``lubricant`` have the central values. ``uncertain`` names inputs as
+    :func:`~ballscrew.engine.sweeps.sweep.sweep` does; they are independent, but for those of ``joint``. Each
+    distribution is cut at the bounds of its quantity. ``axial_load`` (N) and ``screw_speed`` (rad/s) are the central
+    ones; either may be among the uncertain.
 
     ``alternatives`` are models with one law changed. Of those that count and are valid at the central values, each
     has as good a chance as the model's own law of the slot, slots are independent, and a law moves the torque by the
     same factor everywhere. Without alternatives the band is that of the inputs alone.
 
-    ``outputs`` are of :data:`~ballscrew.uncertainty.band_evaluation.BAND_OUTPUTS`: the friction torque and quantities
-    that follow from it.
-    ``samples`` is 2^14, and 2^10 for a nut whose balls differ by default; a power of two is spread the most evenly.
-    The same seed gives the same band.
+    ``outputs`` are of :data:`~ballscrew.engine.uncertainty.band_evaluation.BAND_OUTPUTS`: the friction torque and
+    quantities that follow from it. ``samples`` is 2^14, and 2^10 for a nut whose balls differ by default; a power of
+    two is spread the most evenly. The same ``seed`` gives the same band. ``level`` is the share of the samples between
+    the ends of an interval. ``engine`` is ``"numpy"`` or ``"compiled"``; without it the size of the work decides.
+    ``done(finished, total)`` is told the samples evaluated. With ``keep_samples`` the :class:`Band` has the inputs and
+    outputs of all samples.
 
-    A load, a speed or ``varied`` inputs of several values are axes, as of :func:`~ballscrew.sweeps.sweep.sweep`. Then
-    the result is a dataset over them that has of each output ``x`` the value ``x`` and the ends ``x_low`` and
-    ``x_high``, the ``invalid_share`` of the samples, and its attributes ``band_level``, ``band_samples`` and
-    ``band_seed``. At each point they are those of the band there: all points have the same random numbers. What is an
-    axis is exact there.
+    A load, a speed or ``varied`` inputs of several values are axes, as of
+    :func:`~ballscrew.engine.sweeps.sweep.sweep`. Then the result is a dataset over them that has of each output ``x``
+    the value ``x`` and the ends ``x_low`` and ``x_high``, the ``invalid_share`` of the samples, and its attributes
+    ``band_level``, ``band_samples`` and ``band_seed``. At each point they are those of the band there: all points have
+    the same random numbers. What is an axis is exact there.
 
-    Raises :class:`~ballscrew.errors.InputError` for unknown names, numbers out of bounds and an engine that cannot
-    be had.
+    Raises :class:`~ballscrew.basis.errors.InputError` for unknown names, numbers out of bounds and an engine that
+    cannot be had.
     """
     count = samples if samples is not None else NUT_SAMPLES if screw.nut.one_by_one else SAMPLES
     outputs = (outputs,) if isinstance(outputs, str) else tuple(dict.fromkeys(outputs))
@@ -323,7 +326,7 @@ def band_along(
     As :func:`band`, with the same samples at all points; what it goes along is exact there. ``samples`` is an eighth
     of that of :func:`band` by default.
 
-    Raises :class:`~ballscrew.errors.InputError` as :func:`band` does.
+    Raises :class:`~ballscrew.basis.errors.InputError` as :func:`band` does.
     """
     count = samples if samples is not None else (NUT_SAMPLES if screw.nut.one_by_one else SAMPLES) // 8
     subject = Configuration(model, screw, lubricant)

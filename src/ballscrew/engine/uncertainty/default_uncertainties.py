@@ -11,13 +11,13 @@ from collections.abc import Collection, Mapping
 from importlib import resources
 from typing import Any
 
-from ballscrew.components.materials import TEMPERATURE, Lubricant
-from ballscrew.components.screw import BallScrew
-from ballscrew.components.traits import traits_of
-from ballscrew.evaluation.outputs import inputs_of
-from ballscrew.friction.model import FrictionModel
-from ballscrew.quantities import Info
-from ballscrew.uncertainty.distributions import Distribution, LogNormal, Normal, Uniform, within
+from ballscrew.basis.quantities import Info
+from ballscrew.engine.evaluation.outputs import inputs_of
+from ballscrew.engine.uncertainty.distributions import Distribution, LogNormal, Normal, Uniform, within
+from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.components.traits import traits_of
+from ballscrew.physics.friction.model import FrictionModel
 
 #: Half the width of the interval that holds 95 % of a normal distribution, in standard deviations.
 NORMAL_95 = 1.959963984540054

@@ -12,10 +12,9 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import TypeAlias, get_args
 
-from ballscrew._arrays import namespace
-from ballscrew._deprecated import RenamedAttribute
-from ballscrew.errors import Fault, as_float, is_concrete, nearest, raise_if_any
-from ballscrew.quantities import Array, Info, Quantity
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.errors import Fault, as_float, is_concrete, nearest, raise_if_any
+from ballscrew.basis.quantities import Array, Info, Quantity
 
 #: Wichura 1988, algorithm AS 241, PPND16: numerator and denominator by rising powers.
 #: In 0.425² − q², q = u − ½, where |q| ≤ 0.425.
@@ -58,9 +57,9 @@ UNREACHED = 2.0**-64
 
 @dataclasses.dataclass(frozen=True)
 class Uniform:
-    """Every value between two ends is as likely as any other.
+    """Every value between two ends, ``low`` and ``high``, is as likely as any other.
 
-    Raises :class:`~ballscrew.errors.InputError` unless low < high.
+    Raises :class:`~ballscrew.basis.errors.InputError` unless low < high.
     """
 
     low: float
@@ -70,11 +69,8 @@ class Uniform:
         raise_if_any(_faults_of_numbers("uniform", self) or _faults_of_order("uniform", self.low, self.high))
 
     def quantile(self, u: Array) -> Array:
-        """``low + (high − low) u`` for u in (0, 1), in the shape of u."""
+        """``low + (high − low) u`` for ``u`` in (0, 1), in the shape of u."""
         return self.low + (self.high - self.low) * u
-
-    telling = RenamedAttribute("telling", "characteristic_values")
-    words = RenamedAttribute("words", "describe")
 
     @property
     def characteristic_values(self) -> tuple[float, ...]:
@@ -82,16 +78,16 @@ class Uniform:
         return self.low, self.high
 
     def describe(self, unit: str) -> str:
-        """The distribution as a phrase."""
+        """The distribution as a phrase; ``unit`` is that of its numbers, as it is written."""
         return f"uniform from {_shown(self.low, unit)} to {_shown(self.high, unit)}"
 
 
 @dataclasses.dataclass(frozen=True)
 class Normal:
-    """The normal distribution by its mean and standard deviation, which may be cut off at ends.
+    """The normal distribution by its ``mean`` and standard ``deviation``, perhaps cut off at ``low`` and ``high``.
 
     Without ends its tails go beyond the bounds of an input, where values are invalid; see :func:`within`.
-    Raises :class:`~ballscrew.errors.InputError` unless the deviation is positive and the mean between the ends.
+    Raises :class:`~ballscrew.basis.errors.InputError` unless the deviation is positive and the mean between the ends.
     """
 
     mean: float
@@ -113,7 +109,7 @@ class Normal:
         raise_if_any(faults or _faults_of_ends("normal", self.mean, self.low, self.high))
 
     def quantile(self, u: Array) -> Array:
-        """``mean + deviation Φ⁻¹(s)`` for u in (0, 1), in the shape of u; see :func:`standard_normal_quantile`.
+        """``mean + deviation Φ⁻¹(s)`` for ``u`` in (0, 1), in the shape of u; see :func:`standard_normal_quantile`.
 
         s = u without ends; with ends ``s = Φ(a) + (Φ(b) − Φ(a)) u``, a and b the ends as multiples of the deviation.
         """
@@ -121,11 +117,8 @@ class Normal:
         return _not_beyond(self.mean + self.deviation * standard_normal_quantile(share), self.low, self.high)
 
     def in_deviations(self, *values: float) -> tuple[float, ...]:
-        """Standard scores of values: deviations from the mean in standard deviations."""
+        """Standard scores of ``values``: deviations from the mean in standard deviations."""
         return tuple((value - self.mean) / self.deviation for value in values)
-
-    telling = RenamedAttribute("telling", "characteristic_values")
-    words = RenamedAttribute("words", "describe")
 
     @property
     def characteristic_values(self) -> tuple[float, ...]:
@@ -133,7 +126,7 @@ class Normal:
         return (self.mean,)
 
     def describe(self, unit: str) -> str:
-        """The distribution as a phrase."""
+        """The distribution as a phrase; ``unit`` is that of its numbers, as it is written."""
         cut = _describe_ends(self.low, self.high, unit)
         return f"normal, mean {_shown(self.mean, unit)}, standard deviation {_shown(self.deviation, unit)}{cut}"
 
@@ -142,9 +135,9 @@ class Normal:
 class LogNormal:
     """The logarithm is normal: about two thirds of the values lie between median/factor and median·factor.
 
-    The factor is exp of the standard deviation of the logarithm. It may be cut off at ends; the median is that
-    without them. Raises :class:`~ballscrew.errors.InputError` unless the median is positive and between the ends,
-    and the factor above 1.
+    The ``factor`` is exp of the standard deviation of the logarithm. It may be cut off at ends, ``low`` and ``high``;
+    the ``median`` is that without them. Raises :class:`~ballscrew.basis.errors.InputError` unless the median is
+    positive and between the ends, and the factor above 1.
     """
 
     median: float
@@ -162,7 +155,7 @@ class LogNormal:
         raise_if_any(faults or _faults_of_ends("log_normal", self.median, self.low, self.high))
 
     def quantile(self, u: Array) -> Array:
-        """``median factor^Φ⁻¹(s)`` for u in (0, 1), in the shape of u; see :func:`standard_normal_quantile`.
+        """``median factor^Φ⁻¹(s)`` for ``u`` in (0, 1), in the shape of u; see :func:`standard_normal_quantile`.
 
         s is that of :meth:`Normal.quantile`, with the ends of the logarithm.
         """
@@ -171,7 +164,7 @@ class LogNormal:
         return _not_beyond(values, self.low, self.high)
 
     def in_deviations(self, *values: float) -> tuple[float, ...]:
-        """Standard scores of the logarithms of values."""
+        """Standard scores of the logarithms of ``values``."""
         width = math.log(self.factor)
         return tuple(-math.inf if value <= 0 else self._log_ratio(value) / width for value in values)
 
@@ -181,25 +174,22 @@ class LogNormal:
             return math.log(ratio)
         return math.log(value) - math.log(self.median)  # the least number there is, over a large one
 
-    telling = RenamedAttribute("telling", "characteristic_values")
-    words = RenamedAttribute("words", "describe")
-
     @property
     def characteristic_values(self) -> tuple[float, ...]:
         """The median: what any bound must leave room for."""
         return (self.median,)
 
     def describe(self, unit: str) -> str:
-        """The distribution as a phrase."""
+        """The distribution as a phrase; ``unit`` is that of its numbers, as it is written."""
         cut = _describe_ends(self.low, self.high, unit)
         return f"log-normal, median {_shown(self.median, unit)}, factor {_shown(self.factor, '1')}{cut}"
 
 
 @dataclasses.dataclass(frozen=True)
 class Triangular:
-    """The density rises in a straight line from the low end to the mode, and falls to the high end.
+    """The density rises in a straight line from the ``low`` end to the ``mode``, and falls to the ``high`` end.
 
-    Raises :class:`~ballscrew.errors.InputError` unless low ≤ mode ≤ high and low < high.
+    Raises :class:`~ballscrew.basis.errors.InputError` unless low ≤ mode ≤ high and low < high.
     """
 
     low: float
@@ -214,7 +204,7 @@ class Triangular:
         raise_if_any(faults)
 
     def quantile(self, u: Array) -> Array:
-        """The value for u in (0, 1), in the shape of u.
+        """The value for ``u`` in (0, 1), in the shape of u.
 
         ``low + √(u (high − low)(mode − low))`` up to the mode,
         ``high − √((1 − u)(high − low)(high − mode))`` beyond.
@@ -225,16 +215,13 @@ class Triangular:
         falling = self.high - xp.sqrt(width * above * (1 - u))
         return xp.where(u < below / width, rising, falling)[()]
 
-    telling = RenamedAttribute("telling", "characteristic_values")
-    words = RenamedAttribute("words", "describe")
-
     @property
     def characteristic_values(self) -> tuple[float, ...]:
         """The ends: what any bound must leave room for."""
         return self.low, self.high
 
     def describe(self, unit: str) -> str:
-        """The distribution as a phrase."""
+        """The distribution as a phrase; ``unit`` is that of its numbers, as it is written."""
         low, mode, high = (_shown(value, unit) for value in (self.low, self.mode, self.high))
         return f"triangular from {low} to {high}, mode {mode}"
 
@@ -253,8 +240,8 @@ def scaled(distribution: Distribution, factor: float) -> Distribution:
 def within(distribution: Distribution, info: Info) -> Distribution:
     """The distribution, its tails cut off at the bounds of a quantity; those of others are left as they are.
 
-    Where no sample could be beyond a bound, there is no end. Raises :class:`~ballscrew.errors.InputError` where the
-    mean or the median is out of bounds.
+    Where no sample could be beyond a bound, there is no end. Raises :class:`~ballscrew.basis.errors.InputError` where
+    the mean or the median is out of bounds.
     """
     if not isinstance(distribution, Normal | LogNormal):
         return distribution

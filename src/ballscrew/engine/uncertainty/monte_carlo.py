@@ -1,7 +1,7 @@
 """Monte Carlo: what the uncertainty of the inputs makes of the results, without keeping a sample.
 
-The number of a sample is enough to know its random numbers (:mod:`ballscrew.kernels.random`), and a
-sketch is enough to know how results are distributed (:mod:`ballscrew.kernels.sketch`). So samples
+The number of a sample is enough to know its random numbers (:mod:`ballscrew.compiler.kernels.random`), and a
+sketch is enough to know how results are distributed (:mod:`ballscrew.compiler.kernels.sketch`). So samples
 are made, evaluated and counted a few thousand at a time, and nothing grows with their number.
 """
 
@@ -15,12 +15,16 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ballscrew._arrays import blocks, map_blocks
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import MISSING, Fault, InputError, raise_if_any
-from ballscrew.evaluation.by_ball import BLOCK_OF_BALLS, ByBall, by_ball
-from ballscrew.evaluation.engines import (
+from ballscrew.basis.arrays import blocks, map_blocks
+from ballscrew.basis.errors import MISSING, Fault, InputError, raise_if_any
+from ballscrew.compiler.kernels import random
+from ballscrew.compiler.kernels.emission import UnknownOperationError, kernel_text
+from ballscrew.compiler.kernels.kernel import Kernel
+from ballscrew.compiler.kernels.sketch import UNIT, Moments, Sketch
+from ballscrew.compiler.tracing.program import Program, Source
+from ballscrew.compiler.tracing.tape import CannotRecordError, Tape
+from ballscrew.engine.evaluation.by_ball import BLOCK_OF_BALLS, ByBall, by_ball
+from ballscrew.engine.evaluation.engines import (
     ASKED_FOR,
     PAYS,
     Engine,
@@ -29,18 +33,14 @@ from ballscrew.evaluation.engines import (
     why_numpy,
     worth_compiling,
 )
-from ballscrew.evaluation.outputs import OPERATION, attributes_of
-from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.friction.model import (
+from ballscrew.engine.evaluation.outputs import OPERATION, attributes_of
+from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.engine.uncertainty.distributions import Distribution, distribution_fault
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.model import (
     FrictionModel,
 )
-from ballscrew.kernels import random
-from ballscrew.kernels.emission import UnknownOperationError, kernel_text
-from ballscrew.kernels.kernel import Kernel
-from ballscrew.kernels.sketch import UNIT, Moments, Sketch
-from ballscrew.tracing.program import Program, Source
-from ballscrew.tracing.tape import CannotRecordError, Tape
-from ballscrew.uncertainty.distributions import Distribution, distribution_fault
 
 #: Samples of a block, which is evaluated on one thread and whose sums are merged in the order of the
 #: blocks; and how many of them NumPy evaluates at a time. Whole units, for the sake of the sums.
@@ -68,24 +68,25 @@ def monte_carlo(
     done: Callable[[int, int], None] | None = None,
     **fixed: Any,
 ) -> xr.Dataset:
-    """Evaluate a model over random samples of its inputs, and return how its results are distributed.
+    """Evaluate a model over random samples of its inputs, and return how its results are distributed, as a dataset.
 
-    ``distributions`` names uncertain inputs as :func:`~ballscrew.sweeps.sweep.sweep` names what it
-    varies, ``fixed`` gives single numbers to others; between them they have ``axial_load`` and
-    ``screw_speed``. Inputs are independent of each other. Sample i of input j, in the order of the
-    mapping, is the quantile of a uniform number that depends on i, j and the ``seed`` alone: the
-    dataset is the same to the last bit for any number of threads, and engines agree to rounding.
+    ``model``, ``screw`` and ``lubricant`` have the values of all other inputs. ``distributions`` names uncertain inputs
+    as :func:`~ballscrew.engine.sweeps.sweep.sweep` names what it varies, ``fixed`` gives single numbers to others;
+    between them they have ``axial_load`` and ``screw_speed``. Inputs are independent of each other. Of ``samples``
+    samples, sample i of input j, in the order of the mapping, is the quantile of a uniform number that depends on i, j
+    and the ``seed`` alone: the dataset is the same to the last bit for any number of ``threads``, and engines agree to
+    rounding. ``outputs`` are named as those of a sweep.
 
-    Of each output ``x`` that is a number the dataset has ``x_mean``, ``x_standard_deviation``,
-    ``x_minimum``, ``x_maximum``, ``x_quantiles`` along ``quantile`` (to 0.05 %, see
-    :meth:`~ballscrew.kernels.sketch.Sketch.quantile`) and ``x_missing_share``, that of samples which
-    are NaN and left out of the others; of each that is true or not, ``x_share``, where it is true.
-    ``invalid_share`` is that of samples that are not valid; an input beyond its bounds is a reason
-    too. They are counted in all the same, as a sweep returns them.
+    Of each output ``x`` that is a number the dataset has ``x_mean``, ``x_standard_deviation``, ``x_minimum``,
+    ``x_maximum``, ``x_quantiles`` along ``quantile`` (the shares ``quantiles``, to 0.05 %, see
+    :meth:`~ballscrew.compiler.kernels.sketch.Sketch.quantile`) and ``x_missing_share``, that of samples which are NaN
+    and left out of the others; of each that is true or not, ``x_share``, where it is true. ``invalid_share`` is that of
+    samples that are not valid; an input beyond its bounds is a reason too. They are counted in all the same, as a sweep
+    returns them.
 
     The ``engine`` is chosen by the size of the work; ``done(finished, total)`` is told the progress.
 
-    Raises :class:`~ballscrew.errors.InputError` for unknown names, missing or bad values, and an
+    Raises :class:`~ballscrew.basis.errors.InputError` for unknown names, missing or bad values, and an
     engine that cannot be had.
     """
     subject = Configuration(model, screw, lubricant)

@@ -1,6 +1,6 @@
 """Morris screening: elementary effects of any function of independent inputs, for few evaluations.
 
-The function takes shares, as in :mod:`ballscrew.uncertainty.sobol`.
+The function takes shares, as in :mod:`ballscrew.engine.uncertainty.sobol`.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.uncertainty.sampling import sobol_sequence
-from ballscrew.uncertainty.sobol import (
+from ballscrew.engine.uncertainty.sampling import sobol_sequence
+from ballscrew.engine.uncertainty.sobol import (
     Estimate,
     Function,
     finite,
@@ -59,7 +59,7 @@ def elementary_effects(
     a linear function are its slopes times the deviations.
 
     Intervals hold with probability ``level``, by a bootstrap of the trajectories. Trajectories without a
-    finite number are left out. Raises :class:`~ballscrew.errors.InputError` if they are more than a tenth.
+    finite number are left out. Raises :class:`~ballscrew.basis.errors.InputError` if they are more than a tenth.
     """
     rng = np.random.default_rng([seed, inputs])
     start = np.minimum((sobol_sequence(inputs, trajectories, seed) * LEVELS).astype(int), LEVELS - 1)

@@ -7,13 +7,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.screw import BallScrew
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.friction.model import FrictionModel
-from ballscrew.quantities import AngularSpeed, Force
-from ballscrew.uncertainty.distributions import Distribution, within
-from ballscrew.uncertainty.sampling import Sampler
+from ballscrew.basis.quantities import AngularSpeed, Force
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.uncertainty.distributions import Distribution, within
+from ballscrew.engine.uncertainty.sampling import Sampler
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.model import FrictionModel
 
 
 class Swing(NamedTuple):
@@ -49,7 +49,7 @@ def one_at_a_time(
 
     The ends of an input leave ``(1 - level) / 2`` of its distribution below and above. It costs two evaluations for
     each input. What inputs do together, and the correlation that a fit leaves, is not in it: their sum is no band.
-    Swings without a number come last. Raises :class:`~ballscrew.errors.InputError` for unknown names.
+    Swings without a number come last. Raises :class:`~ballscrew.basis.errors.InputError` for unknown names.
     """
     if not uncertain:
         return ()

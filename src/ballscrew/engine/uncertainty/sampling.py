@@ -13,10 +13,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ballscrew.evaluation.engines import Engine
-from ballscrew.evaluation.evaluation import Evaluation
-from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.uncertainty.distributions import Distribution, allowed, standard_normal_quantile
+from ballscrew.engine.evaluation.engines import Engine
+from ballscrew.engine.evaluation.evaluation import Evaluation
+from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.engine.uncertainty.distributions import Distribution, allowed, standard_normal_quantile
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -78,7 +78,7 @@ Joint: TypeAlias = JointNormal | JointSamples | JointParts
 class Sampler:
     """A model on a screw, its uncertain inputs, the numbers given to others, and what is wanted of it.
 
-    Inputs are named as in :func:`~ballscrew.sweeps.sweep.sweep`. Those of ``joint`` depend on each other.
+    Inputs are named as in :func:`~ballscrew.engine.sweeps.sweep.sweep`. Those of ``joint`` depend on each other.
     """
 
     subject: Configuration
@@ -109,7 +109,7 @@ class Sampler:
     ) -> dict[str, NDArray[Any]]:
         """The outputs for shares of shape (inputs, samples), by name.
 
-        Raises :class:`~ballscrew.errors.InputError` for unknown names and values that are refused.
+        Raises :class:`~ballscrew.basis.errors.InputError` for unknown names and values that are refused.
         """
         axes = {name: xr.DataArray(drawn, dims="sample") for name, drawn in self.inputs_at(shares).items()}
         plan = Plan.of(self.subject, self.outputs, {**self.fixed, **axes}, "samples")

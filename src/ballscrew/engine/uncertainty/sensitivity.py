@@ -11,19 +11,18 @@ from typing import Any, Literal, NamedTuple, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew._deprecated import RenamedAttribute
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, InputError, nearest, raise_if_any
-from ballscrew.evaluation.derivatives import JAX_INSTEAD, derivatives
-from ballscrew.evaluation.outputs import known_outputs
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.friction.model import FrictionModel
-from ballscrew.quantities import Quantity
-from ballscrew.uncertainty.distributions import Distribution, distribution_fault
-from ballscrew.uncertainty.morris import elementary_effects
-from ballscrew.uncertainty.sampling import Sampler
-from ballscrew.uncertainty.sobol import EXPLAINED, Estimate, sobol_indices
+from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
+from ballscrew.basis.quantities import Quantity
+from ballscrew.engine.evaluation.derivatives import JAX_INSTEAD, derivatives
+from ballscrew.engine.evaluation.outputs import known_outputs
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.uncertainty.distributions import Distribution, distribution_fault
+from ballscrew.engine.uncertainty.morris import elementary_effects
+from ballscrew.engine.uncertainty.sampling import Sampler
+from ballscrew.engine.uncertainty.sobol import EXPLAINED, Estimate, sobol_indices
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.model import FrictionModel
 
 #: How sensitivities can be had.
 Method = Literal["sobol", "morris", "local"]
@@ -55,8 +54,6 @@ class ExplainedVariance(NamedTuple):
     inputs: tuple[str, ...]
     remaining: float
 
-    left = RenamedAttribute("left", "remaining")
-
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Sensitivity:
@@ -81,8 +78,6 @@ class Sensitivity:
     evaluations: int
     #: Samples (trajectories) that were left out, as they have no finite number somewhere.
     left_out: int = 0
-
-    knowing = RenamedAttribute("knowing", "explained_variance")
 
     @property
     def first_order(self) -> Mapping[str, Estimate]:
@@ -136,19 +131,20 @@ def sensitivity(
     done: Callable[[int, int], None] | None = None,
     **fixed: Any,
 ) -> Sensitivity:
-    r"""Sensitivity of an ``output`` to the ``uncertain`` inputs.
+    r"""Sensitivity of an ``output`` to the ``uncertain`` inputs: a :class:`Sensitivity`.
 
-    ``uncertain`` names inputs as :func:`~ballscrew.sweeps.sweep.sweep` does, ``fixed`` gives numbers
-    to others; between them they have ``axial_load`` and ``screw_speed``. Inputs are independent of each
-    other and stay within their bounds.
+    ``model``, ``screw`` and ``lubricant`` have the values of all other inputs. ``uncertain`` names inputs as
+    :func:`~ballscrew.engine.sweeps.sweep.sweep` does, ``fixed`` gives numbers to others; between them they have
+    ``axial_load`` and ``screw_speed``. Inputs are independent of each other and stay within their bounds. The
+    ``method`` is one of three:
 
     * ``"sobol"``: shares of the variance of the output, first-order and total
-      (:func:`~ballscrew.uncertainty.sobol.sobol_indices`), from ``samples`` (inputs + 2) evaluations and at
+      (:func:`~ballscrew.engine.uncertainty.sobol.sobol_indices`), from ``samples`` (inputs + 2) evaluations and at
       most as many again for ``explained_variance``; ``samples`` is a power of two.
     * ``"morris"``: the mean absolute effect of an input along ``samples`` trajectories, and the
-      deviation of its effects (:func:`~ballscrew.uncertainty.morris.elementary_effects`), from ``samples``
+      deviation of its effects (:func:`~ballscrew.engine.uncertainty.morris.elementary_effects`), from ``samples``
       (inputs + 1) evaluations.
-    * ``"local"``: exact derivatives (:func:`~ballscrew.evaluation.derivatives.derivatives`) at the medians
+    * ``"local"``: exact derivatives (:func:`~ballscrew.engine.evaluation.derivatives.derivatives`) at the medians
       of the inputs times their standard deviations, :math:`e_i = \sigma_i\,\partial y/\partial x_i`, and
       the shares :math:`e_i^2/\sum_j e_j^2` they would have if the output were its tangent.
 
@@ -156,7 +152,7 @@ def sensitivity(
     all methods say the same. The same ``seed`` gives the same numbers. Intervals hold with
     probability ``level``. ``done(finished, total)`` is told the evaluations.
 
-    Raises :class:`~ballscrew.errors.InputError` for unknown names, bad values, an output that is true or
+    Raises :class:`~ballscrew.basis.errors.InputError` for unknown names, bad values, an output that is true or
     false or that has no finite value in more than a tenth of the samples, and where there are no derivatives.
     """
     subject = Configuration(model, screw, lubricant)

@@ -1,7 +1,7 @@
 """Sobol' indices: shares of the variance of any function of independent inputs.
 
 The function takes shares, numbers between 0 and 1, of shape (inputs, samples), as
-:mod:`ballscrew.uncertainty.sampling` makes them, and returns one number for each sample.
+:mod:`ballscrew.engine.uncertainty.sampling` makes them, and returns one number for each sample.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.errors import Fault, InputError
-from ballscrew.uncertainty.sampling import sobol_sequence
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.engine.uncertainty.sampling import sobol_sequence
 
 #: One number for each sample of shares of shape (inputs, samples).
 Function = Callable[[NDArray[np.float64]], NDArray[np.float64]]
@@ -83,7 +83,7 @@ def sobol_indices(function: Function, inputs: int, samples: int, seed: int = 0, 
     :math:`l_u^2 = E[(f(B) - f(A_B^u))^2]/2V` (Jansen 1999, Computer Physics Communications 117, 35–43), so
     that what inputs do together counts.
 
-    Samples without a finite number are left out. Raises :class:`~ballscrew.errors.InputError` if they are
+    Samples without a finite number are left out. Raises :class:`~ballscrew.basis.errors.InputError` if they are
     more than a tenth.
     """
     shares = sobol_sequence(2 * inputs, samples, seed)

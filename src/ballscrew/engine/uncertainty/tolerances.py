@@ -6,7 +6,7 @@ import bisect
 import math
 from collections.abc import Mapping
 
-from ballscrew.quantities import Length, Ratio
+from ballscrew.basis.quantities import Length, Ratio
 
 #: Ends of the size steps, mm (ISO286-1). The first step counts from 1 mm.
 SIZE_STEPS = (1, 3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500)

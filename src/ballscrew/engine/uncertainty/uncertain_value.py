@@ -12,12 +12,12 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
-from ballscrew import units
-from ballscrew.errors import Fault, InputError, fault_of, nearest
-from ballscrew.quantities import Quantity
-from ballscrew.uncertainty.default_uncertainties import NORMAL_95
-from ballscrew.uncertainty.distributions import Distribution, LogNormal, Normal, Triangular, Uniform, within
-from ballscrew.uncertainty.tolerances import BALL_LOT_VARIATION, TRAVEL_VARIATION, standard_tolerance
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError, fault_of, nearest
+from ballscrew.basis.quantities import Quantity
+from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
+from ballscrew.engine.uncertainty.distributions import Distribution, LogNormal, Normal, Triangular, Uniform, within
+from ballscrew.engine.uncertainty.tolerances import BALL_LOT_VARIATION, TRAVEL_VARIATION, standard_tolerance
 
 
 @dataclasses.dataclass(frozen=True)

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.calibration.robust import (
+from ballscrew.evidence.calibration.robust import (
     Loss,
     Vector,
     biweight,
@@ -117,7 +117,7 @@ def efficiency_pair(conditions: Conditions, torque: Vector) -> Baseline:
 
 
 def robust_linear(columns: Vector, values: Vector) -> tuple[Vector, float]:
-    """Coefficients of a linear model by the two losses of :mod:`~ballscrew.calibration.robust`.
+    """Coefficients of a linear model by the two losses of :mod:`~ballscrew.evidence.calibration.robust`.
 
     With them the root of the first loss, in the unit of the values. Iteratively reweighted least squares.
     """

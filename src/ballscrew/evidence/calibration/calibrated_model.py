@@ -7,27 +7,28 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from ballscrew.calibration.diagnostics import product_of_powers
-from ballscrew.calibration.fit_result import Band, FitResult
-from ballscrew.calibration.next_test import NextTest, next_test
-from ballscrew.calibration.posterior import Posterior, posterior
-from ballscrew.calibration.problem import CONSTANT_TORQUE
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.errors import Fault, InputError, accepts_units
-from ballscrew.quantities import AngularSpeed, Force, Temperature, Torque
-from ballscrew.uncertainty.distributions import normal_half_width
+from ballscrew.basis.errors import Fault, InputError, accepts_units
+from ballscrew.basis.quantities import AngularSpeed, Force, Temperature, Torque
+from ballscrew.engine.uncertainty.distributions import normal_half_width
+from ballscrew.evidence.calibration.diagnostics import product_of_powers
+from ballscrew.evidence.calibration.fit_result import Band, FitResult
+from ballscrew.evidence.calibration.next_test import NextTest, next_test
+from ballscrew.evidence.calibration.posterior import Posterior, posterior
+from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
+from ballscrew.physics.components.materials import TEMPERATURE
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class CalibratedModel(FitResult):
-    """The result of :func:`~ballscrew.calibration.fit.fit`."""
+    """The result of :func:`~ballscrew.evidence.calibration.fit.fit`."""
 
     @accepts_units("predict")
     def predict(self, axial_load: Force, screw_speed: AngularSpeed, temperature: Temperature | None = None) -> Torque:
-        """Friction torque on the screw, N m, at loads (N), speeds (rad/s) and temperatures (K); arrays broadcast.
+        """Friction torque on the screw, N m, at loads, speeds and temperatures of the oil; arrays broadcast.
 
-        Without a temperature the oil is as it was given. Raises :class:`~ballscrew.errors.InputError` for a
-        temperature of an oil that was not made from a grade.
+        The signs of ``axial_load`` (N) and ``screw_speed`` (rad/s) do not count. Without a ``temperature`` (K) the oil
+        is as it was given. Raises :class:`~ballscrew.basis.errors.InputError` for a temperature of an oil that was not
+        made from a grade.
         """
         oil = self.lubricant if temperature is None else self.lubricant.at(temperature)
         load, speed = np.abs(np.asarray(axial_load, dtype=float)), np.abs(np.asarray(screw_speed, dtype=float))
@@ -46,8 +47,12 @@ class CalibratedModel(FitResult):
     ) -> Band:
         """The friction torque with the interval that the calibration leaves, N m; with ``scatter``, of one reading.
 
-        From the exact derivatives and the covariance: ``M ± z √(g C gᵀ)``, within what data and priors tell.
-        Where the torque depends on what they do not tell, the interval is NaN.
+        Returns a :class:`~ballscrew.evidence.calibration.fit_result.Band` at ``axial_load`` (N), ``screw_speed``
+        (rad/s) and ``temperature`` (K), which broadcast; the interval has the probability ``level``. From the exact
+        derivatives and the covariance: ``M ± z √(g C gᵀ)``, within what data and priors tell. Where the torque depends
+        on what they do not tell, the interval is NaN.
+
+        Raises :class:`~ballscrew.basis.errors.InputError` for a level out of (0, 1).
         """
         if not 0 < level < 1:
             raise InputError(Fault("band.level", "must lie between 0 and 1", str(level), "0.95 is usual"))
@@ -71,11 +76,19 @@ class CalibratedModel(FitResult):
     def next_test(
         self, limits: Mapping[str, tuple[float, float]] | None = None, readings: int | None = None
     ) -> NextTest:
-        """The test that would teach most; see :func:`ballscrew.calibration.next_test.next_test`."""
+        """The test that would teach most: a :class:`~ballscrew.evidence.calibration.next_test.NextTest`.
+
+        ``limits`` are the least and the greatest value of conditions of a test by name, in SI; ``readings`` is the
+        number of readings of a test. See :func:`ballscrew.evidence.calibration.next_test.next_test`.
+        """
         return next_test(self, limits, readings)
 
     def posterior(self, steps: int = 2000, seed: int = 0, done: Callable[[int, int], None] | None = None) -> Posterior:
-        """Samples of the fitted numbers; see :func:`ballscrew.calibration.posterior.posterior`."""
+        """Samples of the fitted numbers: a :class:`~ballscrew.evidence.calibration.posterior.Posterior`.
+
+        ``steps`` is the length of the chain, ``seed`` that of its random numbers; ``done(finished, total)`` is told the
+        steps. See :func:`ballscrew.evidence.calibration.posterior.posterior`.
+        """
         return posterior(self, steps, seed, done)
 
     def report(self) -> str:

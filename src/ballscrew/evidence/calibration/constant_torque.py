@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from ballscrew.calibration.calibrated_model import CalibratedModel
-from ballscrew.calibration.problem import CONSTANT_TORQUE
-from ballscrew.errors import InputError
-from ballscrew.records import Record
+from ballscrew.basis.errors import InputError
+from ballscrew.basis.records import Record
+from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
+from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
 
 #: Signs that the model misses more than noise: then it is tried whether the constant torque is what it misses.
 _SIGNS = ("fit.baseline_better", "fit.trend")

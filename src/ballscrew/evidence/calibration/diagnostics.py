@@ -6,13 +6,13 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ballscrew.calibration.fit_result import AS_GIVEN, CALIBRATED, MINIMUM_DEGREES_OF_FREEDOM, FitResult
-from ballscrew.calibration.problem import CONSTANT_TORQUE
-from ballscrew.calibration.robust import autocorrelation_lag, minimum_scatter
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.evaluation.outputs import OPERATION
-from ballscrew.records import Message, Record
-from ballscrew.solvers.load_distribution import ball_loads
+from ballscrew.basis.records import Message, Record
+from ballscrew.engine.evaluation.outputs import OPERATION
+from ballscrew.evidence.calibration.fit_result import AS_GIVEN, CALIBRATED, MINIMUM_DEGREES_OF_FREEDOM, FitResult
+from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
+from ballscrew.evidence.calibration.robust import autocorrelation_lag, minimum_scatter
+from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.solvers.load_distribution import ball_loads
 
 _OF_LOG = Message("so in the row that starves the most, by the numbers of the fit")
 #: What each row of a log has of its own.

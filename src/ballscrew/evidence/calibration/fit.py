@@ -10,36 +10,43 @@ from typing import Any, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.calibration import baselines
-from ballscrew.calibration.calibrated_model import CalibratedModel
-from ballscrew.calibration.diagnostics import warning_records
-from ballscrew.calibration.fit_result import AS_GIVEN, CALIBRATED, MINIMUM_DEGREES_OF_FREEDOM, Estimate, Rows, Score
-from ballscrew.calibration.identifiability import MAXIMUM_RELATIVE_ERROR, Identifiability, Uncertainty
-from ballscrew.calibration.jackknife import jackknife_covariance, operating_points
-from ballscrew.calibration.oil_temperature import (
+from ballscrew.basis.errors import Fault, accepts_units, nearest, raise_if_any, si_value
+from ballscrew.basis.quantities import Force, MomentOfInertia, TemperatureDifference, within_bounds
+from ballscrew.engine.evaluation.engines import Engine, engine_faults
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.uncertainty.distributions import Distribution
+from ballscrew.evidence.calibration import baselines
+from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
+from ballscrew.evidence.calibration.diagnostics import warning_records
+from ballscrew.evidence.calibration.fit_result import (
+    AS_GIVEN,
+    CALIBRATED,
+    MINIMUM_DEGREES_OF_FREEDOM,
+    Estimate,
+    Rows,
+    Score,
+)
+from ballscrew.evidence.calibration.identifiability import MAXIMUM_RELATIVE_ERROR, Identifiability, Uncertainty
+from ballscrew.evidence.calibration.jackknife import jackknife_covariance, operating_points
+from ballscrew.evidence.calibration.oil_temperature import (
     MOST_TEMPERATURE_ERROR,
     TemperatureError,
     torque_per_kelvin,
     usual_error,
 )
-from ballscrew.calibration.plausibility import verdict_records
-from ballscrew.calibration.priors import Priors
-from ballscrew.calibration.problem import CONSTANT_TORQUE, Problem, drift_of, escape_insensitive_start
-from ballscrew.calibration.response import Response, resolve_input
-from ballscrew.calibration.robust import Solution, Vector, loss_of, solve
-from ballscrew.calibration.torque_conventions import identify_convention
-from ballscrew.components.materials import TEMPERATURE, Lubricant
-from ballscrew.components.nut_losses import ConstantTorque
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, accepts_units, nearest, raise_if_any, si_value
-from ballscrew.evaluation.engines import Engine, engine_faults
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.friction.model import FrictionModel
-from ballscrew.quantities import Force, MomentOfInertia, TemperatureDifference, within_bounds
-from ballscrew.solvers.load_distribution import ball_loads
-from ballscrew.torque_logs.log_rows import Kind
-from ballscrew.torque_logs.torque_log import TorqueLog
-from ballscrew.uncertainty.distributions import Distribution
+from ballscrew.evidence.calibration.plausibility import verdict_records
+from ballscrew.evidence.calibration.priors import Priors
+from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE, Problem, drift_of, escape_insensitive_start
+from ballscrew.evidence.calibration.response import Response, resolve_input
+from ballscrew.evidence.calibration.robust import Solution, Vector, loss_of, solve
+from ballscrew.evidence.calibration.torque_conventions import identify_convention
+from ballscrew.files.torque_logs.log_rows import Kind
+from ballscrew.files.torque_logs.torque_log import TorqueLog
+from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
+from ballscrew.physics.components.nut_losses import ConstantTorque
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.solvers.load_distribution import ball_loads
 
 #: The loss of a nut that a fitted constant torque becomes.
 CONSTANT_LOSS = "constant"
@@ -78,107 +85,63 @@ def fit(
 ) -> CalibratedModel:
     """Fit numbers of a model, its screw or its lubricant to a log of torques.
 
-    ``data`` is a :class:`~ballscrew.torque_logs.torque_log.TorqueLog`, or a mapping or dataset of arrays in SI:
-    ``axial_load``, ``screw_speed`` and ``torque``, and where they were logged ``temperature`` (for an oil made from a
-    grade) and ``time``. ``free`` names what is fitted, as :func:`~ballscrew.sweeps.sweep.sweep` does or by the last
-    part of the name alone; ``"constant_torque"`` stands for friction of seals and bearings, which no model of the
-    balls has.
+    Returns a :class:`~ballscrew.evidence.calibration.calibrated_model.CalibratedModel`. ``model``, ``screw`` and
+    ``lubricant`` have the values from which the fit starts, and those of all numbers that are not free. ``data`` is a
+    :class:`~ballscrew.files.torque_logs.torque_log.TorqueLog`, or a mapping or dataset of arrays in SI: ``axial_load``,
+    ``screw_speed`` and ``torque``, and where they were logged ``temperature`` (for an oil made from a grade) and
+    ``time``. ``free`` names what is fitted, as :func:`~ballscrew.engine.sweeps.sweep.sweep` does or by the last part of
+    the name alone; ``"constant_torque"`` stands for friction of seals and bearings, which no model of the balls has.
 
     ``priors`` are distributions of free numbers, ``bounds`` pairs in SI beside those that the numbers have anyway.
     ``kind`` says whether ``torque`` is ``"friction"`` or ``"drive"`` torque; otherwise the model tells (see
-    :mod:`~ballscrew.calibration.torque_conventions`). ``inertia`` (kg m²) takes the acceleration out of a drive torque.
-    ``temperature_error`` (K) is half the width of the 95 % interval of the oil temperature, an error that all rows
-    share and that no number of rows makes smaller: 2 K where the log has temperatures that the oil follows, otherwise
-    10 K. It does not move the estimates; their covariance has it (:mod:`~ballscrew.calibration.oil_temperature`).
-    The ``dynamic_load_rating`` (N) is what a fitted preload is judged by: numbers that no screw has are among the
-    verdicts (:mod:`~ballscrew.calibration.plausibility`).
-    The share ``holdout`` of the operating points is not fitted but predicted. Zero error and drift of the sensor are
-    fitted beside the rest where the log can tell them from friction (:mod:`~ballscrew.calibration.problem`).
+    :mod:`~ballscrew.evidence.calibration.torque_conventions`). ``inertia`` (kg m²) takes the acceleration out of a
+    drive torque. ``temperature_error`` (K) is half the width of the 95 % interval of the oil temperature, an error that
+    all rows share and that no number of rows makes smaller: 2 K where the log has temperatures that the oil follows,
+    otherwise 10 K. It does not move the estimates; their covariance has it
+    (:mod:`~ballscrew.evidence.calibration.oil_temperature`). The ``dynamic_load_rating`` (N) is what a fitted preload
+    is judged by: numbers that no screw has are among the verdicts
+    (:mod:`~ballscrew.evidence.calibration.plausibility`). The share ``holdout`` of the operating points, drawn with the
+    ``seed``, is not fitted but predicted. Zero error and drift of the sensor are fitted beside the rest where the log
+    can tell them from friction (:mod:`~ballscrew.evidence.calibration.problem`).
 
-    The loss is robust (:mod:`~ballscrew.calibration.robust`), the derivatives are exact, the standard errors hold for
-    residuals that are not normal and that follow each other
-    (:class:`~ballscrew.calibration.identifiability.Uncertainty`). A number that the data do not tell gets none.
+    ``engine`` (``"numpy"`` or ``"compiled"``) evaluates the model. ``done(finished, total)`` is told the rounds of the
+    fit, of which there may be fewer.
 
-    Raises :class:`~ballscrew.errors.InputError` for unknown names, data that cannot be used, and laws that cannot be
-    recorded.
+    The loss is robust (:mod:`~ballscrew.evidence.calibration.robust`), the derivatives are exact, the standard errors
+    hold for residuals that are not normal and that follow each other
+    (:class:`~ballscrew.evidence.calibration.identifiability.Uncertainty`). A number that the data do not tell gets
+    none.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for unknown names, data that cannot be used, and laws that
+    cannot be recorded.
     """
     subject = Configuration(model, screw, lubricant)
     if CONSTANT_TORQUE.name in free:  # found anew: that of an earlier fit goes
         subject = with_constant_torque(subject, None)
     raise_if_any(_faults_of_options(free, priors or {}, bounds or {}, holdout, temperature_error, seed, kind, engine))
-    asked = {
-        name: CONSTANT_TORQUE.name if name == CONSTANT_TORQUE.name else resolve_input(subject, name) for name in free
-    }
-    raise_if_any(
-        [
-            Fault("fit.free", "names one number twice", f"{name} and {other}", "leave one out")
-            for place, name in enumerate(asked)
-            for other in list(asked)[:place]
-            if asked[other] == asked[name]
-        ]
-    )
-    units = {name: _unit_of(subject, full) for name, full in asked.items()}
-    limits = {
-        name: (
-            float(si_value(f"fit.bounds.{name}", low, units[name])),
-            float(si_value(f"fit.bounds.{name}", high, units[name])),
-        )
-        for name, (low, high) in (bounds or {}).items()
-    }
-    log = TorqueLog.of(data).cleaned(inertia=inertia)
-    if lubricant.follows_temperature and log.temperature is not None:
-        log = log.select(
-            np.asarray(within_bounds(lubricant.temperature_quantity.info, log.temperature)),
-            "temperature beyond any oil",
-        )
-    numbers = [name for name in dict.fromkeys(asked.values()) if name != CONSTANT_TORQUE.name]
-    response = Response.of(subject, numbers, points_of(log, lubricant), engine=engine, times=EVALUATIONS)
-    torques, slopes = response(response.start)
-    finite = np.asarray(np.isfinite(torques).all(axis=0))
-    if not finite.all():
-        log, torques, slopes = log.select(finite, "no torque in the model"), torques[:, finite], slopes[:, finite]
-        response = response.at(points_of(log, lubricant))
+    asked = _asked(subject, free)
+    limits = _limits(subject, asked, bounds or {})
+    evaluated = _Evaluated.of(subject, asked, _log_of(data, lubricant, inertia), engine)
+    log, torques = evaluated.log, evaluated.torques
     raise_if_any(_faults_of_unloaded_balls(subject, log))
     said = log.kind if kind == "unknown" else kind
     held_out = _held_out(log, holdout, seed)
     # what the column is can be looked up in all rows: of few, those left to fit do not always tell
     convention, left = identify_convention(log.torque, torques, log.axial_load, log.screw_speed, drift_of(log), said)
-    problem = Problem.of(subject, response, asked, log, convention, left, torques, slopes, limits)
-    start = escape_insensitive_start(problem, log.torque[~held_out], left, problem.start, ~held_out)
-    given = {problem.names.index(name): prior for name, prior in (priors or {}).items()}
-    known = Priors(problem.deviations | given, start, problem.scale)
-    solution = solve(
-        problem.on(~held_out), log.torque[~held_out], start, problem.scale, problem.bounds, known.all, done
-    )
-    again = escape_insensitive_start(problem, log.torque[~held_out], left, solution.values, ~held_out)
-    if not np.array_equal(again, solution.values):  # it came to rest where nothing depends on a number, and need not
-        solution = solve(
-            problem.on(~held_out), log.torque[~held_out], again, problem.scale, problem.bounds, known.all, done
-        )
+    problem = Problem.of(subject, evaluated.response, asked, log, convention, left, torques, evaluated.slopes, limits)
+    fitted = _Fitted.of(problem, log, held_out, priors or {}, left, done)
+    solution = fitted.solution
     predicted, _ = problem.torque(solution.values)
-    friction = response(solution.values[: len(numbers)])[0][1]
+    friction = problem.response(solution.values[: len(problem.response.names)])[0][1]
     rows = Rows(log, convention, predicted, friction, held_out, solution.noise.of(predicted))
-    scale = problem.scale_at(solution.values)
-    told = Identifiability.of(solution, problem.names, scale)
-    uncertainty = Uncertainty.of(solution, scale, known.slopes(solution.values))
-    degrees_of_freedom = solution.residuals.size - solution.values.size
-    if solution.residuals.size < JACKKNIFE_ROWS:
-        groups = _groups(log, held_out, solution.values.size)
-        degrees_of_freedom = np.unique(groups[~held_out]).size - solution.values.size
-        if degrees_of_freedom >= MINIMUM_DEGREES_OF_FREEDOM:
-            spread = jackknife_covariance(problem, log.torque, groups, start, problem.scale, known.all)
-            uncertainty = uncertainty.at_least(spread)
-    different = _different_rows(log, held_out) - solution.values.size
-    if different < MINIMUM_DEGREES_OF_FREEDOM:
-        degrees_of_freedom = min(different, degrees_of_freedom)
-    one_sided = _one_sided(problem, solution, uncertainty, held_out, log)
-    made = _with(subject, response, problem, solution)
+    told = Identifiability.of(solution, problem.names, fitted.scale)
+    uncertainty, degrees_of_freedom = _uncertainty(fitted)
+    one_sided = _one_sided(fitted, uncertainty)
+    made = _with(subject, problem, solution)
     half_width = usual_error(lubricant, log) if temperature_error is None else float(temperature_error)
-    warmth = _temperature_error(
-        half_width, made, problem, points_of(log, lubricant), ~held_out, solution, uncertainty, known
-    )
+    warmth = _temperature_error(half_width, made, points_of(log, lubricant), fitted, uncertainty)
     total = uncertainty.plus(warmth.covariance)
-    estimates = _estimates(problem, solution, one_sided, total, uncertainty, known, degrees_of_freedom)
+    estimates = _estimates(fitted, one_sided, total, uncertainty, degrees_of_freedom)
     found = CalibratedModel(
         subject=made,
         estimates={name: estimates[name] for name in problem.names},
@@ -187,7 +150,7 @@ def fit(
         uncertainty=total,
         temperature_error=warmth,
         problem=problem,
-        priors=known,
+        priors=fitted.known,
         solution=solution,
         rows=rows,
         scores=_scores(problem, rows, torques),
@@ -206,6 +169,129 @@ def fit(
     return dataclasses.replace(found, warning_records=warning_records(found))
 
 
+def _asked(subject: Configuration, free: Sequence[str]) -> dict[str, str]:
+    """The inputs that are fitted, by the names that they were given."""
+    asked = {
+        name: CONSTANT_TORQUE.name if name == CONSTANT_TORQUE.name else resolve_input(subject, name) for name in free
+    }
+    raise_if_any(
+        [
+            Fault("fit.free", "names one number twice", f"{name} and {other}", "leave one out")
+            for place, name in enumerate(asked)
+            for other in list(asked)[:place]
+            if asked[other] == asked[name]
+        ]
+    )
+    return asked
+
+
+def _limits(
+    subject: Configuration, asked: Mapping[str, str], bounds: Mapping[str, tuple[float, float]]
+) -> dict[str, tuple[float, float]]:
+    """The bounds of free numbers in SI."""
+    units = {name: _unit_of(subject, full) for name, full in asked.items()}
+    return {
+        name: (
+            float(si_value(f"fit.bounds.{name}", low, units[name])),
+            float(si_value(f"fit.bounds.{name}", high, units[name])),
+        )
+        for name, (low, high) in bounds.items()
+    }
+
+
+def _log_of(data: Any, lubricant: Lubricant, inertia: float | None) -> TorqueLog:
+    """The rows of steady motion, at temperatures that an oil may have."""
+    log = TorqueLog.of(data).cleaned(inertia=inertia)
+    if not lubricant.follows_temperature or log.temperature is None:
+        return log
+    within = np.asarray(within_bounds(lubricant.temperature_quantity.info, log.temperature))
+    return log.select(within, "temperature beyond any oil")
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class _Evaluated:
+    """The rows of a log in which the model has a torque, with that torque and its slopes before the fit."""
+
+    log: TorqueLog
+    response: Response
+    torques: Vector
+    slopes: Vector
+
+    @classmethod
+    def of(cls, subject: Configuration, asked: Mapping[str, str], log: TorqueLog, engine: Engine | None) -> _Evaluated:
+        """Those of a log by the inputs asked for."""
+        numbers = [name for name in dict.fromkeys(asked.values()) if name != CONSTANT_TORQUE.name]
+        points = points_of(log, subject.lubricant)
+        response = Response.of(subject, numbers, points, engine=engine, times=EVALUATIONS)
+        torques, slopes = response(response.start)
+        finite = np.asarray(np.isfinite(torques).all(axis=0))
+        if finite.all():
+            return cls(log, response, torques, slopes)
+        log = log.select(finite, "no torque in the model")
+        return cls(log, response.at(points_of(log, subject.lubricant)), torques[:, finite], slopes[:, finite])
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class _Fitted:
+    """A problem solved on the rows of a log that are not held out."""
+
+    problem: Problem
+    log: TorqueLog
+    held_out: NDArray[np.bool_]
+    start: Vector
+    known: Priors
+    solution: Solution
+
+    @classmethod
+    def of(
+        cls,
+        problem: Problem,
+        log: TorqueLog,
+        held_out: NDArray[np.bool_],
+        priors: Mapping[str, Distribution],
+        scatter: float,
+        done: Callable[[int, int], None] | None,
+    ) -> _Fitted:
+        """The solution; from another start where it came to rest at numbers that the torques do not depend on."""
+        torque, measured = problem.on(~held_out), log.torque[~held_out]
+        start = escape_insensitive_start(problem, measured, scatter, problem.start, ~held_out)
+        given = {problem.names.index(name): prior for name, prior in priors.items()}
+        known = Priors(problem.deviations | given, start, problem.scale)
+        solution = solve(torque, measured, start, problem.scale, problem.bounds, known.all, done)
+        again = escape_insensitive_start(problem, measured, scatter, solution.values, ~held_out)
+        if not np.array_equal(again, solution.values):
+            solution = solve(torque, measured, again, problem.scale, problem.bounds, known.all, done)
+        return cls(problem, log, held_out, start, known, solution)
+
+    @property
+    def scale(self) -> Vector:
+        """The scales of the numbers found."""
+        return self.problem.scale_at(self.solution.values)
+
+    @property
+    def slopes_of_priors(self) -> Vector:
+        """The slopes of the priors at the numbers found."""
+        return self.known.slopes(self.solution.values)
+
+
+def _uncertainty(fitted: _Fitted) -> tuple[Uncertainty, int]:
+    """The uncertainty by the rows, of few rows at least that of the jackknife, and its degrees of freedom."""
+    solution, log, held_out = fitted.solution, fitted.log, fitted.held_out
+    found = Uncertainty.of(solution, fitted.scale, fitted.slopes_of_priors)
+    degrees_of_freedom = solution.residuals.size - solution.values.size
+    if solution.residuals.size < JACKKNIFE_ROWS:
+        groups = _groups(log, held_out, solution.values.size)
+        degrees_of_freedom = np.unique(groups[~held_out]).size - solution.values.size
+        if degrees_of_freedom >= MINIMUM_DEGREES_OF_FREEDOM:
+            problem = fitted.problem
+            spread = jackknife_covariance(problem, log.torque, groups, fitted.start, problem.scale, fitted.known.all)
+            found = found.at_least(spread)
+    different = _different_rows(log, held_out) - solution.values.size
+    if different < MINIMUM_DEGREES_OF_FREEDOM:
+        degrees_of_freedom = min(different, degrees_of_freedom)
+    return found, degrees_of_freedom
+
+
 def points_of(log: TorqueLog, lubricant: Lubricant) -> dict[str, NDArray[np.float64]]:
     """Magnitudes of load and speed of a log, and the temperature where the oil has a grade."""
     found = {"axial_load": np.abs(log.axial_load), "screw_speed": np.abs(log.screw_speed)}
@@ -216,20 +302,14 @@ def points_of(log: TorqueLog, lubricant: Lubricant) -> dict[str, NDArray[np.floa
 
 
 def _temperature_error(
-    half_width: float,
-    made: Configuration,
-    problem: Problem,
-    points: Mapping[str, Any],
-    fitted: NDArray[np.bool_],
-    solution: Solution,
-    uncertainty: Uncertainty,
-    known: Priors,
+    half_width: float, made: Configuration, points: Mapping[str, Any], fitted: _Fitted, uncertainty: Uncertainty
 ) -> TemperatureError:
     """What the error of the oil temperature does to the estimates."""
+    solution, problem = fitted.solution, fitted.problem
     if half_width == 0:
-        return TemperatureError(0.0, np.zeros(fitted.size), np.zeros(solution.values.size))
+        return TemperatureError(0.0, np.zeros(fitted.held_out.size), np.zeros(solution.values.size))
     each = torque_per_kelvin(made, problem.response.names, points, problem.weights)
-    shift = uncertainty.shift_by(solution, known.slopes(solution.values), each[fitted])
+    shift = uncertainty.shift_by(solution, fitted.slopes_of_priors, each[~fitted.held_out])
     return TemperatureError(half_width, each, shift)
 
 
@@ -314,14 +394,13 @@ def _groups(log: TorqueLog, held_out: NDArray[np.bool_], parameters: int) -> NDA
     return np.where(held_out, -1, points)
 
 
-def _one_sided(
-    problem: Problem, solution: Solution, uncertainty: Uncertainty, held_out: NDArray[np.bool_], log: TorqueLog
-) -> NDArray[np.bool_]:
+def _one_sided(fitted: _Fitted, uncertainty: Uncertainty) -> NDArray[np.bool_]:
     """The numbers whose misses hardly grow two standard errors away, to one side at least.
 
     There the torques have gone flat, as on a clamp: what derivatives say ends there.
     """
-    torque, measured = problem.on(~held_out), log.torque[~held_out]
+    problem, solution = fitted.problem, fitted.solution
+    torque, measured = problem.on(~fitted.held_out), fitted.log.torque[~fitted.held_out]
     psi = solution.influence
     sharpness = solution.curvature * np.count_nonzero(~solution.outlying) / max(float(psi @ psi), 1e-300)
     here = loss_of(solution.residuals, solution.scatter)
@@ -339,14 +418,13 @@ def _one_sided(
 
 
 def _estimates(
-    problem: Problem,
-    solution: Solution,
+    fitted: _Fitted,
     one_sided: NDArray[np.bool_],
     uncertainty: Uncertainty,
     of_rows: Uncertainty,
-    known: Priors,
     degrees_of_freedom: int,
 ) -> dict[str, Estimate]:
+    problem, solution = fitted.problem, fitted.solution
     low, high = problem.bounds
     near = AT_BOUND * problem.scale
     at_bound = (solution.values - low <= near) | (high - solution.values <= near)
@@ -355,7 +433,7 @@ def _estimates(
     found: dict[str, Estimate] = {}
     for i, parameter in enumerate(problem.parameters):
         value, variance = float(solution.values[i]), float(uncertainty.covariance[i, i])
-        prior = known.deviation(i, value)
+        prior = fitted.known.deviation(i, value)
         # by the rows alone: what the temperature adds says nothing of what they told
         share = 0.0 if prior is None else min(1.0, float(of_rows.covariance[i, i]) / prior**2)
         sensor_columns = i >= problem.free
@@ -384,8 +462,9 @@ def _estimates(
     return found
 
 
-def _with(subject: Configuration, response: Response, problem: Problem, solution: Solution) -> Configuration:
+def _with(subject: Configuration, problem: Problem, solution: Solution) -> Configuration:
     """The subject with the fitted numbers in place."""
+    response = problem.response
     values = solution.values[: len(response.names)].tolist()
     made = subject.changed(dict(zip(response.names, values, strict=True)))
     if CONSTANT_TORQUE.name not in problem.names:

@@ -10,22 +10,21 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew._deprecated import RenamedAttribute
-from ballscrew.calibration.identifiability import Identifiability, Uncertainty
-from ballscrew.calibration.oil_temperature import TemperatureError
-from ballscrew.calibration.priors import Priors
-from ballscrew.calibration.problem import CONSTANT_TORQUE, Problem
-from ballscrew.calibration.response import Response
-from ballscrew.calibration.robust import BIWEIGHT_CUTOFF, MAD_TO_STANDARD_DEVIATION, Solution
-from ballscrew.calibration.torque_conventions import TorqueConvention
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.screw import BallScrew
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.friction.model import FrictionModel
-from ballscrew.quantities import Quantity, Torque
-from ballscrew.records import Record
-from ballscrew.torque_logs.torque_log import TorqueLog
-from ballscrew.uncertainty.sampling import JointNormal
+from ballscrew.basis.quantities import Quantity, Torque
+from ballscrew.basis.records import Record
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.uncertainty.sampling import JointNormal
+from ballscrew.evidence.calibration.identifiability import Identifiability, Uncertainty
+from ballscrew.evidence.calibration.oil_temperature import TemperatureError
+from ballscrew.evidence.calibration.priors import Priors
+from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE, Problem
+from ballscrew.evidence.calibration.response import Response
+from ballscrew.evidence.calibration.robust import BIWEIGHT_CUTOFF, MAD_TO_STANDARD_DEVIATION, Solution
+from ballscrew.evidence.calibration.torque_conventions import TorqueConvention
+from ballscrew.files.torque_logs.torque_log import TorqueLog
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.model import FrictionModel
 
 #: Bins of rows over which the means of residuals are taken.
 TREND_BINS = 5
@@ -56,8 +55,6 @@ class Estimate:
     degrees_of_freedom: float = np.inf
     bounds: tuple[float, float] = (-np.inf, np.inf)
 
-    freedom = RenamedAttribute("freedom", "degrees_of_freedom")
-
     def interval(self, level: float = 0.95) -> tuple[float, float] | None:
         """The interval by Student's distribution, within the bounds; None where there is no standard error.
 
@@ -80,9 +77,6 @@ class Score(NamedTuple):
     parameters: int
     fitted: float
     held_out: float
-
-    words = RenamedAttribute("words", "description")
-    numbers = RenamedAttribute("numbers", "parameters")
 
 
 class Band(NamedTuple):
@@ -113,8 +107,6 @@ class Rows:
     held_out: NDArray[np.bool_]
     #: Standard deviation of the noise at each row, from the rows fitted.
     scatter: NDArray[np.float64]
-
-    reading = RenamedAttribute("reading", "convention")
 
     @functools.cached_property
     def outlying(self) -> NDArray[np.bool_]:
@@ -168,19 +160,27 @@ class FitResult:
     estimates: Mapping[str, Estimate]
     #: Zero error and drift of the sensor, where they were fitted.
     sensor: Mapping[str, Estimate]
+    #: Which numbers and products of numbers the log tells.
     identifiability: Identifiability
+    #: Covariance of the parameters, within what data and priors measure.
     uncertainty: Uncertainty
     #: The error of the oil temperature, which is in the covariance.
     temperature_error: TemperatureError
+    #: The parameters of the fit and their torques.
     problem: Problem
+    #: Distributions of some of the parameters.
     priors: Priors
+    #: Parameters, torques, residuals and noise of the fit.
     solution: Solution
+    #: The rows of the log that were used, with the predictions.
     rows: Rows
     #: The model before and after, and descriptions without physics.
     scores: Sequence[Score]
+    #: The options of the fit.
     settings: Mapping[str, Any]
     #: Numbers that no screw has: to be read before all others.
     verdict_records: Sequence[Record] = ()
+    #: Warnings as records, the gravest first.
     warning_records: Sequence[Record] = ()
 
     @property

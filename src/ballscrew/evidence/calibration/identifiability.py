@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.calibration.robust import Solution, Vector, autocorrelation_lag
+from ballscrew.evidence.calibration.robust import Solution, Vector, autocorrelation_lag
 
 #: A combination is identified if its standard error is at most this share of the scale.
 MAXIMUM_RELATIVE_ERROR = 0.5

@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.calibration.problem import Problem
-from ballscrew.calibration.robust import Prior, Vector, solve
+from ballscrew.evidence.calibration.problem import Problem
+from ballscrew.evidence.calibration.robust import Prior, Vector, solve
 
 #: Operating points are distinguished by this share of the largest load and speed.
 CELL_WIDTH = 0.02

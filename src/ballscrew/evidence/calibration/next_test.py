@@ -9,12 +9,12 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.calibration.fit_result import FitResult
-from ballscrew.calibration.identifiability import weighted_derivatives
-from ballscrew.calibration.robust import Vector
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.errors import Fault, nearest, raise_if_any, si_value
-from ballscrew.torque_logs.log_rows import quantities
+from ballscrew.basis.errors import Fault, nearest, raise_if_any, si_value
+from ballscrew.evidence.calibration.fit_result import FitResult
+from ballscrew.evidence.calibration.identifiability import weighted_derivatives
+from ballscrew.evidence.calibration.robust import Vector
+from ballscrew.files.torque_logs.log_rows import quantities
+from ballscrew.physics.components.materials import TEMPERATURE
 
 #: Without limits, loads and speeds from half the least to twice the largest of the log are thought possible, and
 #: temperatures this many kelvin beyond those of the log.
@@ -67,7 +67,7 @@ def next_test(
     count as known to their own size. Points that are not valid are left out. The error of the oil temperature stays:
     the volume is of the scatter alone.
 
-    Raises :class:`~ballscrew.errors.InputError` for limits of what is no condition of a test.
+    Raises :class:`~ballscrew.basis.errors.InputError` for limits of what is no condition of a test.
     """
     given = dict(limits or {})
     log = found.rows.log

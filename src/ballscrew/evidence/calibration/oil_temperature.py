@@ -12,13 +12,13 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.calibration.robust import Vector
-from ballscrew.components.materials import TEMPERATURE, Lubricant
-from ballscrew.evaluation.outputs import OPERATION
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.quantities import Info, Quantity
-from ballscrew.torque_logs.torque_log import TorqueLog
-from ballscrew.uncertainty.default_uncertainties import NORMAL_95
+from ballscrew.basis.quantities import Info, Quantity
+from ballscrew.engine.evaluation.outputs import OPERATION
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
+from ballscrew.evidence.calibration.robust import Vector
+from ballscrew.files.torque_logs.torque_log import TorqueLog
+from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
 
 #: Half the width of the 95 % interval of an oil temperature, K: that of a sensor near the nut, and without any.
 LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE = 2.0, 10.0

@@ -1,9 +1,10 @@
 """Plausible ranges of fitted numbers: a fit finds the numbers that follow a log, and not whether a screw can have them.
 
 A log of another nut, a wrong unit or an effect that the model lacks ends in numbers that no screw has. A boundary
-friction coefficient lies within :data:`BOUNDARY_FRICTION`, a constant torque drives no screw and is not more than
-:data:`MOST_CONSTANT` of the friction measured, a preload is at most :data:`HIGHEST_PRELOAD` of the dynamic load rating,
-and all other numbers lie in the usual range of their input (:class:`~ballscrew.quantities.Info`).
+friction coefficient lies within :data:`BOUNDARY_FRICTION`, a constant torque drives no screw beyond chance and is not
+more than :data:`MOST_CONSTANT` of the friction measured, the median of all rows, a preload is at most
+:data:`HIGHEST_PRELOAD` of the dynamic load rating, and all other numbers lie in the usual range of their input
+(:class:`~ballscrew.basis.quantities.Info`).
 """
 
 from __future__ import annotations
@@ -12,11 +13,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ballscrew.calibration.fit_result import Estimate, FitResult
-from ballscrew.calibration.problem import CONSTANT_TORQUE
-from ballscrew.errors import shown_in_si
-from ballscrew.quantities import Force
-from ballscrew.records import Measured, Message, Record
+from ballscrew.basis.errors import shown_in_si
+from ballscrew.basis.quantities import Force
+from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.evidence.calibration.fit_result import Estimate, FitResult
+from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
 
 #: The largest share that the seals have of a torque without load, of the rows of Rexroth2006 with their standard seals.
 MOST_CONSTANT = 0.8
@@ -58,8 +59,16 @@ def verdict_records(found: FitResult, dynamic_load_rating: Force | None = None) 
     return [
         _record(estimate, limit)
         for name, estimate in found.estimates.items()
-        if (limit := limits[name]) is not None and not limit.low <= estimate.value <= limit.high
+        if (limit := limits[name]) is not None
+        and not limit.low <= estimate.value <= limit.high
+        and not (name == CONSTANT_TORQUE.name and _is_zero_by_chance(estimate))
     ]
+
+
+def _is_zero_by_chance(estimate: Estimate) -> bool:
+    """Whether a number below zero reaches it by its interval: a true zero is found below it half of the time."""
+    ends = estimate.interval()
+    return estimate.value < 0 and ends is not None and ends[1] >= 0
 
 
 def _named(found: FitResult) -> list[tuple[str, str, Estimate]]:
@@ -70,8 +79,9 @@ def _named(found: FitResult) -> list[tuple[str, str, Estimate]]:
 
 def _range(found: FitResult, full: str, estimate: Estimate, rating: Force | None) -> _Range | None:
     if full == CONSTANT_TORQUE.name:
-        typical = float(np.median(np.abs(found.rows.friction + estimate.value)))
-        return _Range(0.0, MOST_CONSTANT * typical, _CONSTANT)
+        rows = found.rows
+        measured = rows.friction + estimate.value - rows.direction * rows.residuals
+        return _Range(0.0, MOST_CONSTANT * float(np.median(np.abs(measured))), _CONSTANT)
     if full in _PRELOADS and rating is not None:
         return _Range(0.0, HIGHEST_PRELOAD * float(rating), _RATING)
     if full.rpartition(".")[2] == "boundary_friction_coefficient":

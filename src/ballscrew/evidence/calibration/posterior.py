@@ -12,10 +12,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew._deprecated import RenamedAttribute
-from ballscrew.calibration.fit_result import FitResult
-from ballscrew.calibration.robust import Vector, loss_of
-from ballscrew.errors import Fault, InputError
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.evidence.calibration.fit_result import FitResult
+from ballscrew.evidence.calibration.robust import Vector, loss_of
 
 #: Walkers for each parameter, and the share of the steps that is thrown away as the way in.
 WALKERS, BURN_IN = 4, 0.3
@@ -29,8 +28,6 @@ class Posterior:
     #: Integrated autocorrelation time in steps; where it is NaN or a large share of the run, the run is too short.
     autocorrelation_time: float
     acceptance: float
-
-    forgetting = RenamedAttribute("forgetting", "autocorrelation_time")
 
     def interval(self, name: str, level: float = 0.95) -> tuple[float, float]:
         """The interval with equal shares of the samples on either side."""
@@ -46,7 +43,7 @@ def posterior(
     ρ is the loss of the fit and r the residual in units of its scatter, which stays as it was found; k makes the loss
     as sharp as its residuals are spread, ``Σ ψ' / Σ ψ²`` at the fit. The error of the oil temperature is one number
     more, of which the log may tell something. Residuals that follow each other count as
-    independent here. Raises :class:`~ballscrew.errors.InputError` without emcee.
+    independent here. Raises :class:`~ballscrew.basis.errors.InputError` without emcee.
     """
     try:
         import emcee

@@ -8,11 +8,11 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ballscrew.calibration.robust import (
+from ballscrew.engine.uncertainty.distributions import Distribution, LogNormal, Normal, Triangular, Uniform
+from ballscrew.evidence.calibration.robust import (
     Prior,
     Vector,
 )
-from ballscrew.uncertainty.distributions import Distribution, LogNormal, Normal, Triangular, Uniform
 
 #: Regularisation of unidentified parameters: a weak normal prior about the start with this many scales as deviation.
 REGULARISATION_SCALE = 10.0

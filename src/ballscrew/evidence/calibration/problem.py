@@ -8,14 +8,14 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.calibration.response import Response
-from ballscrew.calibration.robust import Vector, loss_of
-from ballscrew.calibration.torque_conventions import TorqueConvention
-from ballscrew.errors import Fault, raise_if_any
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.quantities import Info, Quantity
-from ballscrew.torque_logs.torque_log import TorqueLog
-from ballscrew.uncertainty.distributions import Distribution, Normal
+from ballscrew.basis.errors import Fault, raise_if_any
+from ballscrew.basis.quantities import Info, Quantity
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.uncertainty.distributions import Distribution, Normal
+from ballscrew.evidence.calibration.response import Response
+from ballscrew.evidence.calibration.robust import Vector, loss_of
+from ballscrew.evidence.calibration.torque_conventions import TorqueConvention
+from ballscrew.files.torque_logs.torque_log import TorqueLog
 
 #: Friction that depends on nothing but the direction, and that no model of the balls has.
 CONSTANT_TORQUE = Quantity(
@@ -92,7 +92,7 @@ class Problem:
         """``asked`` says which input a person means by each name; ``torques`` and ``slopes`` are what the
         response says at the start, ``scatter`` is what the torque convention leaves.
 
-        Raises :class:`~ballscrew.errors.InputError` for bounds that leave no room.
+        Raises :class:`~ballscrew.basis.errors.InputError` for bounds that leave no room.
         """
         names = {full: name for name, full in asked.items()}
         parameters = [

@@ -9,18 +9,18 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.errors import (
+from ballscrew.basis.errors import (
     Fault,
     InputError,
     nearest,
     raise_if_any,
 )
-from ballscrew.evaluation.derivatives import slopes_of
-from ballscrew.evaluation.engines import Engine
-from ballscrew.evaluation.evaluation import Evaluation
-from ballscrew.evaluation.outputs import OPERATION
-from ballscrew.evaluation.plan import Configuration
+from ballscrew.engine.evaluation.derivatives import slopes_of
+from ballscrew.engine.evaluation.engines import Engine
+from ballscrew.engine.evaluation.evaluation import Evaluation
+from ballscrew.engine.evaluation.outputs import OPERATION
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.physics.components.materials import TEMPERATURE
 
 #: The torques that every reading of a log is made of, in this order.
 TORQUES = ("ideal_torque", "screw_torque")
@@ -29,7 +29,7 @@ TORQUES = ("ideal_torque", "screw_torque")
 def resolve_input(subject: Configuration, name: str, section: str = "fit") -> str:
     """The input of that name: its own, that of a coefficient without its law, or either with its section.
 
-    Raises :class:`~ballscrew.errors.InputError` for what no input or more than one is called.
+    Raises :class:`~ballscrew.basis.errors.InputError` for what no input or more than one is called.
     """
     known = subject.inputs
     bare = name.removeprefix("model.").removeprefix("screw.").removeprefix("lubricant.")
@@ -80,7 +80,7 @@ class Response:
     ) -> Response:
         """``points`` are the magnitudes of load and speed, and perhaps the temperature, all of one length.
 
-        ``times`` says how often the whole will be evaluated. Raises :class:`~ballscrew.errors.InputError` for
+        ``times`` says how often the whole will be evaluated. Raises :class:`~ballscrew.basis.errors.InputError` for
         a law that cannot be recorded, and for values that are refused.
         """
         if subject.nut.one_by_one:

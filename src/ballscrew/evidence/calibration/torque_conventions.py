@@ -11,10 +11,9 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from ballscrew._deprecated import RenamedAttribute
-from ballscrew.calibration.baselines import robust_linear
-from ballscrew.calibration.robust import Vector, scatter_of
-from ballscrew.torque_logs.log_rows import Kind
+from ballscrew.evidence.calibration.baselines import robust_linear
+from ballscrew.evidence.calibration.robust import Vector, scatter_of
+from ballscrew.files.torque_logs.log_rows import Kind
 
 #: The source of the sign of a part of the torque: load, speed, both (the direction of the power), or nothing.
 Sign = Literal["load", "against load", "speed", "motion", "none", "absent"]
@@ -29,8 +28,6 @@ class TorqueConvention(NamedTuple):
     friction: Sign
     #: Whether the column has the opposite sign throughout.
     reversed: bool = False
-
-    words = RenamedAttribute("words", "description")
 
     def weights(self, axial_load: Vector, screw_speed: Vector) -> Vector:
         """The factors of ideal torque and friction torque, of shape (2, rows), from signed load and speed."""

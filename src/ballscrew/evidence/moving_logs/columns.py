@@ -7,12 +7,12 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
-from ballscrew import units
-from ballscrew.errors import Fault, InputError, nearest
-from ballscrew.moving_logs.moving_log import quantities
-from ballscrew.quantities import Info, Quantity, Torque, Unit, quantities_of
-from ballscrew.tables import decimals
-from ballscrew.tables.headings import (
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError, nearest
+from ballscrew.basis.quantities import Info, Quantity, Torque, Unit, quantities_of
+from ballscrew.evidence.moving_logs.moving_log import quantities
+from ballscrew.files.tables import decimals
+from ballscrew.files.tables.headings import (
     NO_COLUMN,
     Column,
     Heading,
@@ -23,8 +23,8 @@ from ballscrew.tables.headings import (
     spelt,
     unused,
 )
-from ballscrew.tables.sheets import Record
-from ballscrew.torque_logs.columns import (
+from ballscrew.files.tables.sheets import Record
+from ballscrew.files.torque_logs.columns import (
     BRACKETS,
     WITHIN,
     Layout,
@@ -35,7 +35,7 @@ from ballscrew.torque_logs.columns import (
     with_option,
     with_unit,
 )
-from ballscrew.torque_logs.log_rows import within
+from ballscrew.files.torque_logs.log_rows import within
 
 _NAMES: Mapping[str, tuple[str, ...]] = {
     "time": ("t", "timestamp", "time stamp", "date time", "elapsed time", "elapsed", "Zeit", "Zeitstempel", "Uhrzeit"),
@@ -91,7 +91,7 @@ def is_emps(names: Sequence[Any]) -> bool:
 def moving_layout(path: Path, found: Sequence[Record], flags: Mapping[str, str]) -> Layout:
     """The layout of a moving log, from its first rows and the headings given by the user, by name.
 
-    Raises :class:`~ballscrew.errors.InputError` for columns that are missing, double or without a unit that fits.
+    Raises :class:`~ballscrew.basis.errors.InputError` for columns that are missing, double or without a unit that fits.
     """
     rows, written = _renamed(found, flags)
     columns = _wanted({_known(name) for name in flags})

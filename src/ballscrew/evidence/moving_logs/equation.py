@@ -11,16 +11,16 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.moving_logs.filtering import (
+from ballscrew.evidence.moving_logs.filtering import (
     EDGE_PERIODS,
     Kinematics,
     band_of_force,
     kinematics,
     low_pass,
 )
-from ballscrew.moving_logs.moving_log import REST, MovingLog
-from ballscrew.moving_logs.regression import LeastSquares
-from ballscrew.torque_logs.motion import Floats
+from ballscrew.evidence.moving_logs.moving_log import REST, MovingLog
+from ballscrew.evidence.moving_logs.regression import LeastSquares
+from ballscrew.files.torque_logs.motion import Floats
 
 #: A speed is rest if it is not so many times its noise.
 CLEAR = 6.0

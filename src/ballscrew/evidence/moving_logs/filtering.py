@@ -12,7 +12,7 @@ import dataclasses
 import numpy as np
 from scipy import signal
 
-from ballscrew.torque_logs.motion import Floats
+from ballscrew.files.torque_logs.motion import Floats
 
 #: Order of the Butterworth filters; run forwards and backwards, they attenuate as twice the order.
 ORDER = 4

@@ -6,11 +6,11 @@ import dataclasses
 
 import numpy as np
 
-from ballscrew.errors import Fault
-from ballscrew.moving_logs.equation import Equation
-from ballscrew.moving_logs.regression import LARGEST_ERROR, LeastSquares, relative_error
-from ballscrew.records import Record
-from ballscrew.torque_logs.motion import Floats
+from ballscrew.basis.errors import Fault
+from ballscrew.basis.records import Record
+from ballscrew.evidence.moving_logs.equation import Equation
+from ballscrew.evidence.moving_logs.regression import LARGEST_ERROR, LeastSquares, relative_error
+from ballscrew.files.torque_logs.motion import Floats
 
 #: The numbers of the model, in the order of its columns.
 NAMES = ("mass", "offset", "coulomb_force", "viscous_coefficient")

@@ -8,22 +8,22 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, InputError, accepts_units, raise_if_any
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.friction.model import FrictionModel
-from ballscrew.moving_logs.equation import DeadTime, Equation, dead_time
-from ballscrew.moving_logs.linear_model import NAMES, LinearModel, linear_model, unit_change
-from ballscrew.moving_logs.moving_log import MovingLog
-from ballscrew.moving_logs.power_law import PowerLaw, power_law
-from ballscrew.moving_logs.regression import relative_error
-from ballscrew.moving_logs.screw_friction import ScrewFriction
-from ballscrew.moving_logs.screw_model import ScrewModelFit, fit_screw_model
-from ballscrew.quantities import Force, Info, Quantity, Ratio, Unit, quantities_of
-from ballscrew.records import Record
-from ballscrew.torque_logs.log_rows import Time
-from ballscrew.torque_logs.motion import Floats
+from ballscrew.basis.errors import Fault, InputError, accepts_units, raise_if_any
+from ballscrew.basis.quantities import Force, Info, Quantity, Ratio, Unit, quantities_of
+from ballscrew.basis.records import Record
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.evidence.moving_logs.equation import DeadTime, Equation, dead_time
+from ballscrew.evidence.moving_logs.linear_model import NAMES, LinearModel, linear_model, unit_change
+from ballscrew.evidence.moving_logs.moving_log import MovingLog
+from ballscrew.evidence.moving_logs.power_law import PowerLaw, power_law
+from ballscrew.evidence.moving_logs.regression import relative_error
+from ballscrew.evidence.moving_logs.screw_friction import ScrewFriction
+from ballscrew.evidence.moving_logs.screw_model import ScrewModelFit, fit_screw_model
+from ballscrew.files.torque_logs.log_rows import Time
+from ballscrew.files.torque_logs.motion import Floats
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.model import FrictionModel
 
 #: The models, in the order of what they know.
 LINEAR, POWER, SCREW = "coulomb-viscous", "power-law", "screw"
@@ -93,19 +93,27 @@ class FilterEffect(NamedTuple):
 class MotionFit:
     """The fit of a moving log by three models; see :func:`fit_motion`."""
 
+    #: Estimates by name, each with its interval.
     estimates: Mapping[str, MotionEstimate]
     #: Root mean square of the residuals over that of the force, by model; both sides filtered alike.
     relative_errors: Mapping[str, float]
     #: The same on the other log, by model, nothing fitted to it; empty without one.
     cross_errors: Mapping[str, float]
+    #: Constant and viscous friction.
     linear: LinearModel
+    #: A free power of the speed; None where it was not found.
     power: PowerLaw | None
+    #: The friction of the model given; None where it was not fitted.
     screw: ScrewModelFit | None
+    #: Time by which the motion follows the force.
     dead_time: DeadTime
+    #: The linear model under other filters.
     filter_effects: Sequence[FilterEffect]
+    #: The rows used, filtered: what was fitted to.
     equation: Equation
     #: The equation of the other log.
     test: Equation | None
+    #: Warnings as records.
     warning_records: tuple[Record, ...]
 
     @property
@@ -130,7 +138,10 @@ class MotionFit:
         return [record.text for record in self.warning_records]
 
     def force(self, model: str, equation: Equation | None = None) -> Floats:
-        """The force of a model at the rows used, of this log or of another."""
+        """Force of a ``model`` (``"coulomb-viscous"``, ``"power-law"``, ``"screw"``) at the rows used, N.
+
+        The rows are those of this log, or those of the ``equation`` of another.
+        """
         found = {LINEAR: self.linear, POWER: self.power, SCREW: self.screw}[model]
         assert found is not None
         return found.force(equation or self.equation)
@@ -151,23 +162,26 @@ def fit_motion(
 ) -> MotionFit:
     """Fit a recorded motion of an axis: mass, gravity, dead time and friction.
 
-    ``data`` is a :class:`~ballscrew.moving_logs.moving_log.MovingLog`, or a mapping of arrays in SI: ``time``,
-    ``position`` (or ``speed``) of the nut, and ``force`` of the motor at the nut (or its ``torque`` at the screw). The
-    friction is fitted three times: constant and viscous (:mod:`~ballscrew.moving_logs.linear_model`, the inverse
-    dynamic model of JanotGautierBrunot2019), a free power of the speed (:mod:`~ballscrew.moving_logs.power_law`), and
-    the friction of the model given, whose numbers ``free`` names as :func:`~ballscrew.calibration.fit.fit` does, with a
-    constant and a viscous part beside it (:mod:`~ballscrew.moving_logs.screw_model`). By default the viscosity is free;
-    where the screw then has more friction than the whole axis, its preload as well, which is said.
+    Returns a :class:`MotionFit`. ``model``, ``screw`` and ``lubricant`` are those of the axis, with the values from
+    which the fit starts. ``data`` is a :class:`~ballscrew.evidence.moving_logs.moving_log.MovingLog`, or a mapping of
+    arrays in SI: ``time``, ``position`` (or ``speed``) of the nut, and ``force`` of the motor at the nut (or its
+    ``torque`` at the screw). The friction is fitted three times: constant and viscous
+    (:mod:`~ballscrew.evidence.moving_logs.linear_model`, the inverse dynamic model of JanotGautierBrunot2019), a free
+    power of the speed (:mod:`~ballscrew.evidence.moving_logs.power_law`), and the friction of the model given, whose
+    numbers ``free`` names as :func:`~ballscrew.evidence.calibration.fit.fit` does, with a constant and a viscous part
+    beside it (:mod:`~ballscrew.evidence.moving_logs.screw_model`). By default the viscosity is free; where the screw
+    then has more friction than the whole axis, its preload as well, which is said.
 
     ``carried_mass`` (kg) is the mass whose force passes the nut; without it, it is fitted. ``test`` is another log of
     the same axis, to which nothing is fitted. ``keep_going`` uses the longest stretch without a fault. ``seed`` is that
     of the resampled logs.
 
-    Intervals are of 95 % and hold for residuals that follow each other (:mod:`~ballscrew.moving_logs.regression`). They
-    do not hold the friction that no model has: of the position along the screw, of temperature, of rest.
+    Intervals are of 95 % and hold for residuals that follow each other
+    (:mod:`~ballscrew.evidence.moving_logs.regression`). They do not hold the friction that no model has: of the
+    position along the screw, of temperature, of rest.
 
-    Raises :class:`~ballscrew.errors.InputError` for logs that cannot be used, with the row and the remedy, for a force
-    of the wrong sign, and for unknown names.
+    Raises :class:`~ballscrew.basis.errors.InputError` for logs that cannot be used, with the row and the remedy, for a
+    force of the wrong sign, and for unknown names.
     """
     raise_if_any(_faults(free, carried_mass, seed))
     asked = DEFAULT_FREE if free is None else free

@@ -13,10 +13,10 @@ from typing import Annotated, Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.errors import Fault, InputError, raise_if_any, si_value
-from ballscrew.quantities import Force, Info, Length, Quantity, Speed, quantities_of
-from ballscrew.torque_logs.log_rows import Time, within
-from ballscrew.torque_logs.motion import Floats
+from ballscrew.basis.errors import Fault, InputError, raise_if_any, si_value
+from ballscrew.basis.quantities import Force, Info, Length, Quantity, Speed, quantities_of
+from ballscrew.files.torque_logs.log_rows import Time, within
+from ballscrew.files.torque_logs.motion import Floats
 
 #: Fewer rows than these do not tell four numbers and their errors.
 LEAST_ROWS = 200
@@ -36,7 +36,8 @@ _RESOLVED = 20.0
 class MovingLog:
     """A recorded motion of an axis in SI: arrays of equal length, one number for each row.
 
-    ``position`` may be left out where there is a ``speed``. ``line`` numbers the rows in the file, from 1.
+    ``position`` may be left out where there is a ``speed``. ``line`` numbers the rows in the file, from 1. Raises
+    :class:`~ballscrew.basis.errors.InputError` for columns of unequal length, and for neither a position nor a speed.
     """
 
     time: Annotated[Time, within(1e18, Info("t", "time", "s"))]
@@ -72,7 +73,11 @@ class MovingLog:
 
     @classmethod
     def of(cls, data: Any) -> MovingLog:
-        """A log from arrays by name in SI (a mapping, a frame), or the log itself."""
+        """A log from ``data``, arrays by name in SI (a mapping, a frame), or the log itself.
+
+        ``time`` (s) and ``force`` (N) are needed, and ``position`` (m) or ``speed`` (m/s).
+        Raises :class:`~ballscrew.basis.errors.InputError` for columns that are missing or of unequal length.
+        """
         if isinstance(data, MovingLog):
             return data
         known = ("time", "force", "position", "speed")
@@ -97,21 +102,21 @@ class MovingLog:
         return float(np.median(np.diff(self.time)))
 
     def select(self, keep: NDArray[Any] | slice) -> Self:
-        """The rows of a mask, of indices or of a slice."""
+        """The rows to ``keep``: of a mask, of indices or of a slice."""
         columns = {name: values[keep] for name, values in self.columns.items()}
         return dataclasses.replace(self, **columns, line=self.line[keep])
 
     def with_notes(self, *notes: str) -> Self:
-        """The same log with further notes, each once."""
+        """The same log with further ``notes``, each once."""
         return dataclasses.replace(self, notes=tuple(dict.fromkeys((*self.notes, *filter(None, notes)))))
 
     def checked(self, *, keep_going: bool = False) -> MovingLog:
         """The log at even steps of time, without missing values; faults are named with their rows.
 
         Up to three rows that are missing in one place are filled in by straight lines. With ``keep_going`` the longest
-        stretch without a fault is used. Raises :class:`~ballscrew.errors.InputError` for missing values, time that runs
-        back or stands still, gaps, jumps of the position (a unit that changes, an encoder that is reset), and logs that
-        are too short or do not move.
+        stretch without a fault is used. Raises :class:`~ballscrew.basis.errors.InputError` for missing values, time
+        that runs back or stands still, gaps, jumps of the position (a unit that changes, an encoder that is reset),
+        and logs that are too short or do not move.
         """
         name = self.source[0] if self.source else "log"
         known = np.all([np.isfinite(values) for values in self.columns.values()], axis=0)

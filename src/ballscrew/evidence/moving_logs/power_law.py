@@ -13,9 +13,9 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.moving_logs.equation import Equation
-from ballscrew.moving_logs.regression import LeastSquares, bootstrap_sums, relative_error
-from ballscrew.torque_logs.motion import Floats
+from ballscrew.evidence.moving_logs.equation import Equation
+from ballscrew.evidence.moving_logs.regression import LeastSquares, bootstrap_sums, relative_error
+from ballscrew.files.torque_logs.motion import Floats
 
 #: Exponents that are tried, between which a parabola finds the best.
 EXPONENTS = np.round(np.arange(0.2, 2.01, 0.1), 10)

@@ -15,8 +15,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.errors import Fault, InputError, raise_if_any
-from ballscrew.moving_logs.columns import (
+from ballscrew.basis.errors import Fault, InputError, raise_if_any
+from ballscrew.basis.quantities import within_bounds
+from ballscrew.evidence.moving_logs.columns import (
     EMPS,
     EMPS_GAIN,
     FORCES,
@@ -26,16 +27,15 @@ from ballscrew.moving_logs.columns import (
     is_emps,
     moving_layout,
 )
-from ballscrew.moving_logs.moving_log import MovingLog
-from ballscrew.quantities import within_bounds
-from ballscrew.tables.headings import NO_COLUMN
-from ballscrew.tables.sheets import Record, unreadable
-from ballscrew.torque_logs import columns as torque_columns
-from ballscrew.torque_logs.columns import Layout
-from ballscrew.torque_logs.matlab_files import is_matlab, variables
-from ballscrew.torque_logs.motion import Floats
-from ballscrew.torque_logs.numbers import NumberReader
-from ballscrew.torque_logs.sources import source_of
+from ballscrew.evidence.moving_logs.moving_log import MovingLog
+from ballscrew.files.tables.headings import NO_COLUMN
+from ballscrew.files.tables.sheets import Record, unreadable
+from ballscrew.files.torque_logs import columns as torque_columns
+from ballscrew.files.torque_logs.columns import Layout
+from ballscrew.files.torque_logs.matlab_files import is_matlab, variables
+from ballscrew.files.torque_logs.motion import Floats
+from ballscrew.files.torque_logs.numbers import NumberReader
+from ballscrew.files.torque_logs.sources import source_of
 
 #: Rows of text that are read at a time, and most rows of a moving log.
 CHUNK, MOST_ROWS = 200_000, 5_000_000
@@ -59,7 +59,7 @@ def read_moving(
     voltage by the ``gain`` (N/V), which the channel ``gtau`` of the EMPS benchmark gives; ``usual_gain`` holds where
     neither does. ``columns`` says which heading a column has, and its unit: ``{"position": "x_ist [mm]"}``.
 
-    Raises :class:`~ballscrew.errors.InputError` for faults of the file, and for cells that are no numbers; with
+    Raises :class:`~ballscrew.basis.errors.InputError` for faults of the file, and for cells that are no numbers; with
     ``keep_going`` these count as missing.
     """
     path, columns = Path(path), columns or {}

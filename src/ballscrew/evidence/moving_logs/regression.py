@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import stdtrit
 
-from ballscrew.torque_logs.motion import Floats
+from ballscrew.files.torque_logs.motion import Floats
 
 #: A log has so many blocks at least, whatever the autocorrelation: fewer give no error at all.
 FEWEST_BLOCKS = 8

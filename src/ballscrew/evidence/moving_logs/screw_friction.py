@@ -15,11 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from ballscrew.calibration.response import initial_value, resolve_input
-from ballscrew.evaluation.evaluator import Evaluator, evaluator
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.quantities import Quantity
-from ballscrew.torque_logs.motion import Floats
+from ballscrew.basis.quantities import Quantity
+from ballscrew.engine.evaluation.evaluator import Evaluator, evaluator
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.evidence.calibration.response import initial_value, resolve_input
+from ballscrew.files.torque_logs.motion import Floats
 
 #: Speeds and loads of the grid.
 SPEEDS, LOADS = 24, 9
@@ -50,7 +50,7 @@ class ScrewFriction:
     ) -> ScrewFriction:
         """``fastest`` is the largest speed of the nut (m/s), ``largest_load`` the largest axial load on it (N).
 
-        Raises :class:`~ballscrew.errors.InputError` for names that the model does not have.
+        Raises :class:`~ballscrew.basis.errors.InputError` for names that the model does not have.
         """
         names = tuple(resolve_input(subject, name, section) for name in free)
         return cls(subject, names, tuple(free), fastest, largest_load)

@@ -18,10 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
-from ballscrew.moving_logs.equation import Equation
-from ballscrew.moving_logs.regression import LARGEST_ERROR, LeastSquares, block_length, relative_error
-from ballscrew.moving_logs.screw_friction import FrictionTable, ScrewFriction
-from ballscrew.torque_logs.motion import Floats
+from ballscrew.evidence.moving_logs.equation import Equation
+from ballscrew.evidence.moving_logs.regression import LARGEST_ERROR, LeastSquares, block_length, relative_error
+from ballscrew.evidence.moving_logs.screw_friction import FrictionTable, ScrewFriction
+from ballscrew.files.torque_logs.motion import Floats
 
 #: Numbers that every fit has, in this order; the free numbers of the model follow, and the mass that the nut carries.
 MASS, OFFSET, CONSTANT, VISCOUS = range(4)

@@ -10,18 +10,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.calibration.fit import CONSTANT_LOSS, with_constant_torque
-from ballscrew.calibration.oil_temperature import VISCOSITY, torque_of_model
-from ballscrew.calibration.problem import CONSTANT_TORQUE
-from ballscrew.calibration.response import resolve_input
-from ballscrew.calibration.robust import BIWEIGHT_CUTOFF, Vector, noise_of
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.errors import InputError
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.quantities import Quantity
-from ballscrew.service.posterior import PRELOAD, Readings, errors_of_sensor
-from ballscrew.uncertainty.default_uncertainties import NORMAL_95
-from ballscrew.uncertainty.distributions import Distribution, allowed
+from ballscrew.basis.errors import InputError
+from ballscrew.basis.quantities import Quantity
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
+from ballscrew.engine.uncertainty.distributions import Distribution, allowed
+from ballscrew.evidence.calibration.fit import CONSTANT_LOSS, with_constant_torque
+from ballscrew.evidence.calibration.oil_temperature import VISCOSITY, torque_of_model
+from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
+from ballscrew.evidence.calibration.response import resolve_input
+from ballscrew.evidence.calibration.robust import BIWEIGHT_CUTOFF, Vector, noise_of
+from ballscrew.evidence.service.posterior import PRELOAD, Readings, errors_of_sensor
+from ballscrew.physics.components.materials import TEMPERATURE
 
 #: A cause explains a log as well as the preload if it is off by no more than this many times as much.
 AS_WELL = 1.05

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.calibration.robust import Vector
+from ballscrew.evidence.calibration.robust import Vector
 
 #: The allowance of the CUSUM in standard deviations: half of the change that it finds soonest.
 ALLOWANCE = 1.0

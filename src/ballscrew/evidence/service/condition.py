@@ -9,28 +9,28 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ballscrew.calibration.robust import Vector
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, accepts_units, raise_if_any
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.friction.model import FrictionModel
-from ballscrew.quantities import AngularSpeed, MomentOfInertia, Temperature
-from ballscrew.service.change_detection import Trend, chart, robust_scatter, trend
-from ballscrew.service.condition_means import Means, of_logs, of_series
-from ballscrew.service.condition_parts import parts_of
-from ballscrew.service.condition_records import records_of
-from ballscrew.service.condition_reduction import Reduction, reduced
-from ballscrew.service.condition_values import Condition, State
-from ballscrew.service.posterior import MODEL_ERROR
-from ballscrew.service.preload_change import held_numbers, with_preload
-from ballscrew.torque_logs.log_rows import Kind
-from ballscrew.torque_logs.torque_series import TorqueSeries
-from ballscrew.uncertainty.default_uncertainties import NORMAL_95
-from ballscrew.uncertainty.distributions import Distribution, standard_normal_share
+from ballscrew.basis.errors import Fault, accepts_units, raise_if_any
+from ballscrew.basis.quantities import AngularSpeed, MomentOfInertia, Temperature
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
+from ballscrew.engine.uncertainty.distributions import Distribution, standard_normal_share
+from ballscrew.evidence.calibration.robust import Vector
+from ballscrew.evidence.service.change_detection import Trend, chart, robust_scatter, trend
+from ballscrew.evidence.service.condition_means import Means, of_logs, of_series
+from ballscrew.evidence.service.condition_parts import parts_of
+from ballscrew.evidence.service.condition_records import records_of
+from ballscrew.evidence.service.condition_reduction import Reduction, reduced
+from ballscrew.evidence.service.condition_values import Condition, State
+from ballscrew.evidence.service.posterior import MODEL_ERROR
+from ballscrew.evidence.service.preload_change import held_numbers, with_preload
+from ballscrew.files.torque_logs.log_rows import Kind
+from ballscrew.files.torque_logs.torque_series import TorqueSeries
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.model import FrictionModel
 
 if TYPE_CHECKING:
-    from ballscrew.uncertainty.sampling import JointNormal
+    from ballscrew.engine.uncertainty.sampling import JointNormal
 
 #: Tests of the baseline by default, and at least.
 BASELINE, LEAST_BASELINE = 5, 3
@@ -60,24 +60,28 @@ def condition(
 ) -> Condition:
     """State of a nut in each test of a series: torque at one temperature, preload left, trend, and an alarm.
 
-    ``tests`` is a table, as :meth:`~ballscrew.torque_logs.torque_series.TorqueSeries.of` takes it, of mean friction
-    torques without load, or a list of logs of one load, as :meth:`~ballscrew.torque_logs.torque_log.TorqueLog.of` takes
-    them, in their order. A table without speeds needs the ``screw_speed`` (rad/s).
+    Returns a :class:`~ballscrew.evidence.service.condition_values.Condition`. ``model``, ``screw`` and ``lubricant``
+    describe the nut as it should be. ``tests`` is a table, as
+    :meth:`~ballscrew.files.torque_logs.torque_series.TorqueSeries.of` takes it, of mean friction torques without load,
+    or a list of logs of one load, as :meth:`~ballscrew.files.torque_logs.torque_log.TorqueLog.of` takes them, in their
+    order. A table without speeds needs the ``screw_speed`` (rad/s). ``kind`` says whether the torque of logs is
+    ``"friction"`` or ``"drive"`` torque; ``inertia`` (kg m²) takes the acceleration out of the latter.
 
     The first tests (``baseline``) are taken as healthy. The model is made to agree with them by a factor and reduces
     every torque to the ``reference_temperature`` (K; by default theirs) and speed. Each torque then asks for a preload.
-    The numbers of the model are as uncertain as in :func:`~ballscrew.service.preload_change.preload_change`, the same
-    in all tests. The temperature of a test is off by 2 K (95 %) where it is logged and the oil has a grade, otherwise
-    by 10 K.
+    The numbers of the model are as uncertain as in :func:`~ballscrew.evidence.service.preload_change.preload_change`
+    (``uncertain``, ``joint``), the same in all tests, and drawn with the ``seed``. ``tolerance`` is the share of the
+    preload that may be lost. The temperature of a test is off by 2 K (95 %) where it is logged and the oil has a grade,
+    otherwise by 10 K.
 
     The alarm is a CUSUM of the reduced torque: beyond the scatter of the series, 2 % for the model (over the root of
     the number of speeds), and the doubts of the temperatures. ``false_alarms`` is the share of healthy tests that
     give one. Where no temperature is logged, the alarm says that the torque changed, and the intervals whether that
     can be the oil.
 
-    Valid for a preloaded nut whose balls are alike. Raises :class:`~ballscrew.errors.InputError` for a nut without
-    preload, balls that differ, fewer tests than ``baseline`` + 1, shares out of (0, 1), and data that cannot be of one
-    nut in one unit.
+    Valid for a preloaded nut whose balls are alike. Raises :class:`~ballscrew.basis.errors.InputError` for a nut
+    without preload, balls that differ, fewer tests than ``baseline`` + 1, shares out of (0, 1), and data that cannot
+    be of one nut in one unit.
     """
     subject = with_preload(Configuration(model, screw, lubricant))
     raise_if_any(_faults(subject, baseline, false_alarms, tolerance))

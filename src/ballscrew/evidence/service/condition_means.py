@@ -10,16 +10,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.calibration.robust import Vector
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.errors import Fault, InputError, raise_if_any
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.records import Record
-from ballscrew.service.change_detection import OF_MAD
-from ballscrew.service.posterior import PRELOAD
-from ballscrew.torque_logs.log_rows import Kind
-from ballscrew.torque_logs.torque_log import TorqueLog
-from ballscrew.torque_logs.torque_series import JUMP, TorqueSeries
+from ballscrew.basis.errors import Fault, InputError, raise_if_any
+from ballscrew.basis.records import Record
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.evidence.calibration.robust import Vector
+from ballscrew.evidence.service.change_detection import OF_MAD
+from ballscrew.evidence.service.posterior import PRELOAD
+from ballscrew.files.torque_logs.log_rows import Kind
+from ballscrew.files.torque_logs.torque_log import TorqueLog
+from ballscrew.files.torque_logs.torque_series import JUMP, TorqueSeries
+from ballscrew.physics.components.materials import TEMPERATURE
 
 #: Speeds of a log at most, and rows of a mean in one direction at least.
 MOST_SPEEDS, LEAST_ROWS = 12, 3
@@ -81,7 +81,7 @@ class Means:
 
 
 def of_series(series: TorqueSeries, screw_speed: float | None) -> Means:
-    """The means of a table. Raises :class:`~ballscrew.errors.InputError` if no speed is known."""
+    """The means of a table. Raises :class:`~ballscrew.basis.errors.InputError` if no speed is known."""
     count = len(series)
     unknown = np.full(count, math.nan)
     speed = unknown if series.screw_speed is None else np.asarray(series.screw_speed, dtype=np.float64)
@@ -112,7 +112,7 @@ def of_logs(subject: Configuration, logs: Sequence[Any], kind: Kind, inertia: fl
     over the torque of the model there: a zero error of the sensor and a constant load go out, and it does not matter
     that rows are not quite at one speed or temperature.
 
-    Raises :class:`~ballscrew.errors.InputError` for logs that cannot be used, of many loads, and given twice.
+    Raises :class:`~ballscrew.basis.errors.InputError` for logs that cannot be used, of many loads, and given twice.
     """
     parts: list[tuple[int, _Mean]] = []
     warnings: list[Record] = []
@@ -194,7 +194,6 @@ def _means(subject: Configuration, log: TorqueLog, kind: Kind) -> tuple[list[_Me
     friction = np.broadcast_to(model.screw_torque, speed.shape)
     if not (np.isfinite(friction).all() and (friction > 0).all()):
         raise InputError(Fault("log", "has rows at which the model has no torque", "", "look at loads and speeds"))
-    direction = np.sign(log.screw_speed)
     both = bool(np.any(log.forward) and np.any(log.backward))
     ideal = np.zeros(speed.size)
     if not both and kind != "friction":
@@ -204,40 +203,50 @@ def _means(subject: Configuration, log: TorqueLog, kind: Kind) -> tuple[list[_Me
                 Fault("log", "has a load and one direction, and the kind of torque is not known", "", remedy)
             )
         ideal = np.broadcast_to(model.ideal_torque, speed.shape)
-    share = (np.asarray(log.torque) - ideal) * direction / friction
+    share = (np.asarray(log.torque) - ideal) * np.sign(log.screw_speed) / friction
     found: list[_Mean] = []
-    used = np.zeros(speed.size, dtype=bool)
+    kept = np.zeros(speed.size, dtype=bool)
     for rows in _of_one_speed(speed):
-        sides = [rows[direction[rows] == side] for side in (1, -1)]
-        sides = [side for side in sides if side.size >= LEAST_ROWS]
+        sides = _sides(log, rows)
         if len(sides) < (2 if both else 1):
             continue
-        used[np.concatenate(sides)] = True
-        medians = [float(np.median(share[side])) for side in sides]
-        deviations = [
-            _OF_MEDIAN * OF_MAD * float(np.median(np.abs(share[side] - middle))) / math.sqrt(side.size)
-            for side, middle in zip(sides, medians, strict=True)
-        ]
-        ratio = float(np.mean(medians))
-        if not ratio > 0:
-            remedy = "is the kind of torque right, and are the signs of torque and speed?"
-            raise InputError(Fault("log", "has a mean friction torque that is not positive", "", remedy))
-        warm = math.nan if log.temperature is None else float(np.mean(np.asarray(log.temperature)[rows]))
-        # over rows of alike speed the mean of the logarithms is the logarithm at the mean point
-        torque = ratio * math.exp(float(np.mean(np.log(friction[rows]))))
-        found.append(
-            _Mean(
-                screw_speed=math.exp(float(np.mean(np.log(speed[rows])))),
-                axial_load=float(np.mean(load[rows])),
-                temperature=warm,
-                torque=torque,
-                deviation=math.hypot(*deviations) / len(sides) / ratio,
-            )
-        )
+        kept[np.concatenate(sides)] = True
+        found.append(_mean(log, rows, sides, share, friction))
     if not found:
         remedy = f"give {LEAST_ROWS} rows or more of each speed, in both directions or in one"
         raise InputError(Fault("log", "has no speed with enough rows", "", remedy))
-    return found, log.select(used, FEW_OF_A_SPEED)
+    return found, log.select(kept, FEW_OF_A_SPEED)
+
+
+def _sides(log: TorqueLog, rows: NDArray[np.int64]) -> list[NDArray[np.int64]]:
+    """The rows forward, and those backward, where there are enough of them."""
+    direction = np.sign(log.screw_speed)
+    sides = [rows[direction[rows] == side] for side in (1, -1)]
+    return [side for side in sides if side.size >= LEAST_ROWS]
+
+
+def _mean(
+    log: TorqueLog, rows: NDArray[np.int64], sides: Sequence[NDArray[np.int64]], share: Vector, friction: Vector
+) -> _Mean:
+    """The mean over rows of alike speed, of the ``share`` that was measured of the model's ``friction``."""
+    load, speed = np.asarray(log.axial_load), np.abs(log.screw_speed)
+    medians = [float(np.median(share[side])) for side in sides]
+    deviations = [
+        _OF_MEDIAN * OF_MAD * float(np.median(np.abs(share[side] - middle))) / math.sqrt(side.size)
+        for side, middle in zip(sides, medians, strict=True)
+    ]
+    ratio = float(np.mean(medians))
+    if not ratio > 0:
+        remedy = "is the kind of torque right, and are the signs of torque and speed?"
+        raise InputError(Fault("log", "has a mean friction torque that is not positive", "", remedy))
+    return _Mean(
+        screw_speed=math.exp(float(np.mean(np.log(speed[rows])))),
+        axial_load=float(np.mean(load[rows])),
+        temperature=math.nan if log.temperature is None else float(np.mean(np.asarray(log.temperature)[rows])),
+        # over rows of alike speed the mean of the logarithms is the logarithm at the mean point
+        torque=ratio * math.exp(float(np.mean(np.log(friction[rows])))),
+        deviation=math.hypot(*deviations) / len(sides) / ratio,
+    )
 
 
 def _of_one_speed(speed: Vector) -> list[NDArray[np.int64]]:

@@ -13,16 +13,16 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.calibration.oil_temperature import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE, torque_of_model
-from ballscrew.calibration.response import resolve_input
-from ballscrew.calibration.robust import Vector
-from ballscrew.errors import InputError
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.service.alternatives import BOUNDARY_FRICTION
-from ballscrew.service.condition_means import Means, points_of
-from ballscrew.service.condition_reduction import Reduction, of_first_tests
-from ballscrew.service.posterior import FRICTION, MODEL_ERROR, PRELOAD
-from ballscrew.uncertainty.default_uncertainties import NORMAL_95
+from ballscrew.basis.errors import InputError
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
+from ballscrew.evidence.calibration.oil_temperature import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE, torque_of_model
+from ballscrew.evidence.calibration.response import resolve_input
+from ballscrew.evidence.calibration.robust import Vector
+from ballscrew.evidence.service.alternatives import BOUNDARY_FRICTION
+from ballscrew.evidence.service.condition_means import Means, points_of
+from ballscrew.evidence.service.condition_reduction import Reduction, of_first_tests
+from ballscrew.evidence.service.posterior import FRICTION, MODEL_ERROR, PRELOAD
 
 #: Names of the causes.
 CONSTANT, WARMER = "constant_torque", "temperature"

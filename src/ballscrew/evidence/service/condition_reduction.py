@@ -16,18 +16,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.calibration.oil_temperature import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE, torque_of_model
-from ballscrew.calibration.robust import Vector
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.errors import Fault, raise_if_any
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.service.condition_means import Means, points_of
-from ballscrew.service.posterior import FRICTION, PRELOAD
-from ballscrew.uncertainty.default_uncertainties import NORMAL_95
-from ballscrew.uncertainty.distributions import Distribution
+from ballscrew.basis.errors import Fault, raise_if_any
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
+from ballscrew.engine.uncertainty.distributions import Distribution
+from ballscrew.evidence.calibration.oil_temperature import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE, torque_of_model
+from ballscrew.evidence.calibration.robust import Vector
+from ballscrew.evidence.service.condition_means import Means, points_of
+from ballscrew.evidence.service.posterior import FRICTION, PRELOAD
+from ballscrew.physics.components.materials import TEMPERATURE
 
 if TYPE_CHECKING:
-    from ballscrew.uncertainty.sampling import JointNormal
+    from ballscrew.engine.uncertainty.sampling import JointNormal
 
 #: Samples of the numbers of the model, a power of two.
 SAMPLES = 64
@@ -82,7 +82,7 @@ class _Samples:
     def of(
         cls, subject: Configuration, known: Mapping[str, Distribution], joint: JointNormal | None, seed: int
     ) -> _Samples:
-        from ballscrew.uncertainty.sampling import Sampler, sobol_sequence  # loads xarray
+        from ballscrew.engine.uncertainty.sampling import Sampler, sobol_sequence  # loads xarray
 
         together = () if joint is None else joint.names
         sampler = Sampler(subject, {n: one for n, one in known.items() if n not in together}, {}, (), joint)
@@ -126,7 +126,7 @@ def reduced(
     """The tests at the temperature (K; by default the mean of the first tests, or that of the case) and mean speed of
     the first tests.
 
-    Raises :class:`~ballscrew.errors.InputError` for tests at which the model has no torque.
+    Raises :class:`~ballscrew.basis.errors.InputError` for tests at which the model has no torque.
     """
     samples = _Samples.of(subject, known, joint, seed)
     points = points_of(means, subject)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping, Sequence
 
-from ballscrew.records import Record
-from ballscrew.service.change_detection import Chart, Trend
-from ballscrew.service.condition_parts import Part
-from ballscrew.service.preload_change import CERTAIN, Verdict
+from ballscrew.basis.records import Record
+from ballscrew.evidence.service.change_detection import Chart, Trend
+from ballscrew.evidence.service.condition_parts import Part
+from ballscrew.evidence.service.preload_change import CERTAIN, Verdict
 
 
 @dataclasses.dataclass(frozen=True)
@@ -39,19 +39,23 @@ class State:
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class Condition:
-    """Result of :func:`~ballscrew.service.condition.condition`."""
+    """Result of :func:`~ballscrew.evidence.service.condition.condition`."""
 
+    #: Torque and preload of each test.
     states: Sequence[State]
-    #: Tests that the others are held against, and the share of healthy tests that give an alarm.
+    #: Number of the first tests, that the others are held against.
     baseline: int
+    #: Share of healthy tests that give an alarm.
     false_alarms: float
-    #: What is reduced to, K (NaN for an oil without a grade) and rad/s.
+    #: Temperature that is reduced to, K; NaN for an oil without a grade.
     reference_temperature: float
+    #: Speed that is reduced to, rad/s.
     reference_speed: float
     #: Sums of the torque's changes with their limits.
     chart: Chart
     #: Of the logarithm of the preload, by s or by test (``per``).
     trend: Trend
+    #: What the trend is by: ``"s"``, or ``"test"`` for numbers of tests.
     per: str
     #: Standard deviation of the logarithm of the torque from test to test.
     scatter: float
@@ -63,14 +67,19 @@ class Condition:
     per_kelvin: float
     #: Derivative of the logarithm of the torque by that of the preload in the last test.
     exponent: float
-    #: The torque of the first tests over that of the model, with its interval.
+    #: The torque of the first tests over that of the model.
     factor: float
+    #: The interval of the factor.
     factor_interval: tuple[float, float]
     #: Tests whose temperature was logged and is used.
     temperatures: int
+    #: Name and SHA-256 of the files.
     sources: Sequence[tuple[str, str]] = ()
+    #: Remarks on the data, one line each.
     notes: Sequence[str] = ()
+    #: Warnings as records.
     warning_records: Sequence[Record] = ()
+    #: Verdicts as records.
     verdict_records: Sequence[Record] = ()
 
     @property

@@ -6,18 +6,18 @@ import dataclasses
 
 import numpy as np
 
-from ballscrew.calibration.fit import points_of
-from ballscrew.calibration.fit_result import Rows
-from ballscrew.calibration.oil_temperature import torque_of_model, uses_temperatures
-from ballscrew.calibration.plausibility import HIGHEST_PRELOAD
-from ballscrew.calibration.robust import MINIMUM_ROWS
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.friction.starvation import STARVED
-from ballscrew.quantities import Force, Quantity
-from ballscrew.records import Measured, Message, Record
-from ballscrew.service.estimate import PreloadEstimate
-from ballscrew.service.posterior import FRICTION, MINIMUM_SAMPLES, MODEL_ERROR, MODEL_PARTS, PRELOAD, Posterior
-from ballscrew.service.temperature_trend import temperature_trend
+from ballscrew.basis.quantities import Force, Quantity
+from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.evidence.calibration.fit import points_of
+from ballscrew.evidence.calibration.fit_result import Rows
+from ballscrew.evidence.calibration.oil_temperature import torque_of_model, uses_temperatures
+from ballscrew.evidence.calibration.plausibility import HIGHEST_PRELOAD
+from ballscrew.evidence.calibration.robust import MINIMUM_ROWS
+from ballscrew.evidence.service.posterior import FRICTION, MINIMUM_SAMPLES, MODEL_ERROR, MODEL_PARTS, PRELOAD, Posterior
+from ballscrew.evidence.service.preload_estimate import PreloadEstimate
+from ballscrew.evidence.service.temperature_trend import temperature_trend
+from ballscrew.physics.friction.starvation import STARVED
 
 #: A difference between the temperatures of two logs that is said, K.
 TEMPERATURE_DIFFERENCE = 5.0

@@ -9,28 +9,28 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from ballscrew.calibration.fit import fit
-from ballscrew.calibration.oil_temperature import VISCOSITY
-from ballscrew.calibration.problem import CONSTANT_TORQUE
-from ballscrew.components.materials import TEMPERATURE, Lubricant
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, InputError, accepts_units, nearest, raise_if_any
-from ballscrew.evaluation.outputs import OPERATION
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.friction.model import FrictionModel
-from ballscrew.quantities import Force, MomentOfInertia
-from ballscrew.records import Record
-from ballscrew.service.alternatives import Alternative, alternatives, rows_that_count
-from ballscrew.service.diagnostics import warning_records
-from ballscrew.service.estimate import Mixture, PreloadEstimate
-from ballscrew.service.posterior import MINIMUM_SAMPLES, PRELOAD, Groups, Posterior, Readings, posterior
-from ballscrew.torque_logs.log_rows import Kind
-from ballscrew.torque_logs.torque_log import TorqueLog
-from ballscrew.uncertainty.default_uncertainties import NORMAL_95, default_distributions
-from ballscrew.uncertainty.distributions import Distribution
+from ballscrew.basis.errors import Fault, InputError, accepts_units, nearest, raise_if_any
+from ballscrew.basis.quantities import Force, MomentOfInertia
+from ballscrew.basis.records import Record
+from ballscrew.engine.evaluation.outputs import OPERATION
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95, default_distributions
+from ballscrew.engine.uncertainty.distributions import Distribution
+from ballscrew.evidence.calibration.fit import fit
+from ballscrew.evidence.calibration.oil_temperature import VISCOSITY
+from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
+from ballscrew.evidence.service.alternatives import Alternative, alternatives, rows_that_count
+from ballscrew.evidence.service.diagnostics import warning_records
+from ballscrew.evidence.service.posterior import MINIMUM_SAMPLES, PRELOAD, Groups, Posterior, Readings, posterior
+from ballscrew.evidence.service.preload_estimate import Mixture, PreloadEstimate
+from ballscrew.files.torque_logs.log_rows import Kind
+from ballscrew.files.torque_logs.torque_log import TorqueLog
+from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.model import FrictionModel
 
 if TYPE_CHECKING:
-    from ballscrew.uncertainty.sampling import JointNormal
+    from ballscrew.engine.uncertainty.sampling import JointNormal
 
 Verdict = Literal["lost", "kept", "open"]
 #: A preload is called lost, or kept, with this probability.
@@ -45,7 +45,9 @@ FREE = PRELOAD, CONSTANT_TORQUE.name
 class PreloadChange:
     """Result of :func:`preload_change`."""
 
+    #: The preload before: of its log, or the nominal one.
     new: PreloadEstimate
+    #: The preload after.
     worn: PreloadEstimate
     #: The logarithm of the ratio: errors that both preloads share have gone from it.
     logarithm: Mixture
@@ -57,6 +59,7 @@ class PreloadChange:
     tolerance: float
     #: Other causes, had the preload stayed as it was.
     alternatives: Sequence[Alternative]
+    #: Warnings as records.
     warning_records: Sequence[Record] = ()
 
     @property
@@ -65,7 +68,7 @@ class PreloadChange:
         return math.exp(self.logarithm.quantile(0.5))
 
     def ratio_interval(self, level: float = 0.95) -> tuple[float, float]:
-        """The interval of the ratio; NaN where one of the preloads is not told."""
+        """The interval of the ratio with probability ``level``; NaN where one of the preloads is not told."""
         return self.logarithm.interval(level)
 
     @property
@@ -105,20 +108,23 @@ def preload_change(
 ) -> PreloadChange:
     """Preload of a nut in a log of its torque when new and in one when worn, N, and the share that is left.
 
-    ``new`` and ``worn`` are logs as :func:`~ballscrew.calibration.fit.fit` takes them; None for ``new`` stands for the
-    nominal preload of the screw with its tolerance. ``free`` may have ``"constant_torque"`` beside ``"nut.preload"``:
-    seals that lose another torque in each log.
+    Returns a :class:`PreloadChange`. ``model``, ``screw`` and ``lubricant`` describe the nut as it should be. ``new``
+    and ``worn`` are logs as :func:`~ballscrew.evidence.calibration.fit.fit` takes them; None for ``new`` stands for the
+    nominal preload of the screw with its tolerance. ``kind`` says whether their torque is ``"friction"`` or ``"drive"``
+    torque; ``inertia`` (kg m²) takes the acceleration out of the latter. ``free`` may have ``"constant_torque"`` beside
+    ``"nut.preload"``: seals that lose another torque in each log.
 
     ``uncertain`` are the distributions of the numbers of the model (by default those of ``data/uncertainties.toml``),
     ``joint`` those among them that a calibration left correlated. They are unknowns beside the preloads, the same for
     both logs, and so is, for each log by itself, its oil temperature: 2 K either way where the log has it and the oil a
     grade, otherwise 10 K. A hotter oil then shows in how the torque goes with the speed, or makes the interval wider
-    (:mod:`ballscrew.service.posterior`).
+    (:mod:`ballscrew.evidence.service.posterior`).
 
     ``tolerance`` is the share of the preload that may be lost; ``dynamic_load_rating`` (N) is what the preload is
-    judged by. The answer is made of samples, the same for the same ``seed``.
+    judged by. The answer is made of samples, the same for the same ``seed``. ``done(finished, total)`` is told the
+    rounds of the fits, of each log anew.
 
-    Raises :class:`~ballscrew.errors.InputError` for a nut without preload, balls that differ, a tolerance out of
+    Raises :class:`~ballscrew.basis.errors.InputError` for a nut without preload, balls that differ, a tolerance out of
     (0, 1), one log given twice, and all that a fit raises.
     """
     subject = with_preload(Configuration(model, screw, lubricant))

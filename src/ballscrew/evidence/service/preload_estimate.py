@@ -9,10 +9,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.calibration.calibrated_model import CalibratedModel
-from ballscrew.calibration.robust import Vector
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.quantities import Force
+from ballscrew.basis.quantities import Force
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
+from ballscrew.evidence.calibration.robust import Vector
 
 
 class Mixture(NamedTuple):

@@ -8,22 +8,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ballscrew.calibration.oil_temperature import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE, torque_of_model
-from ballscrew.calibration.robust import Vector
-from ballscrew.components.materials import TEMPERATURE, Lubricant
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, InputError, accepts_units, raise_if_any
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.friction.model import FrictionModel
-from ballscrew.quantities import AngularSpeed, Temperature, Torque
-from ballscrew.service.estimate import Mixture, PreloadEstimate
-from ballscrew.service.posterior import PRELOAD
-from ballscrew.service.preload_change import held_numbers, with_preload
-from ballscrew.uncertainty.default_uncertainties import NORMAL_95
-from ballscrew.uncertainty.distributions import Distribution, standard_normal_quantile
+from ballscrew.basis.errors import Fault, InputError, accepts_units, raise_if_any
+from ballscrew.basis.quantities import AngularSpeed, Temperature, Torque
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
+from ballscrew.engine.uncertainty.distributions import Distribution, standard_normal_quantile
+from ballscrew.evidence.calibration.oil_temperature import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE, torque_of_model
+from ballscrew.evidence.calibration.robust import Vector
+from ballscrew.evidence.service.posterior import PRELOAD
+from ballscrew.evidence.service.preload_change import held_numbers, with_preload
+from ballscrew.evidence.service.preload_estimate import Mixture, PreloadEstimate
+from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.model import FrictionModel
 
 if TYPE_CHECKING:
-    from ballscrew.uncertainty.sampling import JointNormal
+    from ballscrew.engine.uncertainty.sampling import JointNormal
 
 #: A preload is looked for between these multiples of the nominal one, by so many halvings.
 LEAST, MOST, HALVINGS = 1e-3, 1e2, 40
@@ -47,16 +47,22 @@ def preload_of_torque(
     joint: JointNormal | None = None,
     seed: int = 0,
 ) -> PreloadEstimate:
-    """Preload, N, of a nut that loses this torque (N m) without load at a speed (rad/s): the median, and its interval.
+    """Preload, N, of a nut that loses this torque without load at a speed: the median, and its interval.
+
+    Returns a :class:`~ballscrew.evidence.service.preload_estimate.PreloadEstimate` of the ``screw`` by the ``model``
+    with its ``lubricant``. ``torque`` (N m) and ``screw_speed`` (rad/s) are one positive number each. ``uncertain``
+    are the distributions of the numbers of the model, by default those of ``data/uncertainties.toml``, and ``joint``
+    those among them that a calibration left correlated; ``seed`` is that of the samples.
 
     For :data:`SAMPLES` samples of the numbers of the model, of the oil temperature (2 K either way where
-    ``temperature`` is given in K, otherwise 10 K) and of the reading (``torque_deviation``, its standard deviation) the
-    preload is solved for; numbers with which no preload gives the torque are not those of this screw, and left out.
+    ``temperature`` is given in K, otherwise 10 K) and of the reading (``torque_deviation``, its standard deviation in
+    N m) the preload is solved for; numbers with which no preload gives the torque are not those of this screw, and left
+    out.
 
-    Raises :class:`~ballscrew.errors.InputError` for a nut without preload, balls that differ, and a torque that no
-    preload gives.
+    Raises :class:`~ballscrew.basis.errors.InputError` for a nut without preload, balls that differ, a torque or a speed
+    that is not positive, and a torque that no preload gives.
     """
-    from ballscrew.uncertainty.sampling import Sampler, sobol_sequence  # loads xarray
+    from ballscrew.engine.uncertainty.sampling import Sampler, sobol_sequence  # loads xarray
 
     subject = with_preload(Configuration(model, screw, lubricant))
     if subject.nut.one_by_one:

@@ -10,9 +10,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ballscrew.calibration.identifiability import long_run_covariance
-from ballscrew.calibration.oil_temperature import LOGGED_TEMPERATURE
-from ballscrew.calibration.robust import Vector, autocorrelation_lag
+from ballscrew.evidence.calibration.identifiability import long_run_covariance
+from ballscrew.evidence.calibration.oil_temperature import LOGGED_TEMPERATURE
+from ballscrew.evidence.calibration.robust import Vector, autocorrelation_lag
 
 #: A trend is said if chance makes one so clear in no more than this share of the tests in which there is none.
 CHANCE = 0.01

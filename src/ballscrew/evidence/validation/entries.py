@@ -1,6 +1,6 @@
 """A model against what vendors and laboratories state: row by row, and what the rows say together.
 
-A set of data (:mod:`ballscrew.validation.sets`) makes points of the rows of a table. A point has the value of
+A set of data (:mod:`ballscrew.evidence.validation.sets`) makes points of the rows of a table. A point has the value of
 the model and that of the table, most often the middle of a vendor's band.
 """
 
@@ -13,12 +13,12 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from ballscrew.components.materials import TEMPERATURE, Lubricant
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.errors import Fault, InputError
-from ballscrew.friction.model import FrictionModel
-from ballscrew.quantities import AngularSpeed, Info, Quantity, Temperature, Viscosity, fields_of
-from ballscrew.records import Record
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.quantities import AngularSpeed, Info, Quantity, Temperature, Viscosity, fields_of
+from ballscrew.basis.records import Record
+from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.friction.model import FrictionModel
 
 RPM = math.pi / 30
 #: Values of a row in SI (or text) by column.
@@ -64,7 +64,7 @@ class Conditions:
     def of(self, values: Values) -> Conditions:
         """These conditions, but for those that a row has of its own.
 
-        Raises :class:`~ballscrew.errors.InputError` for a viscosity beside a grade or a temperature.
+        Raises :class:`~ballscrew.basis.errors.InputError` for a viscosity beside a grade or a temperature.
         """
         own = {name: values[name] for name in CONDITIONS if name in values}
         if "viscosity" in own and ("grade" in own or "temperature" in own):
@@ -73,7 +73,9 @@ class Conditions:
 
     @property
     def lubricant(self) -> Lubricant:
-        """The oil. Raises :class:`~ballscrew.errors.InputError` for an unknown grade, or a temperature out of range."""
+        """The oil. Raises :class:`~ballscrew.basis.errors.InputError` for an unknown grade, or a temperature out of
+        range.
+        """
         if self.viscosity is not None:
             return Lubricant(viscosity=self.viscosity)
         return Lubricant.from_grade(self.grade, self.temperature)
@@ -167,7 +169,7 @@ Evaluation: TypeAlias = Callable[[FrictionModel, Values, Conditions], list[Point
 class ValidationSet:
     """A declared set of data: the columns of its rows, and the evaluation of a model for a row.
 
-    ``evaluate`` raises :class:`~ballscrew.errors.InputError` for rows that make no sense.
+    ``evaluate`` raises :class:`~ballscrew.basis.errors.InputError` for rows that make no sense.
     """
 
     name: str

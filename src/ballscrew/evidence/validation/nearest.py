@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ballscrew.components.nut import DoubleNut, Nut, OffsetLeadNut, OversizeBallNut
-from ballscrew.components.screw import BallScrew
+from ballscrew.physics.components.nut import DoubleNut, Nut, OffsetLeadNut, OversizeBallNut
+from ballscrew.physics.components.screw import BallScrew
 
 #: Rows that count as near, and how far off the nearest may be, as a distance of logarithms of diameter and lead.
 NEAREST, FARTHEST = 6, math.log(1.6)

@@ -10,21 +10,21 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.components.conditions import ContactConditions, Motion
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.nut import Bodies, DoubleNut, Nut, OversizeBallNut, SingleNut
-from ballscrew.components.screw import STEEL, BallScrew
-from ballscrew.equations import geometry, hertz, rheology, transmission
-from ballscrew.errors import Fault, InputError
-from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.result import FrictionResult
-from ballscrew.quantities import Torque, fields_of
-from ballscrew.sizing.catalogue import CatalogueRow
-from ballscrew.sizing.checks import ratings_of
-from ballscrew.sizing.rigidity import rigidity_iso3408
-from ballscrew.sizing.rules import CHART_LINES, DRAG_RULES, LOADED_RULES, RULES, Subject, of_model
-from ballscrew.solvers.load_distribution import ball_loads
-from ballscrew.validation.entries import Band, Conditions, Point, UpperLimitOnly, Values
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.quantities import Torque, fields_of
+from ballscrew.evidence.validation.entries import Band, Conditions, Point, UpperLimitOnly, Values
+from ballscrew.physics.components.conditions import ContactConditions, Motion
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.nut import Bodies, DoubleNut, Nut, OversizeBallNut, SingleNut
+from ballscrew.physics.components.screw import STEEL, BallScrew
+from ballscrew.physics.equations import geometry, hertz, rheology, transmission
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.sizing.catalogue import CatalogueRow
+from ballscrew.physics.sizing.checks import ratings_of
+from ballscrew.physics.sizing.rigidity import rigidity_iso3408
+from ballscrew.physics.sizing.rules import CHART_LINES, DRAG_RULES, LOADED_RULES, RULES, Subject, of_model
+from ballscrew.physics.solvers.load_distribution import ball_loads
 
 #: The share of the dynamic load rating at which THK514E defines the rigidity of a nut without preload (as recalled).
 RIGIDITY_LOAD = 0.30

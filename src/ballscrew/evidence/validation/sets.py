@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ballscrew.quantities import Info, Quantity
-from ballscrew.validation import rows
-from ballscrew.validation.entries import ValidationSet
+from ballscrew.basis.quantities import Info, Quantity
+from ballscrew.evidence.validation import rows
+from ballscrew.evidence.validation.entries import ValidationSet
 
 
 def _positive(name: str, unit: str, words: str, shown_in: str = "") -> Quantity:

@@ -7,14 +7,14 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ballscrew.exports import c_source, c_two_levels
-from ballscrew.exports.c_source import Body, number
 from ballscrew.exports.export import Export
-from ballscrew.exports.interpreter import errors_of_program
+from ballscrew.exports.programs import c_source, c_two_levels
+from ballscrew.exports.programs.c_source import Body, number
+from ballscrew.exports.programs.interpreter import errors_of_program
+from ballscrew.exports.programs.two_levels import two_levels
 from ballscrew.exports.readme import readme
 from ballscrew.exports.subject import HandOver
-from ballscrew.exports.two_levels import two_levels
-from ballscrew.friction.validity import NUT_REASONS
+from ballscrew.physics.friction.validity import NUT_REASONS
 
 #: Points of the test vector, and of that of a nut with elastic bodies, each of which takes Python milliseconds.
 TEST_POINTS, TEST_POINTS_OF_ELASTIC_BODIES = 100, 20

@@ -12,9 +12,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.errors import Fault, InputError
-from ballscrew.tracing.program import Program
-from ballscrew.tracing.steps import Operand, Step, choose
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.compiler.tracing.program import Program
+from ballscrew.compiler.tracing.steps import Operand, Step, choose
 
 #: Steps of a function.
 STEPS_OF_A_FUNCTION = 250
@@ -80,7 +80,7 @@ class Body(NamedTuple):
 def functions(program: Program, name: str = "part", inputs: str = "x", room: str = "v") -> Functions:
     """A program as functions of C, with the names of its functions and of the arrays that they are called with.
 
-    Raises :class:`~ballscrew.errors.InputError` for an operation that C lacks.
+    Raises :class:`~ballscrew.basis.errors.InputError` for an operation that C lacks.
     """
     steps = program.steps
     parts = [steps[i : i + STEPS_OF_A_FUNCTION] for i in range(0, len(steps), STEPS_OF_A_FUNCTION)]
@@ -160,7 +160,7 @@ def _lines(
 
 
 def expression(step: Step, operand: Callable[[tuple[str, Operand]], str]) -> str:
-    """A step as an expression of C. Raises :class:`~ballscrew.errors.InputError` for an operation C lacks."""
+    """A step as an expression of C. Raises :class:`~ballscrew.basis.errors.InputError` for an operation C lacks."""
     function, values = step.function, [operand(one) for one in step.operands]
     if function is choose:
         return "{} ? {} : {}".format(*values)

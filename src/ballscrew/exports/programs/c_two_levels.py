@@ -7,10 +7,10 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ballscrew.exports import c_source, interpreter
-from ballscrew.exports.c_source import Body, number
-from ballscrew.exports.two_levels import TwoLevels
-from ballscrew.tracing.reductions import Reduction
+from ballscrew.compiler.tracing.reductions import Reduction
+from ballscrew.exports.programs import c_source, interpreter
+from ballscrew.exports.programs.c_source import Body, number
+from ballscrew.exports.programs.two_levels import TwoLevels
 
 #: Arrays over the balls that the solver finds.
 _ARRAYS = 4
@@ -19,7 +19,7 @@ _SOLVER = ("ballscrew_loads.h", "ballscrew_loads.c")
 
 
 def body(parts: TwoLevels) -> Body:
-    """The evaluation as C. Raises :class:`~ballscrew.errors.InputError` for an operation that C lacks."""
+    """The evaluation as C. Raises :class:`~ballscrew.basis.errors.InputError` for an operation that C lacks."""
     points = c_source.functions(parts.points, "point", "z", "a")
     ball = c_source.functions(parts.each_ball, "ball", "y", "b")
     behind = c_source.functions(parts.behind, "behind", "z", "c")

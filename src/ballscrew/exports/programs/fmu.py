@@ -19,16 +19,16 @@ from xml.etree import ElementTree as xml
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.errors import Fault, InputError
-from ballscrew.evaluation.outputs import OPERATION
-from ballscrew.exports import interpreter
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.records import Record
+from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.exports.export import Export
-from ballscrew.exports.program_file import program_file
+from ballscrew.exports.programs import interpreter
+from ballscrew.exports.programs.program_file import program_file
 from ballscrew.exports.readme import readme
 from ballscrew.exports.subject import TEMPERATURE, HandOver
 from ballscrew.exports.targets import Option
 from ballscrew.exports.worst_error import Values, WorstError, worst_errors
-from ballscrew.records import Record
 
 #: The speed over which friction goes through zero, rad/s, as in ``data/exports/fmi_model.c``.
 REGULARISATION_SPEED = 0.01
@@ -79,7 +79,9 @@ class Variable(NamedTuple):
 
 
 def export(handed: HandOver) -> Export:
-    """The model as an FMU of version 2.0 or 3.0. Raises :class:`~ballscrew.errors.InputError` for another version."""
+    """The model as an FMU of version 2.0 or 3.0. Raises :class:`~ballscrew.basis.errors.InputError` for another
+    version.
+    """
     version = handed.options["version"]
     if version not in (2, 3):
         raise InputError(Fault("hand_over.version", "must be 2 or 3", str(version), "2 is read by most tools"))

@@ -13,7 +13,7 @@ from importlib import resources
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.exports.program_file import program_file
+from ballscrew.exports.programs.program_file import program_file
 from ballscrew.exports.subject import HandOver
 from ballscrew.exports.worst_error import Values, WorstError, worst_errors
 

@@ -13,17 +13,17 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linprog
 
-from ballscrew import units
-from ballscrew.axis.axis import GRAVITY
-from ballscrew.cases.case import Case
-from ballscrew.errors import Fault, InputError, raise_if_any
-from ballscrew.evaluation.outputs import OPERATION
-from ballscrew.exports import c99
+from ballscrew.axis.duty_cycle.axis import GRAVITY
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError, raise_if_any
+from ballscrew.basis.quantities import Info, Quantity
+from ballscrew.basis.records import Record
+from ballscrew.cases.case_files.case import Case
+from ballscrew.engine.evaluation.outputs import OPERATION
+from ballscrew.exports.programs import c99
 from ballscrew.exports.subject import HandOver
 from ballscrew.exports.targets import Option
 from ballscrew.exports.worst_error import Values, WorstError, worst_errors
-from ballscrew.quantities import Info, Quantity
-from ballscrew.records import Record
 
 LOAD = Quantity("load", "N", Info("F", "load of the fit", "kN", hint="4 kN", usual=(-1e7, 1e7)))
 INERTIA = Quantity("inertia", "kg m^2", Info("J", "inertia of all that turns", "kg cm^2", at_least=0, usual=(0, 100)))
@@ -184,7 +184,7 @@ def _assumed(name: str, subject: str, text: str) -> Record:
 def joint_friction(handed: HandOver, degree: int) -> JointFriction:
     """The joint of a model, with damping up to a power of the speed.
 
-    Raises :class:`~ballscrew.errors.InputError` without a load, and where the model has no friction at it.
+    Raises :class:`~ballscrew.basis.errors.InputError` without a load, and where the model has no friction at it.
     """
     load, lowest = handed.options["load"], handed.options["lowest_speed"]
     highest = max(map(abs, handed.working_range[OPERATION[1]]))

@@ -8,11 +8,11 @@ import math
 import re
 from collections.abc import Mapping
 
-from ballscrew.errors import Fault, InputError
-from ballscrew.evaluation.outputs import OPERATION
-from ballscrew.exports import c99
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.exports.export import Export
-from ballscrew.exports.joint_friction import (
+from ballscrew.exports.programs import c99
+from ballscrew.exports.programs.joint_friction import (
     JOINT_OPTIONS,
     JointErrors,
     JointFriction,
@@ -49,8 +49,8 @@ HARD = "0.9999 0.9999 0.001"
 def export(handed: HandOver) -> Export:
     """Sources of the plugin with their Makefile, two axes in MJCF, their numbers as JSON, and a script that runs them.
 
-    Raises :class:`~ballscrew.errors.InputError` without a load, where the model has no friction at it, and for a plugin
-    name that MuJoCo would not find.
+    Raises :class:`~ballscrew.basis.errors.InputError` without a load, where the model has no friction at it, and for a
+    plugin name that MuJoCo would not find.
     """
     name = handed.options["plugin"]
     if not re.fullmatch(r"\w+(\.\w+)*", name):

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from ballscrew.exports import interpreter
 from ballscrew.exports.export import Export
-from ballscrew.exports.program_file import program_file
+from ballscrew.exports.programs import interpreter
+from ballscrew.exports.programs.program_file import program_file
 from ballscrew.exports.readme import readme
 from ballscrew.exports.subject import HandOver
 

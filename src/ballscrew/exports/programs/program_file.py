@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.errors import Fault, InputError
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.compiler.tracing.program import Program
+from ballscrew.compiler.tracing.steps import choose
+from ballscrew.exports.programs.two_levels import TwoLevels, two_levels
 from ballscrew.exports.subject import HandOver
-from ballscrew.exports.two_levels import TwoLevels, two_levels
-from ballscrew.tracing.program import Program
-from ballscrew.tracing.steps import choose
 
 #: The operations of the interpreter, each at its number.
 OPERATIONS: Mapping[Any, int] = {
@@ -33,7 +33,7 @@ _MOST_PLACES = 2**16
 def program_file(handed: HandOver) -> bytes:
     """The recorded model as the bytes of a file.
 
-    Raises :class:`~ballscrew.errors.InputError` for a model that cannot be recorded, for an operation that the
+    Raises :class:`~ballscrew.basis.errors.InputError` for a model that cannot be recorded, for an operation that the
     interpreter lacks, and for a program that is too large.
     """
     limits = handed.formula_range
@@ -94,18 +94,26 @@ def _list(program: Program, outputs: Sequence[str]) -> bytes:
     return counts + np.array(constants, dtype="<f8").tobytes() + np.array(words, dtype="<u2").tobytes()
 
 
+def _places_of_constants(program: Program) -> dict[str, int]:
+    """The place of each constant behind the inputs, by its bits: those of the steps, then those of the outputs."""
+    numbers = [o for _, step in program.steps for kind, o in step.operands if kind != "step"]
+    written = dict.fromkeys(float(number).hex() for number in (*numbers, *program.constants.values()))
+    return {text: place for place, text in enumerate(written, start=program.inputs)}
+
+
+def _operation(function: Any) -> int:
+    """The number of an operation of the interpreter. Raises ``InputError`` for one that it lacks."""
+    if function not in OPERATIONS:
+        remedy = "write the law with functions of the C library, or take a table (--to table)"
+        problem = f"the interpreter has no {function.__name__}"
+        raise InputError(Fault("hand_over.to", problem, "", remedy))
+    return OPERATIONS[function]
+
+
 def _assembled(program: Program) -> tuple[list[float], dict[str, int], list[tuple[int, ...]], int]:
     """The constants, the place of each output, the steps, and the number of places; a place is used again."""
-    constants: dict[str, int] = {}
-
-    def constant(value: float) -> int:
-        return constants.setdefault(float(value).hex(), program.inputs + len(constants))
-
-    for _, step in program.steps:
-        for kind, o in step.operands:
-            if kind != "step":
-                constant(float(o))
-    places = {name: constant(float(value)) for name, value in program.constants.items()}
+    constants = _places_of_constants(program)
+    places = {name: constants[float(value).hex()] for name, value in program.constants.items()}
     last = {int(o): i for i, step in program.steps for kind, o in step.operands if kind == "step"}
     kept = set(program.outputs.values())
     place = {i: i for i in range(program.inputs)}
@@ -113,17 +121,14 @@ def _assembled(program: Program) -> tuple[list[float], dict[str, int], list[tupl
     size = program.inputs + len(constants)
     code: list[tuple[int, ...]] = []
     for i, step in program.steps:
-        if step.function not in OPERATIONS:
-            remedy = "write the law with functions of the C library, or take a table (--to table)"
-            problem = f"the interpreter has no {step.function.__name__}"
-            raise InputError(Fault("hand_over.to", problem, "", remedy))
-        operands = [place[int(o)] if kind == "step" else constant(float(o)) for kind, o in step.operands]
+        operation = _operation(step.function)
+        operands = [place[int(o)] if kind == "step" else constants[float(o).hex()] for kind, o in step.operands]
         ended = {int(o) for kind, o in step.operands if kind == "step" and int(o) >= program.inputs}
         free += [place[o] for o in sorted(ended) if last[o] == i and o not in kept]
         if not free:
             free.append(size)
             size += 1
         place[i] = free.pop()
-        code.append((OPERATIONS[step.function], *operands, *[0] * (3 - len(operands)), place[i]))
+        code.append((operation, *operands, *[0] * (3 - len(operands)), place[i]))
     places |= {name: place[i] for name, i in program.outputs.items()}
     return [float.fromhex(text) for text in constants], places, code, size

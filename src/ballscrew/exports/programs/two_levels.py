@@ -1,6 +1,6 @@
 """Nuts with elastic bodies: what each point has, what each ball has, and what follows from sums over the balls.
 
-The friction under known loads of the balls is recorded, as :mod:`ballscrew.evaluation.by_ball` does it; here all
+The friction under known loads of the balls is recorded, as :mod:`ballscrew.engine.evaluation.by_ball` does it; here all
 numbers but the inputs of the export are constants. The loads themselves are solved where the export runs, by
 ``data/exports/ballscrew_loads.c``.
 """
@@ -12,16 +12,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ballscrew.equations.deflection import groove_centre_distance
-from ballscrew.errors import Fault, InputError
-from ballscrew.evaluation.by_ball import recorded_by_ball, stages_by_ball
-from ballscrew.evaluation.outputs import OF_LOADS, OPERATION
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.compiler.tracing.grid import Split
+from ballscrew.compiler.tracing.program import Program
+from ballscrew.compiler.tracing.reductions import Stages
+from ballscrew.compiler.tracing.tape import CannotRecordError
+from ballscrew.engine.evaluation.by_ball import recorded_by_ball, stages_by_ball
+from ballscrew.engine.evaluation.outputs import OF_LOADS, OPERATION
 from ballscrew.exports.subject import PRELOADS, HandOver
-from ballscrew.solvers.load_distribution import body_stiffness, pair_load_deflection, radial_stiffness
-from ballscrew.tracing.grid import Split
-from ballscrew.tracing.program import Program
-from ballscrew.tracing.reductions import Stages
-from ballscrew.tracing.tape import CannotRecordError
+from ballscrew.physics.equations.deflection import groove_centre_distance
+from ballscrew.physics.solvers.load_distribution import body_stiffness, pair_load_deflection, radial_stiffness
 
 #: What the solver in C finds besides the loads of the balls.
 SOLVED = "residual"
@@ -93,9 +93,9 @@ class TwoLevels:
 def two_levels(handed: HandOver) -> TwoLevels:
     """The recording of a nut whose bodies are elastic.
 
-    Raises :class:`~ballscrew.errors.InputError` for balls or a lead that deviate, for an oversize instead of a preload,
-    for inputs that change the bodies, for outputs that only Python's solver has, for derivatives, and for laws that
-    cannot be recorded.
+    Raises :class:`~ballscrew.basis.errors.InputError` for balls or a lead that deviate, for an oversize instead of a
+    preload, for inputs that change the bodies, for outputs that only Python's solver has, for derivatives, and for
+    laws that cannot be recorded.
     """
     return handed.once("two levels", lambda: _two_levels(handed))
 

@@ -6,9 +6,9 @@ import dataclasses
 import json
 import math
 
-from ballscrew.evaluation.outputs import OPERATION
+from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.exports.export import Export
-from ballscrew.exports.joint_friction import (
+from ballscrew.exports.programs.joint_friction import (
     JOINT_OPTIONS,
     JointErrors,
     JointFriction,
@@ -31,7 +31,7 @@ EDGE = 0.2
 def export(handed: HandOver) -> Export:
     """An axis in URDF, SDF and USD, and its numbers as JSON.
 
-    Raises :class:`~ballscrew.errors.InputError` without a load, and where the model has no friction at it.
+    Raises :class:`~ballscrew.basis.errors.InputError` without a load, and where the model has no friction at it.
     """
     joint = joint_friction(handed, 1)
     errors = joint_errors(handed, joint)

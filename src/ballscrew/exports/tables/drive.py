@@ -7,12 +7,12 @@ import io
 import math
 from collections.abc import Mapping
 
-from ballscrew.errors import Fault, InputError
+from ballscrew.basis.errors import Fault, InputError
 from ballscrew.exports.export import Export
 from ballscrew.exports.subject import HandOver
+from ballscrew.exports.tables.friction_curve import OPTIONS as OF_CURVES
+from ballscrew.exports.tables.friction_curve import about, friction_curve, options_of_case
 from ballscrew.exports.targets import Option
-from ballscrew.table_exports.friction_curve import OPTIONS as OF_CURVES
-from ballscrew.table_exports.friction_curve import about, friction_curve, options_of_case
 
 __all__ = ["OPTIONS", "export", "options_of_case"]
 

@@ -7,18 +7,18 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ballscrew import units
-from ballscrew.cases.case import Case
-from ballscrew.errors import Fault, InputError
-from ballscrew.evaluation.outputs import OPERATION
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.quantities import Force, Info, Quantity, unit_of
+from ballscrew.basis.records import Record
+from ballscrew.cases.case_files.case import Case
+from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.exports.export import Export
 from ballscrew.exports.subject import POINTS, HandOver
+from ballscrew.exports.tables.friction_table import INTERPOLATED, Floats, model_over, speed_candidates
+from ballscrew.exports.tables.nodes import best_nodes, chord_errors
 from ballscrew.exports.targets import Option
 from ballscrew.exports.worst_error import WorstError, worst_errors
-from ballscrew.quantities import Force, Info, Quantity, unit_of
-from ballscrew.records import Record
-from ballscrew.table_exports.friction_table import INTERPOLATED, Floats, model_over, speed_candidates
-from ballscrew.table_exports.nodes import best_nodes, chord_errors
 
 _LOAD = Quantity("load", unit_of(Force) or "", Info("F", "axial load of the curve", "N"))
 #: Choices of every target that is a curve.
@@ -72,7 +72,8 @@ def friction_curve(handed: HandOver, count: int, slowest: float | None = None) -
 
     The curve is that of the greater friction of both directions, which most nuts have alike; the error counts both. The
     first node is the ``slowest`` speed; below it the friction of it counts. Without one it is a ten-thousandth of the
-    range. Raises :class:`~ballscrew.errors.InputError` for a load beyond the range, and where there is no friction.
+    range. Raises :class:`~ballscrew.basis.errors.InputError` for a load beyond the range, and where there is no
+    friction.
     """
     load, limits = float(handed.options["load"]), handed.working_range
     if not limits[OPERATION[0]][0] <= load <= limits[OPERATION[0]][1]:

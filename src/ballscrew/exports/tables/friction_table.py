@@ -12,16 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import RegularGridInterpolator
 
-from ballscrew.errors import Fault, InputError
-from ballscrew.evaluation.evaluator import evaluator
-from ballscrew.evaluation.outputs import OPERATION
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.records import Record
+from ballscrew.engine.evaluation.evaluator import evaluator
+from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.exports.export import Export
 from ballscrew.exports.subject import POINTS, HandOver
+from ballscrew.exports.tables.nodes import chord_errors, nodes_within
 from ballscrew.exports.targets import Option
 from ballscrew.exports.worst_error import Values, WorstError, worst_errors
-from ballscrew.friction import directions
-from ballscrew.records import Record
-from ballscrew.table_exports.nodes import chord_errors, nodes_within
+from ballscrew.physics.friction import directions
 
 Floats = NDArray[np.float64]
 _log = logging.getLogger(__name__)
@@ -128,7 +128,7 @@ def friction_table(handed: HandOver) -> FrictionTable:
     error is measured against the model at points drawn anew between the nodes, and is what it is: a tolerance that
     cannot be met is no fault.
 
-    Raises :class:`~ballscrew.errors.InputError` where the friction, or an output asked for, is no finite number.
+    Raises :class:`~ballscrew.basis.errors.InputError` where the friction, or an output asked for, is no finite number.
     """
     tolerance = float(handed.options["tolerance"])
     if not 1e-4 <= tolerance < 1:
@@ -147,20 +147,26 @@ def friction_table(handed: HandOver) -> FrictionTable:
             if best is None:
                 raise InputError(_too_many(size))
             break
-        found = evaluate(*np.meshgrid(*axes.values(), indexing="ij"))
-        valid = found.pop("valid")
-        for name, values in found.items():
-            _check_finite(name, axes, values)
-        error = _measured(evaluate, axes, found[INTERPOLATED[0]])
-        _log.info("a table of %s nodes is off by up to %.2g of the friction", valid.shape, error)
-        if best is not None and error > _WORTH * best.error:
+        made = _table_over(axes, evaluate, fixed)
+        if best is not None and made.error > _WORTH * best.error:
             break
-        best = FrictionTable(axes, found, valid, fixed, error)
-        if error <= tolerance:
+        best = made
+        if made.error <= tolerance:
             break
-        allowed *= _WORTH * tolerance / error
+        allowed *= _WORTH * tolerance / made.error
     assert best is not None
     return best
+
+
+def _table_over(axes: Mapping[str, Floats], evaluate: _Evaluate, fixed: Mapping[str, float]) -> FrictionTable:
+    """The friction at the nodes of axes, with its error between them."""
+    found = evaluate(*np.meshgrid(*axes.values(), indexing="ij"))
+    valid = found.pop("valid")
+    for name, values in found.items():
+        _check_finite(name, axes, values)
+    error = _measured(evaluate, axes, found[INTERPOLATED[0]])
+    _log.info("a table of %s nodes is off by up to %.2g of the friction", valid.shape, error)
+    return FrictionTable(axes, found, valid, fixed, error)
 
 
 def _too_many(size: int) -> Fault:
@@ -183,7 +189,7 @@ def as_export(
 
 
 def no_more_axes(table: FrictionTable, what: str) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` for an axis besides load and speed."""
+    """Raise :class:`~ballscrew.basis.errors.InputError` for an axis besides load and speed."""
     others = [name for name in table.axes if name not in OPERATION]
     if others:
         remedy = "leave its range out, and the value of the case counts"
@@ -269,7 +275,7 @@ def _measured(evaluate: _Evaluate, axes: Mapping[str, Floats], friction: Floats)
 
 
 def _check_finite(output: str, axes: Mapping[str, Floats], values: Floats) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` with the first point at which a value is none."""
+    """Raise :class:`~ballscrew.basis.errors.InputError` with the first point at which a value is none."""
     bad = np.argwhere(~np.isfinite(values))
     if len(bad):
         where = ", ".join(f"{name} = {axes[name][i]:.4g}" for name, i in zip(axes, bad[0], strict=True))

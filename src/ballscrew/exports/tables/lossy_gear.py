@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linprog
 
-from ballscrew.evaluation.outputs import OPERATION
-from ballscrew.table_exports.friction_table import INTERPOLATED, FrictionTable
+from ballscrew.engine.evaluation.outputs import OPERATION
+from ballscrew.exports.tables.friction_table import INTERPOLATED, FrictionTable
 
 Floats = NDArray[np.float64]
 

@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 from scipy.io import savemat
 
-from ballscrew.evaluation.outputs import OPERATION
+from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.exports.export import Export
 from ballscrew.exports.subject import HandOver
+from ballscrew.exports.tables import notes
+from ballscrew.exports.tables.friction_table import INTERPOLATED, FrictionTable, as_export, friction_table, no_more_axes
+from ballscrew.exports.tables.friction_table import OPTIONS as OF_TABLES
 from ballscrew.exports.targets import Option
 from ballscrew.exports.worst_error import WorstError
-from ballscrew.table_exports import notes
-from ballscrew.table_exports.friction_table import INTERPOLATED, FrictionTable, as_export, friction_table, no_more_axes
-from ballscrew.table_exports.friction_table import OPTIONS as OF_TABLES
 
 OPTIONS: Mapping[str, Option] = OF_TABLES
 #: The name of the files and of the function.

@@ -8,15 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.errors import Fault, InputError
-from ballscrew.evaluation.outputs import OPERATION
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.quantities import AngularSpeed, Info, Quantity, unit_of
+from ballscrew.basis.records import Record
+from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.exports.export import Export
 from ballscrew.exports.subject import HandOver
-from ballscrew.exports.targets import Option
-from ballscrew.quantities import AngularSpeed, Info, Quantity, unit_of
-from ballscrew.records import Record
-from ballscrew.table_exports import notes
-from ballscrew.table_exports.friction_table import (
+from ballscrew.exports.tables import notes
+from ballscrew.exports.tables.friction_table import (
     DRIVE,
     INTERPOLATED,
     FrictionTable,
@@ -24,8 +23,9 @@ from ballscrew.table_exports.friction_table import (
     friction_table,
     no_more_axes,
 )
-from ballscrew.table_exports.friction_table import OPTIONS as OF_TABLES
-from ballscrew.table_exports.lossy_gear import LARGE, LossTable, loss_table
+from ballscrew.exports.tables.friction_table import OPTIONS as OF_TABLES
+from ballscrew.exports.tables.lossy_gear import LARGE, LossTable, loss_table
+from ballscrew.exports.targets import Option
 
 #: Speed below which friction is a slope through zero.
 _SPEED_AT_REST = Quantity("speed_at_rest", unit_of(AngularSpeed) or "", Info("w_0", "speed of regularisation", "rpm"))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from ballscrew import units
+from ballscrew.basis import units
 from ballscrew.exports.subject import HandOver
 from ballscrew.exports.worst_error import WorstError
 

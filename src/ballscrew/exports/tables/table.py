@@ -12,14 +12,14 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ballscrew.errors import Fault, InputError, nearest
+from ballscrew.basis.errors import Fault, InputError, nearest
 from ballscrew.exports.export import Export
 from ballscrew.exports.subject import HandOver
+from ballscrew.exports.tables import notes
+from ballscrew.exports.tables.friction_table import OPTIONS as OF_TABLES
+from ballscrew.exports.tables.friction_table import FrictionTable, as_export, friction_table
 from ballscrew.exports.targets import Option
 from ballscrew.exports.worst_error import WorstError
-from ballscrew.table_exports import notes
-from ballscrew.table_exports.friction_table import OPTIONS as OF_TABLES
-from ballscrew.table_exports.friction_table import FrictionTable, as_export, friction_table
 
 #: Kinds of files and the libraries that each needs.
 KINDS: Mapping[str, tuple[str, ...]] = {"csv": (), "json": (), "nc": ("h5netcdf", "h5py"), "parquet": ("pyarrow",)}

@@ -1,4 +1,4 @@
-"""``ballscrew axis``: what gives way between motor and table, over the stroke. The work is done in ``axis_studies``."""
+"""``ballscrew axis``: what gives way between motor and table, over the stroke."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ballscrew.command_options.common_options import AllowCode, CaseFile, ModelName
+from ballscrew.faces.cli.common_options import AllowCode, CaseFile, ModelName
 
 if TYPE_CHECKING:
-    from ballscrew.axis_studies.stiffness import ChainReport
+    from ballscrew.questions.axis.compute import ChainReport
 
 _TO, _AT = "--to", "--at"
 
@@ -40,19 +40,18 @@ def axis(
     Nut, shaft, bearings, mount and the twist of the shaft, one behind the other. The case has an [installation]; with
     [axis] and [motion] the travel, the largest load and the largest speed are theirs, or else of [operation].
     """
-    from ballscrew import units
-    from ballscrew.axis_studies import stiffness as studies
-    from ballscrew.documents import stiffness as documents
-    from ballscrew.errors import Fault, raise_if_any
-    from ballscrew.output.json_text import as_json as json_text
-    from ballscrew.text import stiffness as text
+    from ballscrew.basis import units
+    from ballscrew.basis.errors import Fault, raise_if_any
+    from ballscrew.basis.output.json_text import as_json as json_text
+    from ballscrew.questions.axis import compute, text
+    from ballscrew.questions.axis import document as documents
 
-    read = [units.parse(_AT, place, studies.SERIES["position"]) for place in at or []]
+    read = [units.parse(_AT, place, compute.SERIES["position"]) for place in at or []]
     raise_if_any([place for place in read if isinstance(place, Fault)])
-    loaded = studies.load(case, settings or [], model, allow_code=allow_code)
+    loaded = compute.load(case, settings or [], model, allow_code=allow_code)
     for path in to or []:
         _check(path)
-    report = studies.chain_of(loaded, [float(place) for place in read if not isinstance(place, Fault)])
+    report = compute.chain_of(loaded, [float(place) for place in read if not isinstance(place, Fault)])
     typer.echo(json_text(documents.document(report)) if as_json else text.text(report))
     for path in to or []:
         _write(path, report)
@@ -60,8 +59,8 @@ def axis(
 
 
 def _check(path: Path) -> None:
-    from ballscrew.figures import files
-    from ballscrew.table_files import row_tables
+    from ballscrew.questions.shared import chart_files as files
+    from ballscrew.questions.shared import row_tables
 
     if path.suffix.lower() in row_tables.KINDS:
         row_tables.check_path(path)
@@ -70,12 +69,13 @@ def _check(path: Path) -> None:
 
 
 def _write(path: Path, report: ChainReport) -> None:
-    from ballscrew.table_files import row_tables, stiffness_table
+    from ballscrew.questions.axis import table as stiffness_table
+    from ballscrew.questions.shared import row_tables
 
     if path.suffix.lower() in row_tables.KINDS:
         row_tables.write(path, stiffness_table.places(report), "axis")
     else:
-        from ballscrew.figures import files
-        from ballscrew.figures import stiffness as figures  # matplotlib is slow to import
+        from ballscrew.questions.axis import figure as figures  # matplotlib is slow to import
+        from ballscrew.questions.shared import chart_files as files
 
         files.draw(lambda: figures.picture(report), path, _TO)

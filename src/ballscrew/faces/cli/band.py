@@ -7,18 +7,18 @@ from pathlib import Path
 
 import typer
 
-from ballscrew.cases.case_file import Case
-from ballscrew.documents import band as documents
-from ballscrew.errors import Fault, InputError, raise_if_any
-from ballscrew.figures import files
-from ballscrew.output import json_text
-from ballscrew.studies import band
-from ballscrew.studies.run import run as run_case
-from ballscrew.text import band as text
+from ballscrew.basis.errors import Fault, InputError, raise_if_any
+from ballscrew.basis.output import json_text
+from ballscrew.cases.case_files.case_file import Case
+from ballscrew.questions.band import compute as band
+from ballscrew.questions.band import document as documents
+from ballscrew.questions.band import text
+from ballscrew.questions.run.compute import run as run_case
+from ballscrew.questions.shared import chart_files as files
 
 
 def check(wanted: bool, options: band.Options, to: Path | None, self_heating: bool) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` for options without a band, and a picture that cannot be."""
+    """Raise :class:`~ballscrew.basis.errors.InputError` for options without a band, and a picture that cannot be."""
     given = {
         "--samples": options.samples,
         "--level": options.level,
@@ -42,10 +42,10 @@ def check(wanted: bool, options: band.Options, to: Path | None, self_heating: bo
 
 def run_warm(case: Case, options: band.Options, as_json: bool, done: Callable[[int, int], None]) -> None:
     """The band of a case as warm as it makes itself: temperature and preload by samples of its surroundings."""
-    from ballscrew.axis_studies.heat_samples import heat_samples
-    from ballscrew.axis_studies.self_heating import self_heating
-    from ballscrew.documents.self_heating import with_self_heating
-    from ballscrew.output.wrapping import wrapped
+    from ballscrew.basis.output.wrapping import wrapped
+    from ballscrew.questions.band.heat_samples import heat_samples
+    from ballscrew.questions.warm_up.self_heating import self_heating
+    from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
     heating = self_heating(case)
     heat = heat_samples(heating, only_given=options.only_given)
@@ -65,7 +65,7 @@ def run(case: Case, options: band.Options, to: Path | None, as_json: bool, done:
     else:
         text.print_band(case, report)
     if to is not None:
-        from ballscrew.figures import band as figures  # matplotlib is slow to import
+        from ballscrew.questions.band import figure as figures  # matplotlib is slow to import
 
         curve = band.curve(case, report, options, done)
         files.draw(lambda: figures.picture(case, report, curve), to)

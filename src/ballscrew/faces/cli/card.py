@@ -18,10 +18,10 @@ def check(
     as_json: Annotated[bool, typer.Option("--json", help="One JSON list, SI units.")] = False,
 ) -> None:
     """Check cards: all faults of all of them, or a line for each with what is not stated."""
-    from ballscrew.documents import torque_card as documents
-    from ballscrew.output import json_text
-    from ballscrew.text import torque_card as text
-    from ballscrew.torque_cards import torque_card
+    from ballscrew.basis.output import json_text
+    from ballscrew.cases.torque_cards import torque_card
+    from ballscrew.questions.card import document as documents
+    from ballscrew.questions.card import text
 
     found = torque_card.read_all(cards)
     typer.echo(json_text.as_json(documents.documents(found)) if as_json else text.text_of(found))
@@ -32,7 +32,7 @@ def schema() -> None:
     """JSON Schema of a torque card."""
     import json
 
-    from ballscrew.torque_cards.torque_card import json_schema
+    from ballscrew.cases.torque_cards.torque_card import json_schema
 
     typer.echo(json.dumps(json_schema(), indent=2, ensure_ascii=False))
 
@@ -44,7 +44,7 @@ def log(
     case: Annotated[Path, typer.Option("--case", metavar="FILE", help="The case file to write, .toml.")],
 ) -> None:
     """Write a card as a log and a case file, as ballscrew fit takes them."""
-    from ballscrew.torque_cards import torque_card, torque_card_log
+    from ballscrew.cases.torque_cards import torque_card, torque_card_log
 
     found = torque_card.read(card)
     torque_card_log.write(found, card.parent, to, case)

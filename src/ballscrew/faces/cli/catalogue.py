@@ -1,6 +1,4 @@
-"""``ballscrew catalogue``: rows of catalogues, shipped or one's own. The work is done in ``screw_tables/catalogue``,
-the text written in ``text/catalogue``.
-"""
+"""``ballscrew catalogue``: rows of catalogues, shipped or one's own."""
 
 from __future__ import annotations
 
@@ -34,9 +32,9 @@ def list_rows(
     keep_going: KeepGoing = False,
 ) -> None:
     """All rows, one line each."""
-    from ballscrew.output import json_text
-    from ballscrew.screw_tables import catalogue
-    from ballscrew.text import catalogue as text
+    from ballscrew.basis.output import json_text
+    from ballscrew.cases.screw_tables import catalogue
+    from ballscrew.questions.catalogue import text
 
     found, notes = catalogue.load(rows, keep_going)
     chosen = catalogue.chosen(found, " ".join(words or []), rows)
@@ -53,10 +51,10 @@ def show(
     keep_going: KeepGoing = False,
 ) -> None:
     """One row: what is listed, what follows from it, what was assumed."""
-    from ballscrew.errors import Fault, InputError
-    from ballscrew.output import json_text
-    from ballscrew.screw_tables import catalogue
-    from ballscrew.text import catalogue as text
+    from ballscrew.basis.errors import Fault, InputError
+    from ballscrew.basis.output import json_text
+    from ballscrew.cases.screw_tables import catalogue
+    from ballscrew.questions.catalogue import text
 
     if as_case and as_json:
         raise InputError(Fault("--case", "does not go with --json", "", "give one of the two"))

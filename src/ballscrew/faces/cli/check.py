@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, NamedTuple
 
 import typer
 
-from ballscrew.command_options.common_options import (
+from ballscrew.faces.cli.common_options import (
     AllowCode,
     CalibrationName,
     ModelName,
@@ -16,6 +16,9 @@ from ballscrew.command_options.common_options import (
     check_rows,
     say_of_rows,
 )
+
+if TYPE_CHECKING:
+    from ballscrew.questions.check.compute import Options
 
 
 def check(
@@ -85,11 +88,10 @@ def check(
     What is not given is assumed, and the output says what was. The exit code is 0 where a check fails, too: the
     verdict says so; it is 2 only for bad input.
     """
-    from ballscrew.documents.check import document, list_document
-    from ballscrew.errors import Fault, InputError
-    from ballscrew.output.json_text import as_json as json_of
-    from ballscrew.studies.check import Options, every_row, is_case, one
-    from ballscrew.text.check import list_text, text
+    from ballscrew.basis.output.json_text import as_json as json_of
+    from ballscrew.questions.check.compute import Options, one
+    from ballscrew.questions.check.document import document
+    from ballscrew.questions.check.text import text
 
     given = {
         "operation.axial_load": axial_load,
@@ -110,6 +112,33 @@ def check(
         self_heating,
     )
     check_rows(rows, row)
+    screws = _asked(name, rows, row, every=every, to=to)
+    if screws.name is None or screws.case is not None or screws.are_listed:
+        _check_rows(screws, rows, options, keep_going=keep_going, as_json=as_json, to=to)
+        return
+    screw, notes = one(screws.name, rows, options, keep_going)
+    say_of_rows(notes, interrupted=False)
+    typer.echo(json_of(document(screw)) if as_json else text(screw))
+
+
+class _Screws(NamedTuple):
+    """The screws that are asked for: one by its name, or rows of a table, perhaps each in a case."""
+
+    #: A case file, or the name of a row; None for all rows.
+    name: str | None
+    #: The case that the rows stand in.
+    case: str | None
+    #: The only row of a table that is asked for.
+    row: str | None
+    #: Whether the answer is a list, also of one.
+    are_listed: bool
+
+
+def _asked(name: str | None, rows: Path | None, row: str | None, *, every: bool, to: Path | None) -> _Screws:
+    """The screws by the names on the command line."""
+    from ballscrew.basis.errors import Fault, InputError
+    from ballscrew.questions.check.compute import is_case
+
     case = name if name is not None and rows is not None and is_case(name) else None
     if row is not None and case is None:
         if name is not None:
@@ -117,25 +146,33 @@ def check(
         name = row
     if to is not None and case is None and not every:
         row = name
-    many = every or name is None or to is not None or (case is not None and row is None)
-    if not many and name is not None and case is None:
-        screw, notes = one(name, rows, options, keep_going)
-        say_of_rows(notes, interrupted=False)
-        typer.echo(json_of(document(screw)) if as_json else text(screw))
-        return
-    from ballscrew.command_options.progress import progress
-    from ballscrew.table_files import row_tables
+    of_rows = case is not None and row is None
+    return _Screws(name, case, row, every or name is None or to is not None or of_rows)
+
+
+def _check_rows(
+    asked: _Screws, rows: Path | None, options: Options, *, keep_going: bool, as_json: bool, to: Path | None
+) -> None:
+    """Check rows of a table, print a list of them, or the only one in a case, and write the table asked for."""
+    from ballscrew.basis.output.json_text import as_json as json_of
+    from ballscrew.faces.cli.progress import progress
+    from ballscrew.questions.check.compute import every_row
+    from ballscrew.questions.check.document import document, list_document
+    from ballscrew.questions.check.table import of_checks
+    from ballscrew.questions.check.text import list_text, text
+    from ballscrew.questions.shared import row_tables
 
     if to is not None:
         row_tables.check_path(to)
     with progress("rows") as done:
-        found = every_row(case if row else name, rows, options, keep_going, row=row, done=done)
+        name = asked.case if asked.row else asked.name
+        found = every_row(name, rows, options, keep_going, row=asked.row, done=done)
     screws = list(found.found.values())
-    if many:
+    if asked.are_listed:
         typer.echo(json_of(list_document(screws)) if as_json else list_text(screws))
     else:
         typer.echo(json_of(document(screws[0])) if as_json else text(screws[0]))
     if to is not None:
-        row_tables.write(to, row_tables.of_checks(screws))
+        row_tables.write(to, of_checks(screws))
         typer.echo(f"{to}: {len(screws)} screws", err=True)
     say_of_rows(found.notes, found.interrupted)

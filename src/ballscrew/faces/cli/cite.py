@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.command_options.common_options import AllowCode, ModelName, Settings
+from ballscrew.faces.cli.common_options import AllowCode, ModelName, Settings
 
 
 def cite(
@@ -17,8 +17,8 @@ def cite(
     allow_code: AllowCode = False,
 ) -> None:
     """BibTeX of the sources that a case makes use of."""
-    from ballscrew.cases import case_file
-    from ballscrew.references import bibliography
+    from ballscrew.basis.references import bibliography
+    from ballscrew.cases.case_files import case_file
 
     entries = bibliography()
     keys = (

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
-    from ballscrew.studies.every_row import OfRows, RowCase
+    from ballscrew.questions.shared.every_row import OfRows, RowCase
 
 #: Stand for the names of the models and of the calibrations in help texts; replaced when the help is shown.
 MODEL_NAMES, CALIBRATION_NAMES = "{models}", "{calibrations}"
@@ -62,9 +62,9 @@ KeepGoing = Annotated[bool, typer.Option("--keep-going", help="Leave faulty rows
 
 
 def check_rows(rows: Path | None, row: str | None) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` for a row without a table."""
+    """Raise :class:`~ballscrew.basis.errors.InputError` for a row without a table."""
     if row is not None and rows is None:
-        from ballscrew.errors import Fault, InputError
+        from ballscrew.basis.errors import Fault, InputError
 
         raise InputError(Fault("--row", "needs a table of screws", row, "add --rows FILE"))
 
@@ -81,8 +81,8 @@ def cases_of_rows(
     keep_going: bool,
 ) -> OfRows[RowCase]:
     """The case with each screw of a table, or that of one row, in place of its own."""
-    from ballscrew.command_options.progress import progress
-    from ballscrew.studies import every_row
+    from ballscrew.faces.cli.progress import progress
+    from ballscrew.questions.shared import every_row
 
     with progress("rows read") as done:
         return every_row.cases(
@@ -113,7 +113,7 @@ def say_engine(attributes: Mapping[str, Any]) -> None:
 
 
 #: What logs that something is compiled.
-_COMPILER = "ballscrew.kernels"
+_COMPILER = "ballscrew.compiler.kernels"
 
 
 @contextlib.contextmanager

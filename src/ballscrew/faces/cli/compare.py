@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.command_options.common_options import (
+from ballscrew.faces.cli.common_options import (
     AllowCode,
     CalibrationName,
     ModelName,
@@ -44,16 +44,16 @@ def compare(
     own: torque, its parts, efficiency in both directions, and what lies outside its validity. With
     --self-heating all at the oil and preload in which the model of the case ends.
     """
-    from ballscrew.cases import case_file
-    from ballscrew.documents import comparison as documents
-    from ballscrew.documents.self_heating import with_self_heating
-    from ballscrew.errors import Fault, InputError
-    from ballscrew.figures import files
-    from ballscrew.output import json_text
-    from ballscrew.output.wrapping import wrapped
-    from ballscrew.studies.comparison import comparison
-    from ballscrew.studies.side_by_side import is_one_case
-    from ballscrew.text import comparison as text
+    from ballscrew.basis.errors import Fault, InputError
+    from ballscrew.basis.output import json_text
+    from ballscrew.basis.output.wrapping import wrapped
+    from ballscrew.cases.case_files import case_file
+    from ballscrew.questions.compare import document as documents
+    from ballscrew.questions.compare import text
+    from ballscrew.questions.compare.compute import comparison
+    from ballscrew.questions.compare_designs.compute import is_one_case
+    from ballscrew.questions.shared import chart_files as files
+    from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
     if to is not None:
         files.check_picture(to)
@@ -65,7 +65,7 @@ def compare(
     loaded = case_file.load(cases[0], settings or [], model, calibration=calibration, allow_code=allow_code)
     heating = None
     if self_heating:
-        from ballscrew.axis_studies import self_heating as studies
+        from ballscrew.questions.warm_up import self_heating as studies
 
         heating = studies.self_heating(loaded)
         loaded = heating.warm
@@ -77,7 +77,7 @@ def compare(
             typer.echo("\n".join(wrapped(record.text) for record in heating.records))
         text.print_comparison(loaded, compared)
     if to is not None:
-        from ballscrew.figures import comparison as figures  # matplotlib is slow to import
+        from ballscrew.questions.compare import figure as figures  # matplotlib is slow to import
 
         files.draw(lambda: figures.picture(loaded, compared), to)
         typer.echo(f"{to}: {len(compared.rows)} models and laws", err=as_json)
@@ -95,19 +95,19 @@ def _designs(
     allow_code: bool,
 ) -> None:
     """Several designs side by side."""
-    from ballscrew.documents import side_by_side as documents
-    from ballscrew.errors import Fault, InputError
-    from ballscrew.output import json_text
-    from ballscrew.studies.side_by_side import side_by_side
-    from ballscrew.text import side_by_side as text
+    from ballscrew.basis.errors import Fault, InputError
+    from ballscrew.basis.output import json_text
+    from ballscrew.questions.compare_designs import document as documents
+    from ballscrew.questions.compare_designs import text
+    from ballscrew.questions.compare_designs.compute import side_by_side
 
     if self_heating:
         raise InputError(Fault("--self-heating", "is for one case", "", "compare one design alone"))
     found = side_by_side(paths, own=own, settings=settings, model=model, calibration=calibration, allow_code=allow_code)
     typer.echo(json_text.as_json(documents.document(found)) if as_json else text.text(found))
     if to is not None:
-        from ballscrew.figures import files  # matplotlib is slow to import
-        from ballscrew.figures.side_by_side import DesignBar, picture
+        from ballscrew.questions.compare_designs.figure import DesignBar, picture
+        from ballscrew.questions.shared import chart_files as files  # matplotlib is slow to import
 
         bars = [
             DesignBar(one.name, {name: float(part) for name, part in one.run.friction.contributions.items()}, 0.0, 0.0)

@@ -1,4 +1,4 @@
-"""``ballscrew compensation``: the growth of a warm shaft for a control. The work is in ``axis_studies``."""
+"""``ballscrew compensation``: the growth of a warm shaft for a control."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.command_options.common_options import AllowCode, CaseFile, ModelName, Settings
+from ballscrew.faces.cli.common_options import AllowCode, CaseFile, ModelName, Settings
 
 
 def compensation(
@@ -43,21 +43,20 @@ def compensation(
     signs. It holds in that thermal state only; a warm-up that stops before the hours is refused.
     The format was checked against the example of the manual, not on a control.
     """
-    from ballscrew.axis_studies import position_compensation as studies
-    from ballscrew.axis_studies import warm_up
-    from ballscrew.documents import position_compensation as documents
-    from ballscrew.errors import Fault, InputError, nearest
-    from ballscrew.files import atomic_write, check_writable
-    from ballscrew.output.json_text import as_json as json_text
-    from ballscrew.table_files import compensation_lists
-    from ballscrew.text import position_compensation as text
+    from ballscrew.basis.atomic_files import atomic_write, check_writable
+    from ballscrew.basis.errors import Fault, InputError, nearest
+    from ballscrew.basis.output.json_text import as_json as json_text
+    from ballscrew.questions.compensation import compute, text
+    from ballscrew.questions.compensation import document as documents
+    from ballscrew.questions.compensation import table as compensation_lists
+    from ballscrew.questions.warm_up import compute as warm_up
 
     if to not in compensation_lists.LISTS:
         raise InputError(Fault("--to", "unknown control", to, nearest(to, compensation_lists.LISTS)))
     if not axis.isidentifier():
         raise InputError(Fault("--axis", "is no name of an axis", axis, "write letters and digits, such as X1"))
-    if direction not in studies.DIRECTIONS:
-        remedy = nearest(direction, studies.DIRECTIONS)
+    if direction not in compute.DIRECTIONS:
+        remedy = nearest(direction, compute.DIRECTIONS)
         raise InputError(Fault("--direction", "unknown direction", direction, remedy))
     if not 0 < hours <= _LONGEST:
         raise InputError(Fault("--hours", f"must be above 0 and at most {_LONGEST:g}", f"{hours:g}", "write --hours 4"))
@@ -65,7 +64,7 @@ def compensation(
     found = {name: _length(name, text) for name, text in lengths.items()}
     check_writable("--out", out)
     report = warm_up.warmed_up(warm_up.load(case, settings or [], model, allow_code=allow_code), hours)
-    made = studies.position_compensation(
+    made = compute.position_compensation(
         report, hours, zero=found["--zero"], direction=direction, step=found["--step"],
         reference=found.get("--reference"),
     )  # fmt: skip
@@ -80,9 +79,9 @@ _LONGEST = 8766.0
 
 
 def _length(where: str, text: str) -> float:
-    from ballscrew import units
-    from ballscrew.errors import Fault, InputError
-    from ballscrew.quantities import Info, Quantity
+    from ballscrew.basis import units
+    from ballscrew.basis.errors import Fault, InputError
+    from ballscrew.basis.quantities import Info, Quantity
 
     found = units.parse(where, text, Quantity(where, "m", Info("x", "length", "mm")))
     if isinstance(found, Fault):

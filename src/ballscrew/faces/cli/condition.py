@@ -1,4 +1,4 @@
-"""``ballscrew condition``: the state of a nut over time, with an alarm. The work is done in ``studies/condition``."""
+"""``ballscrew condition``: the state of a nut over time, with an alarm."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.command_options.common_options import (
+from ballscrew.faces.cli.common_options import (
     AllowCode,
     CalibrationName,
     Inertia,
@@ -72,14 +72,13 @@ def condition(
     All torques are reduced to one temperature by the model; without logged temperatures the intervals are wide, and the
     output says so first.
     """
-    from ballscrew.cases import case_file
-    from ballscrew.command_options.condition_options import check_question, options
-    from ballscrew.command_options.progress import progress
-    from ballscrew.documents import condition as documents
-    from ballscrew.figures import files
-    from ballscrew.output.json_text import as_json as json_text
-    from ballscrew.studies import condition as studies
-    from ballscrew.text import condition as text
+    from ballscrew.basis.output.json_text import as_json as json_text
+    from ballscrew.cases.case_files import case_file
+    from ballscrew.faces.cli.condition_options import check_question, options
+    from ballscrew.faces.cli.progress import progress
+    from ballscrew.questions.condition import compute, text
+    from ballscrew.questions.condition import document as documents
+    from ballscrew.questions.shared import chart_files as files
 
     file = check_question(tests or [], case)
     loaded = case_file.load(file, settings or [], model, calibration=calibration, allow_code=allow_code)
@@ -90,13 +89,13 @@ def condition(
         columns=column or [], kind=kind, inertia=inertia, torque_constant=torque_constant, keep_going=keep_going,
     )  # fmt: skip
     with progress("condition") as done:
-        found = studies.of_files(loaded, tests or [], chosen, done)
+        found = compute.of_files(loaded, tests or [], chosen, done)
     if as_json:
         typer.echo(json_text(documents.document(loaded, found)))
     else:
         text.print_condition(loaded, found)
     if to is not None:
-        from ballscrew.figures import condition as figures  # matplotlib is slow to import
+        from ballscrew.questions.condition import figure as figures  # matplotlib is slow to import
 
         files.draw(lambda: figures.picture(loaded, found), to)
         typer.echo(f"{to}: {len(found.states)} tests", err=as_json)

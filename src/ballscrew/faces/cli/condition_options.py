@@ -5,19 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from ballscrew import units
-from ballscrew.cases.case import Case
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.errors import Fault, fault_of, raise_if_any
-from ballscrew.quantities import Quantity
-from ballscrew.service.posterior import PRELOAD
-from ballscrew.studies import fit_options
-from ballscrew.studies.condition import Options
-from ballscrew.torque_logs.torque_series import quantities
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, fault_of, raise_if_any
+from ballscrew.basis.quantities import Quantity
+from ballscrew.cases.case_files.case import Case
+from ballscrew.evidence.service.posterior import PRELOAD
+from ballscrew.files.torque_logs.torque_series import quantities
+from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.questions.condition.compute import Options
+from ballscrew.questions.fit import options as fit_options
 
 
 def check_question(tests: Sequence[Path], case: Path | None) -> Path:
-    """The case file. Raises :class:`~ballscrew.errors.InputError` for a question without case or tests."""
+    """The case file. Raises :class:`~ballscrew.basis.errors.InputError` for a question without case or tests."""
     faults: list[Fault] = []
     if case is None:
         faults.append(Fault("--case", "missing", "", "give the case file of the screw: --case FILE"))
@@ -43,7 +43,7 @@ def options(
     torque_constant: str | None,
     keep_going: bool,
 ) -> Options:
-    """The options as typed values. Raises :class:`~ballscrew.errors.InputError` with all faults in them."""
+    """The options as typed values. Raises :class:`~ballscrew.basis.errors.InputError` with all faults in them."""
     faults: list[Fault] = []
     of_logs = {"--kind": kind, "--inertia": inertia, "--torque-constant": torque_constant}
     if len(tests) == 1:

@@ -1,4 +1,4 @@
-"""``ballscrew duty``: what a cycle of an axis asks of the motor. The work is done in ``axis_studies/duty``."""
+"""``ballscrew duty``: what a cycle of an axis asks of the motor."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ballscrew.command_options.common_options import AllowCode, CalibrationName, CaseFile, ModelName
+from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName
 
 if TYPE_CHECKING:
-    from ballscrew.axis_studies.duty import DutyReport
-    from ballscrew.axis_studies.duty_band import DutyBandReport
+    from ballscrew.questions.duty.band import DutyBandReport
+    from ballscrew.questions.duty.compute import DutyReport
 
 _TO = "--to"
 
@@ -52,13 +52,12 @@ def duty(
     The case has an [axis] and a [motion], and perhaps a [motor]; it needs no [operation]. The rule of catalogues
     stands beside the numbers; [model] name = "constant-efficiency" asks for it.
     """
-    from ballscrew.axis_studies import duty as studies
-    from ballscrew.cases import case_file
-    from ballscrew.documents import duty as documents
-    from ballscrew.figures import files
-    from ballscrew.output.json_text import as_json as json_text
-    from ballscrew.table_files import row_tables
-    from ballscrew.text import duty as text
+    from ballscrew.basis.output.json_text import as_json as json_text
+    from ballscrew.cases.case_files import case_file
+    from ballscrew.questions.duty import compute, text
+    from ballscrew.questions.duty import document as documents
+    from ballscrew.questions.shared import chart_files as files
+    from ballscrew.questions.shared import row_tables
 
     tables = case_file.override(case_file.read(case), settings or [])
     if trace is not None:
@@ -72,7 +71,7 @@ def duty(
             row_tables.check_path(path)
         else:
             files.check_picture(path, _TO)
-    report = studies.duty(loaded)
+    report = compute.duty(loaded)
     bands = _banded(report, samples, only_given) if band or only_given or samples is not None else None
     if as_json:
         typer.echo(json_text(documents.document(report) if bands is None else documents.with_band(bands)))
@@ -82,29 +81,29 @@ def duty(
             typer.echo(text.band_text(bands))
     for path in to or []:
         if path.suffix.lower() in row_tables.KINDS:
-            from ballscrew.table_files import duty_tables
+            from ballscrew.questions.duty import table as duty_tables
 
             duty_tables.write(path, report)
         else:
-            from ballscrew.figures import duty as figures  # matplotlib is slow to import
+            from ballscrew.questions.duty import figure as figures  # matplotlib is slow to import
 
             files.draw(lambda: figures.picture(report), path, _TO)
         typer.echo(f"{path}: {len(report.duty.states.time)} states", err=as_json)
 
 
 def _banded(report: DutyReport, samples: int | None, only_given: bool) -> DutyBandReport:
-    from ballscrew.axis_studies import duty_band  # loads xarray
-    from ballscrew.command_options.progress import progress
+    from ballscrew.faces.cli.progress import progress
+    from ballscrew.questions.duty import band as duty_band  # loads xarray
 
     with progress("band") as done:
         return duty_band.band(report, samples, only_given=only_given, done=done)
 
 
 def _check_kinds(to: list[Path]) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` for files that are neither tables nor pictures."""
-    from ballscrew.errors import Fault, raise_if_any
-    from ballscrew.figures.files import SUFFIXES
-    from ballscrew.table_files.row_tables import KINDS
+    """Raise :class:`~ballscrew.basis.errors.InputError` for files that are neither tables nor pictures."""
+    from ballscrew.basis.errors import Fault, raise_if_any
+    from ballscrew.questions.shared.chart_files import SUFFIXES
+    from ballscrew.questions.shared.row_tables import KINDS
 
     known = (*KINDS, *SUFFIXES)
     raise_if_any(

@@ -1,16 +1,15 @@
-"""``ballscrew fit``: a log of torques in, a calibrated model out. The work is done in ``studies/fit``."""
+"""``ballscrew fit``: a log of torques in, a calibrated model out."""
 
 from __future__ import annotations
 
 import dataclasses
-import functools
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, NoReturn
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 
-from ballscrew.command_options.common_options import (
+from ballscrew.faces.cli.common_options import (
     AllowCode,
     CalibrationName,
     Inertia,
@@ -25,6 +24,12 @@ from ballscrew.command_options.common_options import (
     check_rows,
     say_engine,
 )
+
+if TYPE_CHECKING:
+    from ballscrew.cases.case_files.case import Case
+    from ballscrew.questions.fit.compute import FitReport
+    from ballscrew.questions.fit.log import Options
+    from ballscrew.questions.fit_motion.log import MovingOptions
 
 
 def fit(
@@ -125,24 +130,31 @@ def fit(
     measure next. With --self-heating each row of a log of friction torque without temperatures is as warm as its
     own torque makes it in the steady state.
     """
-    from ballscrew.cases import case_file
+    from ballscrew.cases.case_files import case_file
 
     check_rows(rows, row)
     _check_log(log, rows, picture)
     if self_heating and rows is not None:
         _refuse_self_heating("is given beside --rows", "leave one of them out")
+    written = _Written(
+        free=free or [],
+        bounds=bounds or [],
+        limits=limits or [],
+        columns=column or [],
+        kind=kind,
+        inertia=inertia,
+        torque_constant=torque_constant,
+        holdout=holdout,
+        temperature_error=temperature_error,
+        seed=seed,
+        keep_going=keep_going,
+    )
     if rows is not None:
-        from ballscrew.cli.fit_rows import fit_rows
-        from ballscrew.studies.fit_options import options
+        from ballscrew.faces.cli.fit_rows import fit_rows
 
         fit_rows(
-            case, rows, row, functools.partial(
-                options, free=free or [], bounds=bounds or [], limits=limits or [], columns=column or [], kind=kind,
-                inertia=inertia, torque_constant=torque_constant, holdout=holdout,
-                temperature_error=temperature_error, seed=seed, keep_going=keep_going,
-            ),
-            settings=settings or [], model=model, calibration=calibration, allow_code=allow_code, keep_going=keep_going,
-            as_json=as_json, to=to,
+            case, rows, row, written.options, settings=settings or [], model=model, calibration=calibration,
+            allow_code=allow_code, keep_going=keep_going, as_json=as_json, to=to,
         )  # fmt: skip
         return
     assert log is not None
@@ -150,78 +162,139 @@ def fit(
     loaded = case_file.build(tables, model, case.parent, calibration=calibration, allow_code=allow_code)
 
     # pandas is slow to import: only for a good case
-    from ballscrew.command_options.progress import progress
-    from ballscrew.figures import files
-    from ballscrew.studies.fit_log import steady_log
-    from ballscrew.studies.fit_options import check_to, moving_options, options
-    from ballscrew.studies.moving_log import is_moving
+    from ballscrew.questions.fit_motion.log import is_moving
+    from ballscrew.questions.shared import chart_files as files
 
     if picture is not None:
         files.check_picture(picture, "--picture")
-    if moving or test is not None or is_moving(log, column or []):
-        from ballscrew.cli.fit_moving import fit_moving
+    shown = _Shown(as_json=as_json, to=to, picture=picture, verbose=verbose)
+    if moving or test is not None or is_moving(log, written.columns):
+        from ballscrew.faces.cli.fit_moving import fit_moving
 
         if self_heating:
             _refuse_self_heating("is not for a moving axis", "leave it out")
-        unused = {
-            "--bounds": bool(bounds), "--limits": bool(limits), "--kind": kind is not None,
-            "--inertia": inertia is not None, "--to": to is not None,
-            "--temperature-error": temperature_error is not None,
-        }  # fmt: skip
-        chosen_motion = moving_options(
-            free=free or [], columns=column or [], torque_constant=torque_constant, gain=gain,
-            carried_mass=carried_mass, seed=seed, keep_going=keep_going, unused=unused,
-        )  # fmt: skip
-        fit_moving(loaded, log, test, chosen_motion, as_json=as_json, picture=picture)
+        options = written.moving_options(gain, carried_mass, to)
+        fit_moving(loaded, log, test, options, as_json=as_json, picture=picture)
         return
-    if to is not None:
-        check_to(to, case)
-    chosen = options(
-        loaded, free=free or [], bounds=bounds or [], limits=limits or [], columns=column or [], kind=kind,
-        inertia=inertia, torque_constant=torque_constant, holdout=holdout, temperature_error=temperature_error,
-        seed=seed, keep_going=keep_going,
-    )  # fmt: skip
+    _fit_torques(_Read(case, tables, loaded), log, written, shown, self_heating=self_heating)
+
+
+@dataclasses.dataclass(frozen=True)
+class _Written:
+    """The options of a fit as they are written: the numbers to fit, and how the log is read."""
+
+    free: Sequence[str]
+    bounds: Sequence[str]
+    limits: Sequence[str]
+    columns: Sequence[str]
+    kind: str | None
+    inertia: str | None
+    torque_constant: str | None
+    holdout: float
+    temperature_error: str | None
+    seed: int
+    keep_going: bool
+
+    def options(self, case: Case) -> Options:
+        """Those of a log of torques, as numbers in SI."""
+        from ballscrew.questions.fit.options import options
+
+        return options(
+            case, free=self.free, bounds=self.bounds, limits=self.limits, columns=self.columns, kind=self.kind,
+            inertia=self.inertia, torque_constant=self.torque_constant, holdout=self.holdout,
+            temperature_error=self.temperature_error, seed=self.seed, keep_going=self.keep_going,
+        )  # fmt: skip
+
+    def moving_options(self, gain: str | None, carried_mass: str | None, to: Path | None) -> MovingOptions:
+        """Those of a log of a moving axis, which takes no other."""
+        from ballscrew.questions.fit_motion.options import moving_options
+
+        unused = {
+            "--bounds": bool(self.bounds), "--limits": bool(self.limits), "--kind": self.kind is not None,
+            "--inertia": self.inertia is not None, "--to": to is not None,
+            "--temperature-error": self.temperature_error is not None,
+        }  # fmt: skip
+        return moving_options(
+            free=self.free, columns=self.columns, torque_constant=self.torque_constant, gain=gain,
+            carried_mass=carried_mass, seed=self.seed, keep_going=self.keep_going, unused=unused,
+        )  # fmt: skip
+
+
+@dataclasses.dataclass(frozen=True)
+class _Read:
+    """A case file, its tables with the settings of the command line, and the case."""
+
+    path: Path
+    tables: Mapping[str, Any]
+    case: Case
+
+
+@dataclasses.dataclass(frozen=True)
+class _Shown:
+    """How a fit is shown, and the files that are written of it."""
+
+    as_json: bool
+    to: Path | None
+    picture: Path | None
+    verbose: bool
+
+
+def _fit_torques(read: _Read, log: Path, written: _Written, shown: _Shown, *, self_heating: bool) -> None:
+    """Fit a case to a log of torques, print what is found, and write the files asked for."""
+    from ballscrew.faces.cli.progress import progress
+    from ballscrew.questions.fit.log import steady_log
+    from ballscrew.questions.fit.options import check_to
+
+    if shown.to is not None:
+        check_to(shown.to, read.path)
+    chosen = written.options(read.case)
     with progress("fit") as done:
-        steady = steady_log(loaded, log, chosen, done)
+        steady = steady_log(read.case, log, chosen, done)
         # solvers are slow to import: only for a log that can be fitted to
-        from ballscrew.studies import fit as studies
+        from ballscrew.questions.fit import compute
 
         assumed: Sequence[str] = ()
         if self_heating:
-            from ballscrew.axis_studies.warm_log import warm_log
+            from ballscrew.questions.fit.warm_log import warm_log
 
-            steady, assumed = warm_log(loaded, steady, chosen.kind)
-        report = dataclasses.replace(studies.fit(loaded, steady, chosen), assumed=assumed)
-    from ballscrew.cases import fitted_case
-    from ballscrew.documents import fit as documents
-    from ballscrew.output.json_text import as_json as json_text
-    from ballscrew.text import fit as text
+            steady, assumed = warm_log(read.case, steady, chosen.kind)
+        report = dataclasses.replace(compute.fit(read.case, steady, chosen), assumed=assumed)
+    _show(read, report, shown)
 
-    if verbose:
+
+def _show(read: _Read, report: FitReport, shown: _Shown) -> None:
+    """Print a fit, and write its files."""
+    from ballscrew.basis.output.json_text import as_json as json_text
+    from ballscrew.cases.case_files import fitted_case
+    from ballscrew.questions.fit import document as documents
+    from ballscrew.questions.fit import text
+    from ballscrew.questions.shared import chart_files as files
+
+    if shown.verbose:
         say_engine(report.model.response.evaluation.attributes)
-    if as_json:
-        typer.echo(json_text(documents.document(loaded, report)))
+    if shown.as_json:
+        typer.echo(json_text(documents.document(read.case, report)))
     else:
-        text.print_fit(loaded, report)
-    if to is not None:
-        fitted_case.save(to, tables, case.parent, loaded, report.model)
-        typer.echo(f"{to}: the calibrated model", err=as_json)
-    if picture is not None:
-        from ballscrew.figures import fit as figures  # matplotlib is slow to import
+        text.print_fit(read.case, report)
+    if shown.to is not None:
+        fitted_case.save(shown.to, read.tables, read.path.parent, read.case, report.model)
+        typer.echo(f"{shown.to}: the calibrated model", err=shown.as_json)
+    if shown.picture is not None:
+        from ballscrew.questions.fit import figure as figures  # matplotlib is slow to import
 
-        files.draw(lambda: figures.picture(loaded, report), picture, "--picture")
-        typer.echo(f"{picture}: {len(report.model.rows.log)} rows", err=as_json)
+        files.draw(lambda: figures.picture(read.case, report), shown.picture, "--picture")
+        typer.echo(f"{shown.picture}: {len(report.model.rows.log)} rows", err=shown.as_json)
 
 
 def _refuse_self_heating(problem: str, remedy: str) -> NoReturn:
-    from ballscrew.errors import Fault, InputError
+    from ballscrew.basis.errors import Fault, InputError
 
     raise InputError(Fault("--self-heating", problem, "", remedy))
 
 
 def _check_log(log: Path | None, rows: Path | None, picture: Path | None) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` unless there is one log, or a table that names them."""
-    from ballscrew.errors import Fault, InputError, raise_if_any
+    """Raise :class:`~ballscrew.basis.errors.InputError` unless there is one log, or a table that names them."""
+    from ballscrew.basis.errors import Fault, InputError, raise_if_any
 
     if log is None and rows is None:
         raise InputError(Fault("fit", "needs a log", "", "give a file, or --rows FILE with a column log"))

@@ -1,4 +1,4 @@
-"""``ballscrew fit`` on a log of a moving axis. The work is done in ``studies/fit_motion``."""
+"""``ballscrew fit`` on a log of a moving axis."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from pathlib import Path
 
 import typer
 
-from ballscrew.cases.case import Case
-from ballscrew.studies.moving_log import MovingOptions, moving_log
+from ballscrew.cases.case_files.case import Case
+from ballscrew.questions.fit_motion.log import MovingOptions, moving_log
 
 
 def fit_moving(
@@ -17,19 +17,18 @@ def fit_moving(
     read = moving_log(case, log, options)
     other = None if test is None else moving_log(case, test, options, usual_gain=read.gain)
     # solvers are slow to import: only for a log that can be read
-    from ballscrew.documents import fit_motion as documents
-    from ballscrew.output.json_text import as_json as json_text
-    from ballscrew.studies import fit_motion as studies
-    from ballscrew.text import fit_motion as text
+    from ballscrew.basis.output.json_text import as_json as json_text
+    from ballscrew.questions.fit_motion import compute, text
+    from ballscrew.questions.fit_motion import document as documents
 
-    found = studies.fit(case, read, other, options)
+    found = compute.fit(case, read, other, options)
     if as_json:
         typer.echo(json_text(documents.document(case, found)))
     else:
         text.print_motion_fit(case, found)
     if picture is not None:
-        from ballscrew.figures import files
-        from ballscrew.figures import fit_motion as figures  # matplotlib is slow to import
+        from ballscrew.questions.fit_motion import figure as figures  # matplotlib is slow to import
+        from ballscrew.questions.shared import chart_files as files
 
         files.draw(lambda: figures.picture(case, found), picture, "--picture")
         typer.echo(f"{picture}: {found.equation.used.size} rows", err=as_json)

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import typer
 
-from ballscrew.command_options.common_options import cases_of_rows, say_of_rows
-from ballscrew.errors import Fault, InputError
-from ballscrew.files import check_writable
+from ballscrew.basis.atomic_files import check_writable
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.faces.cli.common_options import cases_of_rows, say_of_rows
 
 if TYPE_CHECKING:
-    from ballscrew.cases.case import Case
-    from ballscrew.studies.every_row import RowCase
-    from ballscrew.studies.fit import FitReport
-    from ballscrew.studies.fit_log import Options
+    from ballscrew.cases.case_files.case import Case
+    from ballscrew.questions.fit.compute import FitReport
+    from ballscrew.questions.fit.log import Options
+    from ballscrew.questions.shared.every_row import RowCase
 
 
 def fit_rows(
@@ -34,29 +34,20 @@ def fit_rows(
     to: Path | None,
 ) -> None:
     """Fit each row to its log; a folder ``to`` gets the calibrated case of each as soon as it is done."""
-    from ballscrew.cases import fitted_case
-    from ballscrew.command_options.progress import progress
-    from ballscrew.documents import fit as documents
-    from ballscrew.output import json_text
-    from ballscrew.studies import fit_rows
-    from ballscrew.table_files import row_tables
-    from ballscrew.text import fit_rows as text
+    from ballscrew.basis.output import json_text
+    from ballscrew.cases.case_files import fitted_case
+    from ballscrew.faces.cli.progress import progress
+    from ballscrew.questions.fit import document as documents
+    from ballscrew.questions.fit import rows as fit_rows
+    from ballscrew.questions.fit import rows_text as text
+    from ballscrew.questions.fit.table import of_fits
+    from ballscrew.questions.shared import row_tables
 
     cases = cases_of_rows(
         case, rows, row, settings, model, calibration=calibration, allow_code=allow_code, keep_going=keep_going
     )
-    is_table = to is not None and to.suffix.lower() in row_tables.KINDS and not to.is_dir()
-    if to is not None and not is_table and to.suffix and not to.is_dir():
-        remedy = "end it in .csv or .xlsx, or give a folder for a calibrated case of each"
-        raise InputError(Fault("--to", "unknown kind of file", str(to), remedy))
-    if to is not None and is_table:
-        row_tables.check_path(to)
-    paths = {} if to is None or is_table else fit_rows.files(cases.found, to)
-    for path in paths.values():
-        if path.resolve() == case.resolve():
-            raise InputError(Fault("--to", "would overwrite the case itself", str(path), "choose another folder"))
-    for path in list(paths.values())[:1]:
-        check_writable("--to", path)
+    table = to if to is not None and _is_table(to) else None
+    paths = {} if to is None or table is not None else _paths(to, cases.found, case)
     with progress("logs") as done:
         read = fit_rows.logs(cases.found, rows, options, keep_going=keep_going, done=done)
 
@@ -76,8 +67,34 @@ def fit_rows(
         typer.echo(json_text.as_json(listed))
     else:
         typer.echo(text.list_text(reports))
-    if to is not None and is_table:
-        row_tables.write(to, row_tables.of_fits(reports))
+    if table is not None:
+        row_tables.write(table, of_fits(reports))
     if to is not None:
         typer.echo(f"{to}: {len(reports)} screws", err=True)
     say_of_rows([*cases.notes, *read.notes, *fitted.notes], fitted.interrupted)
+
+
+def _is_table(to: Path) -> bool:
+    """Test whether the rows go to a table, or else to a folder. Raises ``InputError`` for a file of another kind."""
+    from ballscrew.questions.shared import row_tables
+
+    if to.is_dir() or not to.suffix:
+        return False
+    if to.suffix.lower() not in row_tables.KINDS:
+        remedy = "end it in .csv or .xlsx, or give a folder for a calibrated case of each"
+        raise InputError(Fault("--to", "unknown kind of file", str(to), remedy))
+    row_tables.check_path(to)
+    return True
+
+
+def _paths(folder: Path, cases: Mapping[str, RowCase], case: Path) -> dict[str, Path]:
+    """The calibrated case of each row in a folder, which has to be writable and not to be the case itself."""
+    from ballscrew.questions.fit.rows import files
+
+    paths = files(cases, folder)
+    for path in paths.values():
+        if path.resolve() == case.resolve():
+            raise InputError(Fault("--to", "would overwrite the case itself", str(path), "choose another folder"))
+    for path in list(paths.values())[:1]:
+        check_writable("--to", path)
+    return paths

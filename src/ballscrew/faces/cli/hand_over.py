@@ -1,4 +1,4 @@
-"""``ballscrew hand-over``: the model as files for another program. The work is done in ``exports``."""
+"""``ballscrew hand-over``: the model as files for another program."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.command_options.common_options import AllowCode, CalibrationName, CaseFile, ModelName, Settings
+from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName, Settings
 
 
 def hand_over(
@@ -38,11 +38,11 @@ def hand_over(
     allow_code: AllowCode = False,
 ) -> None:
     """Hand the model over to a simulator, a robot or a control, with its range and its worst error."""
-    from ballscrew.cases import case_file
-    from ballscrew.documents import hand_over as documents
+    from ballscrew.basis.output.json_text import as_json as json_text
+    from ballscrew.cases.case_files import case_file
     from ballscrew.exports import requests
-    from ballscrew.output.json_text import as_json as json_text
-    from ballscrew.text import hand_over as text
+    from ballscrew.questions.hand_over import document as documents
+    from ballscrew.questions.hand_over import text
 
     requests.check_target(to)
     loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)

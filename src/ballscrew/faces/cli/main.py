@@ -15,8 +15,8 @@ from typing import Annotated, Any, NoReturn
 import typer
 from typer.core import TyperCommand
 
-from ballscrew import _pint_plugins
-from ballscrew.cli import (
+from ballscrew.basis import pint_plugins as _pint_plugins
+from ballscrew.faces.cli import (
     axis,
     card,
     catalogue,
@@ -43,7 +43,7 @@ from ballscrew.cli import (
     validate,
     warm_up,
 )
-from ballscrew.command_options.common_options import CALIBRATION_NAMES, MODEL_NAMES, compiling_on_terminal
+from ballscrew.faces.cli.common_options import CALIBRATION_NAMES, MODEL_NAMES, compiling_on_terminal
 
 app = typer.Typer(
     name="ballscrew",
@@ -68,8 +68,8 @@ class _Command(TyperCommand):
             return super().invoke(ctx)
 
     def format_help(self, ctx: Any, formatter: Any) -> None:
-        from ballscrew.case_schema.schema import DEFAULT_MODEL, MODELS
-        from ballscrew.friction.calibrations import calibrations
+        from ballscrew.cases.schema.schema import DEFAULT_MODEL, MODELS
+        from ballscrew.physics.friction.calibrations import calibrations
 
         models = ", ".join(f"{name} (default)" if name == DEFAULT_MODEL else name for name in MODELS)
         for parameter in self.params:
@@ -109,7 +109,7 @@ app.command("list", cls=_Command)(names.list_names)
 
 def _version(wanted: bool) -> None:
     if wanted:
-        from ballscrew._version import __version__
+        from ballscrew.basis.version import __version__
 
         typer.echo(f"ballscrew {__version__}")
         raise typer.Exit
@@ -138,7 +138,7 @@ def main() -> None:
         finally:
             sys.stdout.flush()
     except ValueError as error:
-        from ballscrew.errors import InputError  # with NumPy: not for those who only ask for help
+        from ballscrew.basis.errors import InputError  # with NumPy: not for those who only ask for help
 
         if isinstance(error, InputError):
             _refuse(error.lines())

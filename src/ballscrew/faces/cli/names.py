@@ -1,4 +1,4 @@
-"""``ballscrew list``: the names that case files and options take. The work is done in ``studies/names``."""
+"""``ballscrew list``: the names that case files and options take."""
 
 from __future__ import annotations
 
@@ -19,12 +19,11 @@ def list_names(
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
 ) -> None:
     """List names: grades of oils, laws of friction, models, inputs to vary and outputs to ask for."""
-    from ballscrew.cases import case_file
-    from ballscrew.documents import names as documents
-    from ballscrew.output.json_text import as_json as json_text
-    from ballscrew.studies import names as studies
-    from ballscrew.text import names as text
+    from ballscrew.basis.output.json_text import as_json as json_text
+    from ballscrew.cases.case_files import case_file
+    from ballscrew.questions.names import compute, text
+    from ballscrew.questions.names import document as documents
 
-    found = studies.names(kind, None if case is None else case_file.load(case))
+    found = compute.names(kind, None if case is None else case_file.load(case))
     found = [one for one in found if all(word.lower() in " ".join(one).lower() for word in words or ())]
     typer.echo(json_text(documents.document(kind, found)) if as_json else text.text(found))

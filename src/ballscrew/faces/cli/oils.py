@@ -1,4 +1,4 @@
-"""``ballscrew oils``: oils and greases of the library or of one's own file. The work is done in ``cases/oils``."""
+"""``ballscrew oils``: oils and greases of the library or of one's own file."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ def list_oils(
     as_json: AsJson = False,
 ) -> None:
     """All oils, one line each."""
-    from ballscrew.cases import oils
-    from ballscrew.documents import oils as documents
-    from ballscrew.output import json_text
-    from ballscrew.text import oils as text
+    from ballscrew.basis.output import json_text
+    from ballscrew.cases.case_files import oils
+    from ballscrew.questions.oils import document as documents
+    from ballscrew.questions.oils import text
 
     found = oils.chosen(oils.oils(file), " ".join(words or []))
     typer.echo(json_text.as_json(documents.document(found)) if as_json else text.list_text(found))
@@ -39,10 +39,10 @@ def show(
     as_json: AsJson = False,
 ) -> None:
     """One oil: what its data sheet states, and its viscosity from -40 to 120 degC."""
-    from ballscrew.cases import oils
-    from ballscrew.documents import oils as documents
-    from ballscrew.output import json_text
-    from ballscrew.text import oils as text
+    from ballscrew.basis.output import json_text
+    from ballscrew.cases.case_files import oils
+    from ballscrew.questions.oils import document as documents
+    from ballscrew.questions.oils import text
 
     sheet = oils.oils(file).named(name)
     typer.echo(json_text.as_json(documents.document([sheet])) if as_json else text.show_text(sheet))

@@ -1,4 +1,4 @@
-"""``ballscrew optimise``: free geometries for a need. The work is done in ``optimisation``."""
+"""``ballscrew optimise``: free geometries for a need."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from typing import Annotated, Any
 
 import typer
 
-from ballscrew.cli.select import Need, Objectives, check_file, names_of
-from ballscrew.command_options.common_options import AllowCode, CalibrationName, ModelName
+from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, ModelName
+from ballscrew.faces.cli.select import Need, Objectives, check_file, names_of
 
 _TO = "--to"
 
@@ -48,12 +48,12 @@ def optimise(
     The need is that of ballscrew select; its table [optimise] has bounds and objectives. Each member is evaluated by
     the full model and all checks. Needs the extra optimise.
     """
-    from ballscrew.command_options.progress import progress
-    from ballscrew.documents import optimisation as documents
-    from ballscrew.optimisation.optimisation import optimise as optimised
-    from ballscrew.optimisation.optimisation import plan
-    from ballscrew.output.json_text import as_json as json_text
-    from ballscrew.text import optimisation as text
+    from ballscrew.basis.output.json_text import as_json as json_text
+    from ballscrew.faces.cli.progress import progress
+    from ballscrew.questions.optimise import document as documents
+    from ballscrew.questions.optimise import text
+    from ballscrew.questions.optimise.compute import optimise as optimised
+    from ballscrew.questions.optimise.compute import plan
 
     for path in to or []:
         check_file(path)
@@ -66,12 +66,14 @@ def optimise(
         found = optimised(need, seed=seed, done=done, **asked)
     typer.echo(json_text(documents.document(found)) if as_json else text.text(found))
     for path in to or []:
-        from ballscrew.table_files import row_tables, selection_tables
+        from ballscrew.questions.optimise.table import of_optimisation
+        from ballscrew.questions.shared import row_tables
 
         if path.suffix.lower() in row_tables.KINDS:
-            row_tables.write(path, selection_tables.of_optimisation(found.members))
+            row_tables.write(path, of_optimisation(found.members))
         else:
-            from ballscrew.figures import files, optimisation
+            from ballscrew.questions.optimise import figure as optimisation
+            from ballscrew.questions.shared import chart_files as files
 
             files.draw(lambda: optimisation.picture(found), path, _TO)
         typer.echo(f"{path}: {len(found.members)} designs", err=True)

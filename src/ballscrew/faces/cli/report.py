@@ -1,4 +1,4 @@
-"""``ballscrew report``: a case as a file to read and to keep. The work is done in ``report/files``."""
+"""``ballscrew report``: a case as a file to read and to keep."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from typing import Annotated, Literal
 
 import typer
 
-from ballscrew.command_options.common_options import AllowCode, CalibrationName, CaseFile, ModelName, Settings
+from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName, Settings
 
 #: What each kind of file needs beyond the core.
 _NEEDS = {".html": ("jinja2",), ".pdf": ("typst",)}
 _KINDS: dict[str, Literal["pdf", "html"]] = {".html": "html", ".pdf": "pdf"}
 _TO = "--to"
-#: Designs beside the first, as :mod:`ballscrew.report.several` has letters for.
+#: Designs beside the first, as :mod:`ballscrew.faces.report.several` has letters for.
 _MOST_BESIDE = 3
 
 
@@ -44,7 +44,7 @@ def report(
     warming up. The .html is one file that asks for nothing from outside; the .pdf can be read by machines, too
     (PDF/UA-1). The same case gives the same bytes: a date stands on it only where --date says one.
     """
-    from ballscrew.errors import Fault, InputError
+    from ballscrew.basis.errors import Fault, InputError
 
     kind = to.suffix.lower()
     if kind not in _NEEDS:
@@ -52,9 +52,9 @@ def report(
     missing = [name for name in _NEEDS[kind] if importlib.util.find_spec(name) is None]
     if missing:
         raise InputError(Fault(_TO, f"needs {' and '.join(missing)}", str(to), 'pip install "ballscrew[report]"'))
-    from ballscrew.cases import case_file
-    from ballscrew.files import atomic_write, check_writable
-    from ballscrew.report.heading import Heading
+    from ballscrew.basis.atomic_files import atomic_write, check_writable
+    from ballscrew.cases.case_files import case_file
+    from ballscrew.faces.report.heading import Heading
 
     if len(beside or []) > _MOST_BESIDE:
         raise InputError(Fault("--beside", "too many designs", str(len(beside or [])), f"{_MOST_BESIDE} at most"))
@@ -64,8 +64,8 @@ def report(
     )
     heading = Heading.of(project, datetime.date.today().isoformat() if date == "today" else date)
     check_writable(_TO, to)
-    from ballscrew.command_options.progress import progress
-    from ballscrew.report.files import report_bytes
+    from ballscrew.faces.cli.progress import progress
+    from ballscrew.faces.report.files import report_bytes
 
     with progress("report") as done:
         written = report_bytes(loaded, _KINDS[kind], done, samples, heading, others)

@@ -13,11 +13,11 @@ def reproduce(
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder for figures, data and claims.")],
 ) -> None:
     """The figures, the data and the claims of a paper, from its equations."""
-    from ballscrew.errors import Fault, InputError, nearest
+    from ballscrew.basis.errors import Fault, InputError, nearest
 
     if paper != "olaru2005":
         raise InputError(Fault("reproduce", "unknown paper", paper, nearest(paper, ["olaru2005"])))
-    from ballscrew.cli.reproduction import reproduce_olaru2005
+    from ballscrew.faces.cli.reproduction import reproduce_olaru2005
 
     written = reproduce_olaru2005(out, _step)
     typer.echo(f"{out}: {len(written)} files; read {out / 'claims.md'} first")

@@ -18,11 +18,11 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew._version import __version__
-from ballscrew.errors import Fault, InputError
-from ballscrew.files import write_error
-from ballscrew.papers import olaru2005 as paper
-from ballscrew.references import paper_equations
+from ballscrew.basis.atomic_files import write_error
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.references import paper_equations
+from ballscrew.basis.version import __version__
+from ballscrew.evidence.papers import olaru2005 as paper
 
 Report = Callable[[str, int, int], None]
 
@@ -53,7 +53,7 @@ def reproduce_olaru2005(out: Path, report: Report | None = None) -> list[Path]:
     """Write the figures, the data and the claims of Olaru2005 into a folder; what was written is returned.
 
     ``report(what, done, total)`` is told each step. Raises
-    :class:`~ballscrew.errors.InputError` before any work if the folder cannot be written or the
+    :class:`~ballscrew.basis.errors.InputError` before any work if the folder cannot be written or the
     libraries for NetCDF are missing.
     """
     if importlib.util.find_spec("h5netcdf") is None or importlib.util.find_spec("h5py") is None:
@@ -106,8 +106,9 @@ def _whole_folder(out: Path) -> Generator[_Folder]:
 
 def _write(folder: _Folder, report: Report) -> None:
     # matplotlib takes its time: only once the folder is known to be writable
-    from ballscrew.figures import ball, style
-    from ballscrew.figures import olaru2005 as figures
+    from ballscrew.questions.reproduce import ball_figure as ball
+    from ballscrew.questions.reproduce import figure as figures
+    from ballscrew.questions.shared import chart_style as style
 
     total, done = len(ball.PLOTS) + len(figures.PLOTS) + 3, 0
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ballscrew.command_options.common_options import (
+from ballscrew.faces.cli.common_options import (
     AllowCode,
     CalibrationName,
     CaseFile,
@@ -23,8 +23,8 @@ from ballscrew.command_options.common_options import (
 )
 
 if TYPE_CHECKING:
-    from ballscrew.cases.case import Case
-    from ballscrew.studies.every_row import OfRows, RowCase
+    from ballscrew.cases.case_files.case import Case
+    from ballscrew.questions.shared.every_row import OfRows, RowCase
 
 
 def run(
@@ -74,13 +74,13 @@ def run(
         loaded = _only(cases)
         say_of_rows(cases.notes, cases.interrupted)
     else:
-        from ballscrew.cases import case_file
+        from ballscrew.cases.case_files import case_file
 
         loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
     if has_band:
-        from ballscrew.cli import band as band_command
-        from ballscrew.command_options.progress import progress
-        from ballscrew.studies.band import Options
+        from ballscrew.faces.cli import band as band_command
+        from ballscrew.faces.cli.progress import progress
+        from ballscrew.questions.band.compute import Options
 
         options = Options(samples, level, only_given)
         band_command.check(band, options, to, self_heating)
@@ -90,16 +90,16 @@ def run(
             else:
                 band_command.run(loaded, options, to, as_json, done)
         return
-    from ballscrew.documents.run import document
-    from ballscrew.documents.self_heating import with_self_heating
-    from ballscrew.output import json_text
-    from ballscrew.output.wrapping import wrapped
-    from ballscrew.studies.run import run as run_case
-    from ballscrew.text.run import print_run
+    from ballscrew.basis.output import json_text
+    from ballscrew.basis.output.wrapping import wrapped
+    from ballscrew.questions.run.compute import run as run_case
+    from ballscrew.questions.run.document import document
+    from ballscrew.questions.run.text import print_run
+    from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
     heating = None
     if self_heating:
-        from ballscrew.axis_studies import self_heating as studies
+        from ballscrew.questions.warm_up import self_heating as studies
 
         heating = studies.self_heating(loaded)
     found = run_case(loaded if heating is None else heating.warm)
@@ -112,8 +112,10 @@ def run(
 
 
 def _check_self_heating(asked: bool, rows: Path | None) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` where self-heating is asked for beside what does not know it."""
-    from ballscrew.errors import Fault, InputError
+    """Raise :class:`~ballscrew.basis.errors.InputError` where self-heating is asked for beside what does not know
+    it.
+    """
+    from ballscrew.basis.errors import Fault, InputError
 
     if asked and rows is not None:
         raise InputError(Fault("--self-heating", "is given beside --rows", "", "leave one of them out"))
@@ -121,13 +123,13 @@ def _check_self_heating(asked: bool, rows: Path | None) -> None:
 
 def _of_rows(cases: OfRows[RowCase], as_json: bool, to: Path | None, keep_going: bool) -> None:
     """Results of each row: one line each, and a table in a file."""
-    from ballscrew.command_options.progress import progress
-    from ballscrew.documents.run import list_document
-    from ballscrew.output import json_text
-    from ballscrew.studies import every_row
-    from ballscrew.studies.run import run as run_case
-    from ballscrew.table_files import row_tables
-    from ballscrew.text.run_rows import list_text
+    from ballscrew.basis.output import json_text
+    from ballscrew.faces.cli.progress import progress
+    from ballscrew.questions.run.compute import run as run_case
+    from ballscrew.questions.run.document import list_document
+    from ballscrew.questions.run.rows_text import list_text
+    from ballscrew.questions.run.table import of_runs
+    from ballscrew.questions.shared import every_row, row_tables
 
     if to is not None:
         row_tables.check_path(to)
@@ -137,14 +139,14 @@ def _of_rows(cases: OfRows[RowCase], as_json: bool, to: Path | None, keep_going:
     runs = {work[place].row.name: run for place, run in ran.found.items()}
     typer.echo(json_text.as_json(list_document(runs)) if as_json else list_text(runs))
     if to is not None:
-        row_tables.write(to, row_tables.of_runs(runs))
+        row_tables.write(to, of_runs(runs))
         typer.echo(f"{to}: {len(runs)} screws", err=True)
     say_of_rows([*cases.notes, *ran.notes], ran.interrupted)
 
 
 def _only(cases: OfRows[RowCase]) -> Case:
     """The case of the one row there is."""
-    from ballscrew.errors import Fault, InputError
+    from ballscrew.basis.errors import Fault, InputError
 
     if len(cases.found) > 1:
         raise InputError(Fault("--band", "is of one screw", f"{len(cases.found)} rows", "choose one: --row NAME"))

@@ -14,8 +14,8 @@ def schema(
     import json
 
     if need:
-        from ballscrew.optimisation.need_schema import json_schema
+        from ballscrew.questions.optimise.need_schema import json_schema
     else:
-        from ballscrew.case_schema.schema import json_schema
+        from ballscrew.cases.schema.schema import json_schema
 
     typer.echo(json.dumps(json_schema(), indent=2, ensure_ascii=False))

@@ -1,4 +1,4 @@
-"""``ballscrew select``: every row, nut, preload and oil against a need. The work is done in ``selection``."""
+"""``ballscrew select``: every row, nut, preload and oil against a need."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.command_options.common_options import AllowCode, CalibrationName, KeepGoing, ModelName, say_of_rows
+from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, KeepGoing, ModelName, say_of_rows
 
 _TO = "--to"
 Need = Annotated[
@@ -59,12 +59,12 @@ def select(
     Each is judged by the full model and all checks; those that their loads alone rule out, by these. The exit code is
     0 where none holds, too: the list says what fails, and by how much.
     """
-    from ballscrew.command_options.progress import progress
-    from ballscrew.documents import selection as documents
-    from ballscrew.output.json_text import as_json as json_text
-    from ballscrew.selection.selection import plan
-    from ballscrew.selection.selection import select as selected
-    from ballscrew.text import selection as text
+    from ballscrew.basis.output.json_text import as_json as json_text
+    from ballscrew.faces.cli.progress import progress
+    from ballscrew.questions.select import document as documents
+    from ballscrew.questions.select import text
+    from ballscrew.questions.select.compute import plan
+    from ballscrew.questions.select.compute import select as selected
 
     for path in to or []:
         check_file(path)
@@ -92,12 +92,14 @@ def select(
     else:
         typer.echo(text.text(found, kept, first))
     for path in to or []:
-        from ballscrew.table_files import row_tables, selection_tables
+        from ballscrew.questions.select import table as selection_tables
+        from ballscrew.questions.shared import row_tables
 
         if path.suffix.lower() in row_tables.KINDS:
             row_tables.write(path, selection_tables.of_selection(kept))
         else:
-            from ballscrew.figures import files, selection
+            from ballscrew.questions.select import figure as selection
+            from ballscrew.questions.shared import chart_files as files
 
             files.draw(lambda: selection.picture(found), path, _TO)
         typer.echo(f"{path}: {len(kept)} candidates", err=True)
@@ -110,10 +112,10 @@ def names_of(text: str) -> list[str]:
 
 
 def check_file(path: Path) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` now for a file that could not be written later."""
-    from ballscrew.errors import Fault, InputError
-    from ballscrew.figures.files import SUFFIXES, check_picture
-    from ballscrew.table_files import row_tables
+    """Raise :class:`~ballscrew.basis.errors.InputError` now for a file that could not be written later."""
+    from ballscrew.basis.errors import Fault, InputError
+    from ballscrew.questions.shared import row_tables
+    from ballscrew.questions.shared.chart_files import SUFFIXES, check_picture
 
     known = (*row_tables.KINDS, *SUFFIXES)
     if path.suffix.lower() not in known:

@@ -1,4 +1,4 @@
-"""``ballscrew sensitivity``: which input to find out next. The work is done in ``studies/sensitivity``."""
+"""``ballscrew sensitivity``: which input to find out next."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.command_options.common_options import AllowCode, CalibrationName, CaseFile, ModelName
+from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName
 
 
 def sensitivity(
@@ -50,26 +50,25 @@ def sensitivity(
     Uncertain is what the case file gives a distribution, such as "0.54 ± 0.01", and what people rarely know, as
     much as is usual. Laws are not varied here.
     """
-    from ballscrew.cases import case_file
-    from ballscrew.command_options import progress
-    from ballscrew.documents import sensitivity as documents
-    from ballscrew.figures import files
-    from ballscrew.output.json_text import as_json as json_text
-    from ballscrew.studies import sensitivity as studies
-    from ballscrew.text import sensitivity as text
+    from ballscrew.basis.output.json_text import as_json as json_text
+    from ballscrew.cases.case_files import case_file
+    from ballscrew.faces.cli import progress
+    from ballscrew.questions.sensitivity import compute, text
+    from ballscrew.questions.sensitivity import document as documents
+    from ballscrew.questions.shared import chart_files as files
 
     loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
-    chosen = studies.Options(output, method, samples, seed, only_given)
+    chosen = compute.Options(output, method, samples, seed, only_given)
     if to is not None:
         files.check_picture(to)
     with progress.progress("sensitivity") as done:
-        report = studies.sensitivity(loaded, chosen, done)
+        report = compute.sensitivity(loaded, chosen, done)
     if as_json:
         typer.echo(json_text(documents.document(loaded, report)))
     else:
         text.print_sensitivity(loaded, report)
     if to is not None:
-        from ballscrew.figures import sensitivity as figures  # matplotlib is slow to import
+        from ballscrew.questions.sensitivity import figure as figures  # matplotlib is slow to import
 
         files.draw(lambda: figures.picture(loaded, report), to)
         typer.echo(f"{to}: {len(report.result.inputs)} inputs", err=as_json)

@@ -42,15 +42,15 @@ def serve(
     import logging
     import webbrowser
 
-    from ballscrew.errors import Fault, InputError
+    from ballscrew.basis.errors import Fault, InputError
 
     missing = [name for name in _NEEDS if importlib.util.find_spec(name) is None]
     if missing:
         raise InputError(Fault("serve", f"needs {' and '.join(missing)}", "", 'pip install "ballscrew[web]"'))
     listening = _listening(host, port)
-    from ballscrew.web import connections, guard, server
-    from ballscrew.web.job_process import Forks
-    from ballscrew.web.request_queue import TIME_LIMIT, RequestQueue
+    from ballscrew.faces.web import connections, guard, server
+    from ballscrew.faces.web.job_process import Forks
+    from ballscrew.faces.web.request_queue import TIME_LIMIT, RequestQueue
 
     name = f"[{host}]" if ":" in host else host
     hosts = guard.LOOPBACK if host in _LOOPBACK else ("*",) if host in _ANY else (name.lower(), *guard.LOOPBACK)
@@ -74,7 +74,7 @@ def _listening(host: str, port: int) -> socket.socket:
     """A socket that listens there; a fault that names the option if there can be none."""
     import socket
 
-    from ballscrew.errors import Fault, InputError
+    from ballscrew.basis.errors import Fault, InputError
 
     if not 0 <= port <= 65535:
         raise InputError(Fault("--port", "is no port", str(port), "0 to 65535"))

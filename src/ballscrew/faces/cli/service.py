@@ -1,4 +1,4 @@
-"""``ballscrew service``: the preload left in a nut. The work is done in ``studies/service``."""
+"""``ballscrew service``: the preload left in a nut."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ballscrew.command_options.common_options import (
+from ballscrew.faces.cli.common_options import (
     AllowCode,
     CalibrationName,
     Inertia,
@@ -71,34 +71,33 @@ def service(
     The answer has its interval and its probability. What else could have changed the torque is fitted, too: boundary
     friction, the oil, the seals.
     """
-    from ballscrew.cases import case_file
-    from ballscrew.command_options.progress import progress
-    from ballscrew.documents import service as documents
-    from ballscrew.figures import files
-    from ballscrew.output.json_text import as_json as json_text
-    from ballscrew.studies import service as studies
-    from ballscrew.studies.service_options import check_question, fit_options, reading
-    from ballscrew.text import service as text
+    from ballscrew.basis.output.json_text import as_json as json_text
+    from ballscrew.cases.case_files import case_file
+    from ballscrew.faces.cli.progress import progress
+    from ballscrew.questions.service import compute, text
+    from ballscrew.questions.service import document as documents
+    from ballscrew.questions.service.options import check_question, fit_options, reading
+    from ballscrew.questions.shared import chart_files as files
 
     file = check_question(logs or [], case, torque, speed, temperature)
     loaded = case_file.load(file, settings or [], model, calibration=calibration, allow_code=allow_code)
     if picture is not None:
         files.check_picture(picture, "--picture")
     if torque is not None:
-        report = studies.of_torque(loaded, reading(torque, speed or "", temperature))
+        report = compute.of_torque(loaded, reading(torque, speed or "", temperature))
     else:
         chosen = fit_options(
             loaded, free=free or [], columns=column or [], kind=kind, inertia=inertia,
             torque_constant=torque_constant, keep_going=keep_going,
         )  # fmt: skip
         with progress("service") as done:
-            report = studies.of_logs(loaded, logs or [], chosen, tolerance, done)
+            report = compute.of_logs(loaded, logs or [], chosen, tolerance, done)
     if as_json:
         typer.echo(json_text(documents.document(loaded, report)))
     else:
         text.print_service(loaded, report)
     if picture is not None:
-        from ballscrew.figures import service as figures  # matplotlib is slow to import
+        from ballscrew.questions.service import figure as figures  # matplotlib is slow to import
 
         files.draw(lambda: figures.picture(loaded, report), picture, "--picture")
         typer.echo(f"{picture}: {len(report.estimates)} preloads", err=as_json)

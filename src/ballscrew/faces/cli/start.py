@@ -11,7 +11,7 @@ INTERRUPTED = 130
 def main() -> None:
     """Load the commands and run one; Ctrl-C meanwhile ends with one line and exit code 130, without a traceback."""
     try:
-        from ballscrew.cli.main import main as run
+        from ballscrew.faces.cli.main import main as run
 
         run()
     except KeyboardInterrupt:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ballscrew.command_options.common_options import (
+from ballscrew.faces.cli.common_options import (
     AllowCode,
     CalibrationName,
     CaseFile,
@@ -29,7 +29,7 @@ from ballscrew.command_options.common_options import (
 )
 
 if TYPE_CHECKING:
-    from ballscrew.studies.every_row import OfRows, RowCase
+    from ballscrew.questions.shared.every_row import OfRows, RowCase
 
 
 def sweep(
@@ -101,11 +101,11 @@ def sweep(
     With --self-heating each point goes to and fro until it is warm, and has its own temperature and preload.
     With --band each output has the ends of its band beside it: at each point those of ballscrew run --band there.
     """
-    from ballscrew.cases import case_file
-    from ballscrew.command_options.progress import progress
-    from ballscrew.studies import sweep as studies
-    from ballscrew.table_files import sweep_files
-    from ballscrew.text import sweep as text
+    from ballscrew.cases.case_files import case_file
+    from ballscrew.faces.cli.progress import progress
+    from ballscrew.questions.sweep import compute as studies
+    from ballscrew.questions.sweep import table as sweep_files
+    from ballscrew.questions.sweep import text
 
     check_rows(rows, row)
     banded = band or only_given or (samples, level) != (None, None)
@@ -129,15 +129,15 @@ def sweep(
     with _report_interruption(), studies.workers(scheduler, to) as cluster, progress("sweep") as done, log_on_stderr():
         dataset = studies.sweep(loaded, plan, done, to, cluster, verify=verify, trust=trust)
         if banded:
-            from ballscrew.studies.band import Options
-            from ballscrew.studies.sweep_band import with_band  # for those only who ask
+            from ballscrew.questions.band.compute import Options
+            from ballscrew.questions.sweep.band import with_band  # for those only who ask
 
             dataset = with_band(loaded, plan, dataset, Options(samples, level, only_given), done)
     if verbose:
         say_engine(dataset.attrs)
     if as_json:
-        from ballscrew.documents import sweep as documents
-        from ballscrew.output import json_text
+        from ballscrew.basis.output import json_text
+        from ballscrew.questions.sweep import document as documents
 
         typer.echo(json_text.as_json(documents.document(loaded, plan, dataset)))
     elif to is None:
@@ -153,8 +153,10 @@ def sweep(
 
 
 def _check_self_heating(asked: bool, rows: Path | None, scheduler: str | None) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` where self-heating is asked for beside what does not know it."""
-    from ballscrew.errors import Fault, raise_if_any
+    """Raise :class:`~ballscrew.basis.errors.InputError` where self-heating is asked for beside what does not know
+    it.
+    """
+    from ballscrew.basis.errors import Fault, raise_if_any
 
     beside = {"--rows": rows, "--scheduler": scheduler}
     raise_if_any(
@@ -167,8 +169,8 @@ def _check_self_heating(asked: bool, rows: Path | None, scheduler: str | None) -
 
 
 def _check_beside(banded: bool, as_json: bool, rows: Path | None, self_heating: bool) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` for a band and a document beside what does not know them."""
-    from ballscrew.errors import Fault, raise_if_any
+    """Raise :class:`~ballscrew.basis.errors.InputError` for a band and a document beside what does not know them."""
+    from ballscrew.basis.errors import Fault, raise_if_any
 
     faults: list[Fault] = []
     for option, asked in {"--band": banded, "--json": as_json}.items():
@@ -190,10 +192,10 @@ def _of_rows(
     verbose: bool,
 ) -> None:
     """The sweeps of all rows as one dataset."""
-    from ballscrew.command_options.progress import progress
-    from ballscrew.studies import sweep_rows
-    from ballscrew.table_files import sweep_files
-    from ballscrew.text import sweep as text
+    from ballscrew.faces.cli.progress import progress
+    from ballscrew.questions.sweep import rows as sweep_rows
+    from ballscrew.questions.sweep import table as sweep_files
+    from ballscrew.questions.sweep import text
 
     planned = sweep_rows.plans(cases.found, vary, wanted, to, keep_going)
     with progress("sweep") as done:
@@ -223,7 +225,7 @@ def _report_interruption() -> Generator[None]:
             typer.echo(line, err=True)
         raise  # the exit code is that of an interrupt
     except OSError as error:
-        from ballscrew.sweeps.store import UnfinishedSweepError
+        from ballscrew.engine.sweeps.store import UnfinishedSweepError
 
         if not isinstance(error, UnfinishedSweepError):
             raise

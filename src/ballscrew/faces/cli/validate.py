@@ -1,4 +1,4 @@
-"""``ballscrew validate``: the model against vendors and laboratories. The work is done in ``studies/validation``."""
+"""``ballscrew validate``: the model against vendors and laboratories."""
 
 from __future__ import annotations
 
@@ -47,11 +47,11 @@ def validate(
     band, and every row; first the model as it is, then with a named calibration. Beside them rules of one line that
     people use in place of a model.
     """
-    from ballscrew.documents import validation as documents
-    from ballscrew.figures import files
-    from ballscrew.output import json_text
-    from ballscrew.studies import validation
-    from ballscrew.text import validation as text
+    from ballscrew.basis.output import json_text
+    from ballscrew.questions.shared import chart_files as files
+    from ballscrew.questions.validate import compute as validation
+    from ballscrew.questions.validate import document as documents
+    from ballscrew.questions.validate import text
 
     request = validation.request(
         sets or [],
@@ -78,7 +78,7 @@ def validate(
     if as_json:
         typer.echo(json_text.as_json(documents.documents([entry for entries in found for entry in entries])))
     if to is not None:
-        from ballscrew.figures import validation as figures  # matplotlib is slow to import
+        from ballscrew.questions.validate import figure as figures  # matplotlib is slow to import
 
         files.draw(lambda: figures.picture(found, request), to)
         typer.echo(f"{to}: {len(found)} sets", err=as_json)

@@ -1,4 +1,4 @@
-"""``ballscrew warm-up``: how a screw warms up, and what it does. The work is done in ``axis_studies/warm_up``."""
+"""``ballscrew warm-up``: how a screw warms up, and what it does."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ballscrew.command_options.common_options import AllowCode, CaseFile, ModelName
+from ballscrew.faces.cli.common_options import AllowCode, CaseFile, ModelName
 
 if TYPE_CHECKING:
-    from ballscrew.axis_studies.warm_up import WarmUpReport
-    from ballscrew.axis_studies.warm_up_band import WarmUpBandReport
-    from ballscrew.cases.case import Case
+    from ballscrew.cases.case_files.case import Case
+    from ballscrew.questions.warm_up.band import WarmUpBandReport
+    from ballscrew.questions.warm_up.compute import WarmUpReport
 
 _TO, _BAND = "--to", "--band"
 #: Files that a folder gets.
@@ -71,11 +71,11 @@ def warm_up(
     [surroundings] has where the heat goes. The verdict says if there is no end: it runs away. With --band
     transients are drawn with other surroundings, among them the conduction through the balls, the least known.
     """
-    from ballscrew.axis_studies import warm_up as studies
-    from ballscrew.documents import warm_up as documents
-    from ballscrew.errors import Fault, InputError, raise_if_any
-    from ballscrew.output.json_text import as_json as json_text
-    from ballscrew.text import warm_up as text
+    from ballscrew.basis.errors import Fault, InputError, raise_if_any
+    from ballscrew.basis.output.json_text import as_json as json_text
+    from ballscrew.questions.warm_up import compute as studies
+    from ballscrew.questions.warm_up import document as documents
+    from ballscrew.questions.warm_up import text
 
     rest = (studies.REST if drift_cycle else 0.0) if cool_down is None else cool_down
     studies.check_hours(hours, rest)
@@ -105,8 +105,8 @@ def warm_up(
 def _banded(
     case: Case, hours: float, cool_down: float, samples: int | None, level: float | None, only_given: bool
 ) -> WarmUpBandReport:
-    from ballscrew.axis_studies import warm_up_band as studies  # loads xarray
-    from ballscrew.command_options.progress import progress
+    from ballscrew.faces.cli.progress import progress
+    from ballscrew.questions.warm_up import band as studies  # loads xarray
 
     with progress("band") as done:
         return studies.band(
@@ -116,10 +116,10 @@ def _banded(
 
 def _files(place: Path, band: bool) -> list[Path]:
     """The files of a place: itself if it ends as one, or those of a folder, which is made. They can be written."""
-    from ballscrew.errors import Fault, InputError
-    from ballscrew.figures.files import SUFFIXES
-    from ballscrew.files import check_writable, write_error
-    from ballscrew.table_files import row_tables
+    from ballscrew.basis.atomic_files import check_writable, write_error
+    from ballscrew.basis.errors import Fault, InputError
+    from ballscrew.questions.shared import row_tables
+    from ballscrew.questions.shared.chart_files import SUFFIXES
 
     known = (*row_tables.KINDS, *SUFFIXES)
     if place.suffix and not place.is_dir():
@@ -143,7 +143,8 @@ def _files(place: Path, band: bool) -> list[Path]:
 
 def _write(path: Path, report: WarmUpReport, bands: WarmUpBandReport | None, own: str) -> None:
     """Write one file; ``own`` is its name in a folder, by which it has a table of its own."""
-    from ballscrew.table_files import row_tables, warm_up_tables
+    from ballscrew.questions.shared import row_tables
+    from ballscrew.questions.warm_up import table as warm_up_tables
 
     if own == _COMPENSATION:
         warm_up_tables.write_compensation(path, report)
@@ -152,7 +153,7 @@ def _write(path: Path, report: WarmUpReport, bands: WarmUpBandReport | None, own
     elif path.suffix.lower() in row_tables.KINDS:
         warm_up_tables.write(path, report, bands)
     else:
-        from ballscrew.figures import files
-        from ballscrew.figures import warm_up as figures  # matplotlib is slow to import
+        from ballscrew.questions.shared import chart_files as files
+        from ballscrew.questions.warm_up import figure as figures  # matplotlib is slow to import
 
         files.draw(lambda: figures.picture(report, bands), path, _TO)

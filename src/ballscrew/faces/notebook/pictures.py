@@ -14,18 +14,19 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew import units
-from ballscrew.components.data_sheet import SHEET_TEMPERATURE, DataSheet
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, InputError, nearest
-from ballscrew.evaluation.outputs import known_outputs
-from ballscrew.figures import files, style
-from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.result import MECHANISMS, FrictionResult
-from ballscrew.quantities import Quantity, fields_of, quantities_of
-from ballscrew.sizing.listed_nut import NUTS
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError, nearest
+from ballscrew.basis.quantities import Quantity, fields_of, quantities_of
+from ballscrew.engine.evaluation.outputs import known_outputs
+from ballscrew.physics.components.data_sheet import SHEET_TEMPERATURE, DataSheet
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
+from ballscrew.physics.sizing.listed_nut import NUTS
+from ballscrew.questions.shared import chart_files as files
+from ballscrew.questions.shared import chart_style as style
 
 _TORQUE = "friction torque on the screw (N m)"
 _OPERATION = fields_of(OperatingState)
@@ -45,7 +46,9 @@ class Picture:
     figure: Figure
 
     def save(self, to: str | os.PathLike[str]) -> Path:
-        """Write it as .png, .svg or .pdf, by the ending. Raises :class:`~ballscrew.errors.InputError` for others."""
+        """Write it as .png, .svg or .pdf, by the ending. Raises :class:`~ballscrew.basis.errors.InputError` for
+        others.
+        """
         files.check_picture(Path(to), "to")
         files.draw(lambda: self.figure, Path(to), "to")
         return Path(to)
@@ -59,7 +62,7 @@ class Picture:
 
 @functools.singledispatch
 def picture(value: Any) -> Picture:
-    """The picture of a value. Raises :class:`~ballscrew.errors.InputError` for what has none."""
+    """The picture of a value. Raises :class:`~ballscrew.basis.errors.InputError` for what has none."""
     raise InputError(Fault("plot", "has no picture", type(value).__name__, "plot a result or a sweep"))
 
 
@@ -133,7 +136,8 @@ def _label(quantity: Quantity) -> str:
 def sweep_map(data: xr.Dataset, output: str) -> Picture:
     """An output of a sweep over its two axes, hatched where the model does not hold; over one axis a line.
 
-    Raises :class:`~ballscrew.errors.InputError` for an output that the dataset lacks, and for other numbers of axes.
+    Raises :class:`~ballscrew.basis.errors.InputError` for an output that the dataset lacks, and for other numbers of
+    axes.
     """
     if output not in data.data_vars:
         remedy = nearest(output, list(map(str, data.data_vars)))

@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.cases import descriptions
-from ballscrew.cases.case import Case
-from ballscrew.evaluation.outputs import known_outputs
-from ballscrew.friction.result import MECHANISMS, FrictionResult
-from ballscrew.quantities import Quantity, quantities_of
-from ballscrew.text.run import SHOWN
-from ballscrew.text.tables import shown_or_dash
-from ballscrew.uncertainty.bands import Band, Interval
+from ballscrew.basis.quantities import Quantity, quantities_of
+from ballscrew.cases.case_files import descriptions
+from ballscrew.cases.case_files.case import Case
+from ballscrew.engine.evaluation.outputs import known_outputs
+from ballscrew.engine.uncertainty.bands import Band, Interval
+from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
+from ballscrew.questions.run.text import SHOWN
+from ballscrew.questions.shared.text_tables import shown_or_dash
 
 _KNOWN = quantities_of(FrictionResult)
 _OPERATION = ("axial_load", "screw_speed")

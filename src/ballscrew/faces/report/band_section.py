@@ -5,20 +5,20 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from ballscrew.cases.case import Case
-from ballscrew.cases.named_calibration import vendor_rows_like
-from ballscrew.figures import tornado as figures
-from ballscrew.friction.result import FrictionResult
-from ballscrew.quantities import quantities_of
-from ballscrew.report.blocks import Bar, Block, Bullets, Paragraph, Picture, Table, sentence
-from ballscrew.report.blocks import value as value_of
-from ballscrew.report.curve_figures import named, svg_of
-from ballscrew.report.numbers import banded, banded_share
-from ballscrew.studies.band import BandReport
-from ballscrew.studies.run import Run
-from ballscrew.studies.tornado import tornado
-from ballscrew.text import band
-from ballscrew.uncertainty.bands import Interval
+from ballscrew.basis.quantities import quantities_of
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.named_calibration import vendor_rows_like
+from ballscrew.engine.uncertainty.bands import Interval
+from ballscrew.faces.report.blocks import Bar, Block, Bullets, Paragraph, Picture, Table, sentence
+from ballscrew.faces.report.blocks import value as value_of
+from ballscrew.faces.report.curve_figures import named, svg_of
+from ballscrew.faces.report.numbers import banded, banded_share
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.questions.band import text as band
+from ballscrew.questions.band import tornado_figure as figures
+from ballscrew.questions.band.compute import BandReport
+from ballscrew.questions.band.tornado import tornado
+from ballscrew.questions.run.compute import Run
 
 _ONE = quantities_of(FrictionResult)
 _TORQUE = _ONE["screw_torque"]

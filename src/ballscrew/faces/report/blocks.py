@@ -11,9 +11,9 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias
 
-from ballscrew import units
-from ballscrew.output.plain_numbers import plain
-from ballscrew.quantities import Quantity
+from ballscrew.basis import units
+from ballscrew.basis.output.plain_numbers import plain
+from ballscrew.basis.quantities import Quantity
 
 
 @dataclasses.dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Geometry of the drawing (:mod:`~ballscrew.report.drawing`): a ball, its flanks, the slip at the screw."""
+"""Geometry of the drawing (:mod:`~ballscrew.faces.report.drawing`): a ball, its flanks, the slip at the screw."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.components.nut import OversizeBallNut
-from ballscrew.components.traits import traits_of
-from ballscrew.equations import kinematics, slip
-from ballscrew.studies.nut_state import Touching
-from ballscrew.studies.run import Run
+from ballscrew.physics.components.nut import OversizeBallNut
+from ballscrew.physics.components.traits import traits_of
+from ballscrew.physics.equations import kinematics, slip
+from ballscrew.questions.run.compute import Run
+from ballscrew.questions.run.nut_state import Touching
 
 Field = NDArray[np.float64]
 #: Heights across the ellipse at which the slip is asked for a change of sign.

@@ -8,19 +8,19 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew._version import __version__
-from ballscrew.axis_studies.duty import DutyReport, duty
-from ballscrew.cases import case_file, descriptions
-from ballscrew.output import bibliography
-from ballscrew.report import band_section, input_tables, result_tables
-from ballscrew.report.blocks import Block, Columns, Links, Paragraph, Picture, Report, Section, Table, sentence
-from ballscrew.report.contact_geometry import drawn_ball
-from ballscrew.report.curves import Curves, curves
-from ballscrew.report.drawing import drawing
-from ballscrew.sizing.speed_limits import GENERAL, speed_limit_of
-from ballscrew.studies import band
-from ballscrew.studies.check import checked
-from ballscrew.studies.run import Run, run
+from ballscrew.basis.output import bibliography
+from ballscrew.basis.version import __version__
+from ballscrew.cases.case_files import case_file, descriptions
+from ballscrew.faces.report import band_section, input_tables, result_tables
+from ballscrew.faces.report.blocks import Block, Columns, Links, Paragraph, Picture, Report, Section, Table, sentence
+from ballscrew.faces.report.contact_geometry import drawn_ball
+from ballscrew.faces.report.curves import Curves, curves
+from ballscrew.faces.report.drawing import drawing
+from ballscrew.physics.sizing.dn_limits import GENERAL, speed_limit_of
+from ballscrew.questions.band import compute as band
+from ballscrew.questions.check.compute import checked
+from ballscrew.questions.duty.compute import DutyReport, duty
+from ballscrew.questions.run.compute import Run, run
 
 Done = Callable[[int, int], None]
 #: How far along the work is after its steps, of a hundred: the answer, the band, the curves.
@@ -84,7 +84,7 @@ def _checks(case: case_file.Case, found: Run, cycle: DutyReport | None) -> Secti
     of_point = checked("", case, known=found)
     if cycle is None:
         return Section("Checks", result_tables.checks(of_point))
-    from ballscrew.report import duty_section
+    from ballscrew.faces.report import duty_section
 
     return Section("Checks over the cycle", duty_section.checks(cycle, of_point))
 
@@ -93,7 +93,7 @@ def _cycle(cycle: DutyReport | None) -> list[Section]:
     """The section on the cycle of a case."""
     if cycle is None:
         return []
-    from ballscrew.report import duty_section
+    from ballscrew.faces.report import duty_section
 
     return [Section("Over a cycle of the motion", duty_section.blocks(cycle))]
 
@@ -102,7 +102,7 @@ def _heat(case: case_file.Case) -> list[Section]:
     """The section on the heat of a case that has surroundings."""
     if case.surroundings is None:
         return []
-    from ballscrew.report import warm_up_section
+    from ballscrew.faces.report import warm_up_section
 
     return [Section("As it warms up", warm_up_section.blocks_of(case))]
 
@@ -133,7 +133,7 @@ def _drawing(found: Run) -> list[Block]:
 
 def _pictures(found: Curves) -> list[Picture]:
     # matplotlib takes its time: only for those who want a report
-    from ballscrew.report.curve_figures import named, pictures
+    from ballscrew.faces.report.curve_figures import named, pictures
 
     speed, load = (f"{value:.6g}" for value in found.here)
     here = "the dashed line is the operating point"

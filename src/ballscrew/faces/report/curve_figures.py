@@ -15,10 +15,10 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
-from ballscrew.figures import style
-from ballscrew.friction.result import MECHANISMS
-from ballscrew.report import svg
-from ballscrew.report.curves import Curves
+from ballscrew.faces.report import svg
+from ballscrew.faces.report.curves import Curves
+from ballscrew.physics.friction.result import MECHANISMS
+from ballscrew.questions.shared import chart_style as style
 
 #: Inches: the width of an A4 page between its margins.
 _WIDTH, _HEIGHT = 7.1, 2.5

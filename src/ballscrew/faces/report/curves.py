@@ -8,11 +8,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew import units
-from ballscrew.cases.case_file import Case
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.evaluation.outputs import OPERATION
-from ballscrew.quantities import fields_of
+from ballscrew.basis import units
+from ballscrew.basis.quantities import fields_of
+from ballscrew.cases.case_files.case_file import Case
+from ballscrew.engine.evaluation.outputs import OPERATION
+from ballscrew.physics.components.operating_state import OperatingState
 
 Numbers = NDArray[np.float64]
 Masks = NDArray[np.bool_]

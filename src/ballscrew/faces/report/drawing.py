@@ -1,15 +1,15 @@
 """The ball between its grooves, drawn to scale as SVG: the section across its path, and its contact with the screw.
 
-The page and the report show the same drawing. What is physics in it is in :mod:`ballscrew.report.contact_geometry` and
-below; the rest is places on paper.
+The page and the report show the same drawing. What is physics in it is in
+:mod:`ballscrew.faces.report.contact_geometry` and below; the rest is places on paper.
 """
 
 from __future__ import annotations
 
-from ballscrew.cases import descriptions
-from ballscrew.report import drawing_contact, drawing_section, svg
-from ballscrew.report.contact_geometry import drawn_ball
-from ballscrew.studies.run import Run
+from ballscrew.cases.case_files import descriptions
+from ballscrew.faces.report import drawing_contact, drawing_section, svg
+from ballscrew.faces.report.contact_geometry import drawn_ball
+from ballscrew.questions.run.compute import Run
 
 WIDTH = 600.0
 #: What is left below the last line.

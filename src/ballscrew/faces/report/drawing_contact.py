@@ -7,12 +7,12 @@ import textwrap
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from ballscrew import units
-from ballscrew.components.contact import RaceState
-from ballscrew.quantities import quantities_of
-from ballscrew.report import svg
-from ballscrew.report.contact_geometry import DrawnBall, DrawnContact, SlipField
-from ballscrew.report.svg import BLUE, FAINT, GREEN, RED, TEXT, TITLE, Panel, Point
+from ballscrew.basis import units
+from ballscrew.basis.quantities import quantities_of
+from ballscrew.faces.report import svg
+from ballscrew.faces.report.contact_geometry import DrawnBall, DrawnContact, SlipField
+from ballscrew.faces.report.svg import BLUE, FAINT, GREEN, RED, TEXT, TITLE, Panel, Point
+from ballscrew.physics.components.contact import RaceState
 
 #: The left end of the panel, the middle of the ellipse and what is above it, and the most its semi-axes may take.
 _LEFT, _MIDDLE, _ABOVE, _HALF_ACROSS, _HALF_ALONG = 254.0, 418.0, 56.0, 140.0, 76.0

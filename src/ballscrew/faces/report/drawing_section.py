@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 
-from ballscrew import units
-from ballscrew.components.contact import RaceState
-from ballscrew.components.screw import BallScrew
-from ballscrew.quantities import fields_of, quantities_of
-from ballscrew.report import svg
-from ballscrew.report.contact_geometry import DrawnBall
-from ballscrew.report.svg import FAINT, GREEN, TEXT, TITLE, Panel, Point
-from ballscrew.studies.nut_state import Touching
+from ballscrew.basis import units
+from ballscrew.basis.quantities import fields_of, quantities_of
+from ballscrew.faces.report import svg
+from ballscrew.faces.report.contact_geometry import DrawnBall
+from ballscrew.faces.report.svg import FAINT, GREEN, TEXT, TITLE, Panel, Point
+from ballscrew.physics.components.contact import RaceState
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.questions.run.nut_state import Touching
 
 #: The middle of the ball, and its radius.
 BALL, RADIUS = (122.0, 158.0), 78.0

@@ -1,22 +1,23 @@
-"""The cycle of an axis in its report: the answer, numbers, what the motor is paid for, power off, checks, pictures."""
+"""The cycle of an axis in its report: the answer, numbers, torque and energy by cause, power off, checks, pictures."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ballscrew.axis_studies import duty_band, duty_records
-from ballscrew.axis_studies.duty import NUMBERS, DutyReport
-from ballscrew.axis_studies.duty_band import DutyBandReport
-from ballscrew.errors import InputError
-from ballscrew.figures import duty as figures
-from ballscrew.quantities import Quantity
-from ballscrew.report import result_tables
-from ballscrew.report.blocks import Bar, Block, Bullets, Columns, Paragraph, Picture, Table, sentence
-from ballscrew.report.blocks import value as value_of
-from ballscrew.report.curve_figures import named, svg_of
-from ballscrew.report.numbers import banded
-from ballscrew.studies.check import Checked
-from ballscrew.text import duty as text
+from ballscrew.basis.errors import InputError
+from ballscrew.basis.quantities import Quantity
+from ballscrew.faces.report import result_tables
+from ballscrew.faces.report.blocks import Bar, Block, Bullets, Columns, Paragraph, Picture, Table, sentence
+from ballscrew.faces.report.blocks import value as value_of
+from ballscrew.faces.report.curve_figures import named, svg_of
+from ballscrew.faces.report.numbers import banded
+from ballscrew.questions.check.compute import Checked
+from ballscrew.questions.duty import band as duty_band
+from ballscrew.questions.duty import figure as figures
+from ballscrew.questions.duty import records as duty_records
+from ballscrew.questions.duty import text
+from ballscrew.questions.duty.band import DutyBandReport
+from ballscrew.questions.duty.compute import NUMBERS, DutyReport
 
 _TORQUE, _ENERGY = NUMBERS["torque_rms"], NUMBERS["energy_lost"]
 #: Samples of the bands of a cycle, and where its balls are solved one by one: a fifth of the time of a report.
@@ -87,7 +88,7 @@ def _paid_for(report: DutyReport) -> Table:
     note = (
         "The first two columns sum to the peak and to the RMS torque; a part that acts against the others is negative."
     )
-    return Table("What the motor is paid for", ("", "at the peak", "of the RMS", "energy", ""), rows, wide=4, note=note)
+    return Table("Torque and energy by cause", ("", "at the peak", "of the RMS", "energy", ""), rows, wide=4, note=note)
 
 
 def _small(value: float, quantity: Quantity) -> str:

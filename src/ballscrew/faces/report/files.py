@@ -6,10 +6,10 @@ import dataclasses
 from collections.abc import Sequence
 from typing import Literal
 
-from ballscrew.cases.case import Case
-from ballscrew.report import contents, several
-from ballscrew.report.contents import ALL, Done
-from ballscrew.report.heading import Heading
+from ballscrew.cases.case_files.case import Case
+from ballscrew.faces.report import contents, several
+from ballscrew.faces.report.contents import ALL, Done
+from ballscrew.faces.report.heading import Heading
 
 Kind = Literal["pdf", "html"]
 #: Nobody says whose report it is.
@@ -32,11 +32,11 @@ def report_bytes(
     whole = several.content([case, *beside], done, samples) if beside else contents.content(case, done, samples)
     found = dataclasses.replace(whole, heading=heading.lines)
     if kind == "html":
-        from ballscrew.report.html import html_bytes
+        from ballscrew.faces.report.html import html_bytes
 
         written = html_bytes(found)
     else:
-        from ballscrew.report.pdf import pdf_bytes
+        from ballscrew.faces.report.pdf import pdf_bytes
 
         written = pdf_bytes(found)
     if done is not None:

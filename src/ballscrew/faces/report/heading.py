@@ -5,7 +5,7 @@ from __future__ import annotations
 import datetime
 from typing import NamedTuple
 
-from ballscrew.errors import Fault, raise_if_any
+from ballscrew.basis.errors import Fault, raise_if_any
 
 #: Letters of the name of a project.
 LONGEST = 120
@@ -21,8 +21,8 @@ class Heading(NamedTuple):
     def of(cls, project: str | None, date: str | None) -> Heading:
         """The heading of texts that people gave.
 
-        Raises :class:`~ballscrew.errors.InputError` for a name of several lines or too many letters, and for a date
-        that is not one of the calendar, such as 2026-11-23.
+        Raises :class:`~ballscrew.basis.errors.InputError` for a name of several lines or too many letters, and for a
+        date that is not one of the calendar, such as 2026-11-23.
         """
         faults: list[Fault] = []
         name, day = (project or "").strip(), (date or "").strip()

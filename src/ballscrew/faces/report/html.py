@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from importlib import resources
 
-from ballscrew.report.blocks import Report, as_data
+from ballscrew.faces.report.blocks import Report, as_data
 
 
 def html_bytes(report: Report) -> bytes:
@@ -12,7 +12,9 @@ def html_bytes(report: Report) -> bytes:
     import jinja2
     from markupsafe import Markup
 
-    template = resources.files("ballscrew.report").joinpath("templates", "report.html").read_text(encoding="utf-8")
+    template = (
+        resources.files("ballscrew.faces.report").joinpath("templates", "report.html").read_text(encoding="utf-8")
+    )
     environment = jinja2.Environment(
         autoescape=True, undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True, newline_sequence="\n"
     )

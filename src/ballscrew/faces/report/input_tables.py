@@ -6,22 +6,22 @@ import dataclasses
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ballscrew.case_schema.schema import LAWS, name_of_law
-from ballscrew.cases.case_file import Case
-from ballscrew.cases.lubricants import described
-from ballscrew.components.data_sheet import DataSheet
-from ballscrew.components.materials import TEMPERATURE, Lubricant, nominal_oil
-from ballscrew.components.oil_grades import OilState
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.components.screw import MATERIALS, BallScrew
-from ballscrew.friction.law_names import coefficients
-from ballscrew.quantities import Quantity, fields_of
-from ballscrew.report.blocks import Table
-from ballscrew.report.blocks import value as value_of
-from ballscrew.screw_tables import catalogue
-from ballscrew.screw_tables.nut_kinds import ENDS, LISTED, kind_of
-from ballscrew.sizing.installation import Limits
-from ballscrew.uncertainty.uncertain_value import describe_distribution
+from ballscrew.basis.quantities import Quantity, fields_of
+from ballscrew.cases.case_files.case_file import Case
+from ballscrew.cases.case_files.lubricants import described
+from ballscrew.cases.schema.schema import LAWS, name_of_law
+from ballscrew.cases.screw_tables import catalogue
+from ballscrew.cases.screw_tables.nut_kinds import ENDS, LISTED, kind_of
+from ballscrew.engine.uncertainty.uncertain_value import describe_distribution
+from ballscrew.faces.report.blocks import Table
+from ballscrew.faces.report.blocks import value as value_of
+from ballscrew.physics.components.data_sheet import DataSheet
+from ballscrew.physics.components.materials import TEMPERATURE, Lubricant, nominal_oil
+from ballscrew.physics.components.oil_grades import OilState
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.screw import MATERIALS, BallScrew
+from ballscrew.physics.friction.law_names import coefficients
+from ballscrew.physics.sizing.installation import Limits
 
 #: Where a value is from, in a word; :data:`FROM_IN_WORDS` says what is meant.
 CASE, ROW, USUAL, GRADE, DEFAULT, CALIBRATION = "case", "catalogue", "usual", "grade", "default", "calibration"
@@ -101,17 +101,20 @@ def _screw(case: Case) -> Rows:
     for name, value in case.listed.items():
         listed = case.row is not None and getattr(case.row, name) == value
         rows.append((LISTED[name].info.meaning, value_of(value, LISTED[name]), ROW if listed else CASE))
-    materials = [getattr(case.screw, name) for name in MATERIALS]
-    if all(material is usual[name] for name, material in zip(MATERIALS, materials, strict=True)):
-        rows += [(f"{meaning} of balls, screw, nut", value, DEFAULT) for meaning, value, _ in _material(materials[0])]
-    else:
-        for name, material in zip(MATERIALS, materials, strict=True):
-            spoken, same = name.partition("_")[0], material is usual[name]
-            rows += [
-                (f"{meaning} of the {spoken}", value, DEFAULT if same else CASE)
-                for meaning, value, _ in _material(material)
-            ]
-    return rows
+    return [*rows, *_materials(case.screw)]
+
+
+def _materials(screw: BallScrew) -> Rows:
+    """The materials of balls, screw and nut; one for all where the case gives none."""
+    usual, materials = _defaults(BallScrew), {name: getattr(screw, name) for name in MATERIALS}
+    if all(material is usual[name] for name, material in materials.items()):
+        one = next(iter(materials.values()))
+        return [(f"{meaning} of balls, screw, nut", value, DEFAULT) for meaning, value, _ in _material(one)]
+    return [
+        (f"{meaning} of the {name.partition('_')[0]}", value, DEFAULT if material is usual[name] else CASE)
+        for name, material in materials.items()
+        for meaning, value, _ in _material(material)
+    ]
 
 
 def _material(material: Any) -> Rows:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from ballscrew import units
-from ballscrew.output.plain_numbers import plain
-from ballscrew.quantities import Quantity
+from ballscrew.basis import units
+from ballscrew.basis.output.plain_numbers import plain
+from ballscrew.basis.quantities import Quantity
 
 
 class Banded(NamedTuple):

@@ -6,10 +6,10 @@ import json
 from importlib import resources
 from pathlib import Path
 
-from ballscrew import child_process
-from ballscrew.errors import Fault, InputError
-from ballscrew.report import typesetting
-from ballscrew.report.blocks import Report, as_data
+from ballscrew.basis import child_process
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.faces.report import typesetting
+from ballscrew.faces.report.blocks import Report, as_data
 
 
 def pdf_bytes(report: Report) -> bytes:
@@ -17,11 +17,11 @@ def pdf_bytes(report: Report) -> bytes:
 
     The texts go in as data, never as markup: nothing in them is obeyed. Nothing is read or fetched but the fonts that
     come with the packages. It is set in a process of its own: Typst keeps 10 MB of memory for each of the last reports.
-    Raises :class:`~ballscrew.errors.InputError` where that process reaches its limits.
+    Raises :class:`~ballscrew.basis.errors.InputError` where that process reaches its limits.
     """
     import matplotlib as mpl
 
-    template = resources.files("ballscrew.report").joinpath("templates", "report.typ").read_text(encoding="utf-8")
+    template = resources.files("ballscrew.faces.report").joinpath("templates", "report.typ").read_text(encoding="utf-8")
     fonts = Path(mpl.get_data_path()) / "fonts" / "ttf"
     data = json.dumps(as_data(report), ensure_ascii=False, sort_keys=True)
     try:

@@ -6,22 +6,22 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ballscrew.cases import descriptions
-from ballscrew.components.contact import RaceState
-from ballscrew.friction.result import MECHANISMS, FrictionResult
-from ballscrew.quantities import Quantity, quantities_of
-from ballscrew.records import Record
-from ballscrew.report.blocks import Bar, Block, Bullets, Paragraph, Table, sentence
-from ballscrew.report.blocks import value as value_of
-from ballscrew.report.numbers import banded
-from ballscrew.screw_tables.nut_kinds import LISTED
-from ballscrew.sizing.checks import Check
-from ballscrew.solvers.load_distribution import BallLoads
-from ballscrew.studies.check import Checked
-from ballscrew.studies.run import Run
-from ballscrew.text import check as check_text
-from ballscrew.text.run import SHORT, rigidity_rows, stiffness_fields, unloaded_rows
-from ballscrew.uncertainty.bands import OutputBand
+from ballscrew.basis.quantities import Quantity, quantities_of
+from ballscrew.basis.records import Record
+from ballscrew.cases.case_files import descriptions
+from ballscrew.cases.screw_tables.nut_kinds import LISTED
+from ballscrew.engine.uncertainty.bands import OutputBand
+from ballscrew.faces.report.blocks import Bar, Block, Bullets, Paragraph, Table, sentence
+from ballscrew.faces.report.blocks import value as value_of
+from ballscrew.faces.report.numbers import banded
+from ballscrew.physics.components.contact import RaceState
+from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
+from ballscrew.physics.sizing.checks import Check
+from ballscrew.physics.solvers.load_distribution import BallLoads
+from ballscrew.questions.check.compute import Checked
+from ballscrew.questions.run.compute import Run
+from ballscrew.questions.run.text import SHORT, rigidity_rows, stiffness_fields, unloaded_rows
+from ballscrew.questions.shared import check_lines
 
 _ONE, _LOADS = quantities_of(FrictionResult), quantities_of(BallLoads)
 _CONTACT = quantities_of(RaceState)
@@ -158,9 +158,9 @@ def check_row(one: Check) -> tuple[str, ...]:
     verdict = {True: "passes", False: "FAILS", None: ""}[one.holds]  # the words then say what is missing
     return (
         one.name.replace("_", " "),
-        check_text.shown(one, one.value),
-        check_text.shown(one, one.limit),
-        check_text.used_of(one),
+        check_lines.shown(one, one.value),
+        check_lines.shown(one, one.limit),
+        check_lines.used_of(one),
         ": ".join(filter(None, [verdict, one.text])),
     )
 

@@ -6,23 +6,23 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from ballscrew._version import __version__
-from ballscrew.cases import descriptions
-from ballscrew.cases.case import Case
-from ballscrew.evaluation.outputs import known_outputs
-from ballscrew.figures import side_by_side as figures
-from ballscrew.report import band_section, contents, input_tables, result_tables
-from ballscrew.report.blocks import Block, Columns, Links, Paragraph, Picture, Report, Section, Table, sentence
-from ballscrew.report.contents import ALL, Done
-from ballscrew.report.curve_figures import named, svg_of
-from ballscrew.report.numbers import banded, banded_share
-from ballscrew.sizing.checks import Check
-from ballscrew.studies import band
-from ballscrew.studies.band import BandReport
-from ballscrew.studies.check import Checked, checked
-from ballscrew.studies.run import Run, run
-from ballscrew.text import check as check_text
-from ballscrew.uncertainty.band_evaluation import BAND_OUTPUTS
+from ballscrew.basis.version import __version__
+from ballscrew.cases.case_files import descriptions
+from ballscrew.cases.case_files.case import Case
+from ballscrew.engine.evaluation.outputs import known_outputs
+from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
+from ballscrew.faces.report import band_section, contents, input_tables, result_tables
+from ballscrew.faces.report.blocks import Block, Columns, Links, Paragraph, Picture, Report, Section, Table, sentence
+from ballscrew.faces.report.contents import ALL, Done
+from ballscrew.faces.report.curve_figures import named, svg_of
+from ballscrew.faces.report.numbers import banded, banded_share
+from ballscrew.physics.sizing.checks import Check
+from ballscrew.questions.band import compute as band
+from ballscrew.questions.band.compute import BandReport
+from ballscrew.questions.check.compute import Checked, checked
+from ballscrew.questions.compare_designs import figure as figures
+from ballscrew.questions.run.compute import Run, run
+from ballscrew.questions.shared import check_lines
 
 #: Pages at most of what is side by side, and of each design.
 _PAGES, _PAGES_OF_EACH = 2, 2
@@ -91,7 +91,7 @@ def _used(check: Check) -> str:
         wanted = check.missing.rpartition(".")[2].replace("_", " ")
         return f"not judged: give {wanted}" if wanted else "not judged"
     used = "" if check.utilisation is None else f"{check.utilisation:.1%}: "
-    value, limit = (check_text.shown(check, number) for number in (check.value, check.limit))
+    value, limit = (check_lines.shown(check, number) for number in (check.value, check.limit))
     return f"{'' if check.holds else 'FAILS, '}{used}{value} against {limit}"
 
 

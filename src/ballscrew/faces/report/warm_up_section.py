@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from ballscrew import units
-from ballscrew.axis_studies import warm_up_records
-from ballscrew.axis_studies.warm_up import EQUILIBRIUM, PLACE, SERIES, WarmUpReport, warmed_up
-from ballscrew.cases.case import Case
-from ballscrew.errors import InputError
-from ballscrew.figures import warm_up as figures
-from ballscrew.report.blocks import Block, Bullets, Columns, Paragraph, Picture, Table, sentence
-from ballscrew.report.curve_figures import named, svg_of
-from ballscrew.text import warm_up as text
-from ballscrew.text.tables import shown_or_dash
+from ballscrew.basis import units
+from ballscrew.basis.errors import InputError
+from ballscrew.cases.case_files.case import Case
+from ballscrew.faces.report.blocks import Block, Bullets, Columns, Paragraph, Picture, Table, sentence
+from ballscrew.faces.report.curve_figures import named, svg_of
+from ballscrew.questions.shared.text_tables import shown_or_dash
+from ballscrew.questions.warm_up import figure as figures
+from ballscrew.questions.warm_up import records as warm_up_records
+from ballscrew.questions.warm_up import text
+from ballscrew.questions.warm_up.compute import EQUILIBRIUM, PLACE, SERIES, WarmUpReport, warmed_up
 
 #: Hours of work that a report shows.
 HOURS = 4.0
@@ -59,7 +59,7 @@ def _steady(report: WarmUpReport) -> Table:
     ]
     margins = [f"{one.warm_up.equilibrium.margin:.3g}" for one in each]
     heads = ("", "value", "in a full bath of oil")[: 1 + len(each)]
-    return Table("The steady state", heads, [*rows, ("margin to running away, of 1", *margins)])
+    return Table("The steady state", heads, [*rows, ("stability margin of the thermal loop, of 1", *margins)])
 
 
 def _drift(report: WarmUpReport) -> Table:

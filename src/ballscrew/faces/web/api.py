@@ -11,42 +11,14 @@ import tomlkit
 from fastapi import APIRouter, Depends, Query, Request
 from starlette.responses import Response
 
-from ballscrew import units
-from ballscrew.api_answers import answers
-from ballscrew.api_answers import check as check_answers
-from ballscrew.api_answers import duty as duty_answers
-from ballscrew.api_answers import select as select_answers
-from ballscrew.api_answers import warm_up as warm_up_answers
-from ballscrew.axis_studies import duty as duties
-from ballscrew.axis_studies import stiffness as chains
-from ballscrew.axis_studies import warm_up as warm_ups
-from ballscrew.axis_studies import warm_up_band as warm_up_bands
-from ballscrew.case_schema.schema import json_schema
-from ballscrew.cases import case_file
-from ballscrew.documents import comparison as comparison_documents
-from ballscrew.documents import duty as duty_documents
-from ballscrew.documents import selection as selection_documents
-from ballscrew.documents import stiffness as chain_documents
-from ballscrew.documents import sweep as sweep_documents
-from ballscrew.documents import validation as validation_documents
-from ballscrew.documents import warm_up as warm_up_documents
-from ballscrew.errors import Fault, InputError, nearest, raise_if_any
-from ballscrew.optimisation.need_schema import json_schema as schema_of_needs
-from ballscrew.report.heading import Heading
-from ballscrew.screw_tables import catalogue as rows
-from ballscrew.selection.need import need_of
-from ballscrew.selection.selection import plan as planned_selection
-from ballscrew.selection.selection import select as selected
-from ballscrew.sizing.catalogue import catalogue as shipped
-from ballscrew.studies import band as bands
-from ballscrew.studies import run as runs
-from ballscrew.studies import sweep as sweeps
-from ballscrew.studies import validation
-from ballscrew.studies.check import with_nut_named
-from ballscrew.studies.comparison import comparison
-from ballscrew.studies.sweep_band import with_band
-from ballscrew.web import documents, file_api, job_api, limits, log_api, openapi, vocabulary
-from ballscrew.web.bodies import (
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.schema.schema import json_schema
+from ballscrew.cases.screw_tables import catalogue as rows
+from ballscrew.faces.report.heading import Heading
+from ballscrew.faces.web import documents, file_api, job_api, limits, log_api, openapi, vocabulary
+from ballscrew.faces.web.bodies import (
     BandBody,
     CaseBody,
     CycleBody,
@@ -59,7 +31,7 @@ from ballscrew.web.bodies import (
     read,
     refuse_paths,
 )
-from ballscrew.web.endpoint_parts import (
+from ballscrew.faces.web.endpoint_parts import (
     as_bytes,
     as_json,
     cancellable,
@@ -72,10 +44,46 @@ from ballscrew.web.endpoint_parts import (
     queue_of,
     sent,
 )
-from ballscrew.web.problems import Refused
-from ballscrew.web.request_queue import Deadline
-from ballscrew.web.sent_files import written
-from ballscrew.web.templates import template
+from ballscrew.faces.web.problems import Refused
+from ballscrew.faces.web.request_queue import Deadline
+from ballscrew.faces.web.sent_files import written
+from ballscrew.faces.web.templates import template
+from ballscrew.physics.sizing.catalogue import catalogue as shipped
+from ballscrew.questions.axis import answer as axis_answers
+from ballscrew.questions.axis import compute as chains
+from ballscrew.questions.axis import document as chain_documents
+from ballscrew.questions.band import answer as band_answers
+from ballscrew.questions.band import compute as bands
+from ballscrew.questions.catalogue import answer as catalogue_answers
+from ballscrew.questions.check import answer as check_answers
+from ballscrew.questions.check.compute import with_nut_named
+from ballscrew.questions.compare import answer as compare_answers
+from ballscrew.questions.compare import document as comparison_documents
+from ballscrew.questions.compare.compute import comparison
+from ballscrew.questions.duty import compute as duties
+from ballscrew.questions.duty import document as duty_documents
+from ballscrew.questions.duty.answer import DutyResults
+from ballscrew.questions.optimise.need_schema import json_schema as schema_of_needs
+from ballscrew.questions.run import answer as run_answers
+from ballscrew.questions.run import compute as runs
+from ballscrew.questions.select import answer as select_answers
+from ballscrew.questions.select import document as selection_documents
+from ballscrew.questions.select.compute import plan as planned_selection
+from ballscrew.questions.select.compute import select as selected
+from ballscrew.questions.select.need import need_of
+from ballscrew.questions.shared import answer_parts, schema_answer
+from ballscrew.questions.shared.declared import response
+from ballscrew.questions.sweep import answer as sweep_answers
+from ballscrew.questions.sweep import compute as sweeps
+from ballscrew.questions.sweep import document as sweep_documents
+from ballscrew.questions.sweep.band import with_band
+from ballscrew.questions.validate import answer as validate_answers
+from ballscrew.questions.validate import compute as validation
+from ballscrew.questions.validate import document as validation_documents
+from ballscrew.questions.warm_up import answer as warm_up_answers
+from ballscrew.questions.warm_up import band as warm_up_bands
+from ballscrew.questions.warm_up import compute as warm_ups
+from ballscrew.questions.warm_up import document as warm_up_documents
 
 #: Media types of a report, by its ``kind``.
 KINDS: Mapping[str, str] = {"pdf": "application/pdf", "html": "text/html; charset=utf-8"}
@@ -88,7 +96,9 @@ router.include_router(log_api.router)
 router.include_router(job_api.router)
 
 
-@router.post("/run", openapi_extra=openapi.body(CaseBody), response_model=answers.Run, responses=openapi.problems_of())
+@router.post(
+    "/run", openapi_extra=openapi.body(CaseBody), response_model=run_answers.Run, responses=openapi.problems_of()
+)
 async def run(request: Request) -> Response:
     """Friction at the operating point of a case: the document of ``ballscrew run --json``, with sentences."""
     return await of_body(request, lambda found: as_json(documents.run(found)))
@@ -108,7 +118,7 @@ async def check(request: Request) -> Response:
 
 
 @router.post(
-    "/sweep", openapi_extra=openapi.body(SweepBody), response_model=answers.Sweep, responses=openapi.problems_of()
+    "/sweep", openapi_extra=openapi.body(SweepBody), response_model=sweep_answers.Sweep, responses=openapi.problems_of()
 )
 async def sweep(request: Request) -> Response:
     """Friction over ranges of load, speed or any other field: the document of ``ballscrew sweep --json``."""
@@ -139,7 +149,10 @@ async def sweep(request: Request) -> Response:
 
 
 @router.post(
-    "/compare", openapi_extra=openapi.body(CaseBody), response_model=answers.Compare, responses=openapi.problems_of()
+    "/compare",
+    openapi_extra=openapi.body(CaseBody),
+    response_model=compare_answers.Compare,
+    responses=openapi.problems_of(),
 )
 async def compare(request: Request) -> Response:
     """All models and all laws side by side: the document of ``ballscrew compare --json``."""
@@ -153,7 +166,7 @@ async def compare(request: Request) -> Response:
 
 
 @router.post(
-    "/band", openapi_extra=openapi.body(BandBody), response_model=answers.Band, responses=openapi.problems_of()
+    "/band", openapi_extra=openapi.body(BandBody), response_model=band_answers.Band, responses=openapi.problems_of()
 )
 async def band(request: Request) -> Response:
     """The band of a case and its causes: the document of ``ballscrew run --band --json``, with sentences."""
@@ -169,7 +182,10 @@ async def band(request: Request) -> Response:
 
 
 @router.post(
-    "/duty", openapi_extra=openapi.body(CycleBody), response_model=duty_answers.Duty, responses=openapi.problems_of()
+    "/duty",
+    openapi_extra=openapi.body(CycleBody),
+    response_model=response(DutyResults, "Duty", judged=True),
+    responses=openapi.problems_of(),
 )
 async def duty(request: Request) -> Response:
     """A cycle of the axis of a case: the document of ``ballscrew duty --json``."""
@@ -259,7 +275,7 @@ async def select_plan(request: Request) -> Response:
 
 
 @router.post(
-    "/axis", openapi_extra=openapi.body(DutyBody), response_model=duty_answers.Chain, responses=openapi.problems_of()
+    "/axis", openapi_extra=openapi.body(DutyBody), response_model=axis_answers.Chain, responses=openapi.problems_of()
 )
 async def axis(request: Request) -> Response:
     """What gives way between motor and table: the document of ``ballscrew axis --json``."""
@@ -272,7 +288,7 @@ async def axis(request: Request) -> Response:
     return await heavy(request, work)
 
 
-@router.get("/catalogue", response_model=answers.Catalogue, responses=openapi.problems_of())
+@router.get("/catalogue", response_model=catalogue_answers.Catalogue, responses=openapi.problems_of())
 async def catalogue(
     words: Annotated[str, Query(description="all of them must be in a row")] = "",
 ) -> Response:
@@ -280,7 +296,7 @@ async def catalogue(
     return as_json(rows.list_document(rows.chosen(shipped(), words)))
 
 
-@router.get("/catalogue/{name}", response_model=answers.Row, responses=openapi.problems_of(404))
+@router.get("/catalogue/{name}", response_model=catalogue_answers.Row, responses=openapi.problems_of(404))
 async def row(name: openapi.RowName) -> Response:
     """One row: the document of ``ballscrew catalogue show --json``, and the case that ``--case`` writes, as tables."""
     try:
@@ -290,7 +306,7 @@ async def row(name: openapi.RowName) -> Response:
     return as_json({**rows.show_document(found), "case": tomlkit.parse(rows.case_text(found)).unwrap()})
 
 
-@router.get("/validate", response_model=list[answers.ValidationEntry], responses=openapi.problems_of())
+@router.get("/validate", response_model=list[validate_answers.ValidationEntry], responses=openapi.problems_of())
 async def validate(
     request: Request,
     set: Annotated[str, Query(json_schema_extra={"enum": ["", *validation.SETS]}, description="one set alone")] = "",
@@ -313,7 +329,7 @@ def _validated(names: tuple[str, ...]) -> bytes:
         return _validation(names)
 
 
-@router.get("/schema", response_model=answers.CaseSchema, responses=openapi.problems_of())
+@router.get("/schema", response_model=schema_answer.CaseSchema, responses=openapi.problems_of())
 async def schema(request: Request) -> Response:
     """JSON Schema of a case file, as ``ballscrew schema`` prints it."""
     return kept(request, _schema())
@@ -324,7 +340,7 @@ def _schema() -> bytes:
     return as_bytes(json_schema())
 
 
-@router.get("/need-schema", response_model=answers.NeedSchema, responses=openapi.problems_of())
+@router.get("/need-schema", response_model=schema_answer.NeedSchema, responses=openapi.problems_of())
 async def need_schema(request: Request) -> Response:
     """JSON Schema of a need, as ``ballscrew schema --need`` prints it."""
     return kept(request, _need_schema())
@@ -349,7 +365,7 @@ def _vocabulary() -> bytes:
 @router.post("/drawing", openapi_extra=openapi.body(CaseBody), responses=openapi.text("image/svg+xml"))
 async def drawing(request: Request) -> Response:
     """The ball between its grooves and the slip in its contact, to scale, as SVG."""
-    from ballscrew.report.drawing import drawing as drawn
+    from ballscrew.faces.report.drawing import drawing as drawn
 
     return await of_body(request, lambda found: Response(drawn(found), media_type="image/svg+xml"))
 
@@ -357,12 +373,12 @@ async def drawing(request: Request) -> Response:
 @router.post(
     "/drawing/template",
     openapi_extra=openapi.body(CaseBody),
-    response_model=answers.Template,
+    response_model=answer_parts.Template,
     responses=openapi.problems_of(),
 )
 async def drawing_template(request: Request) -> Response:
     """The same drawing as a template, to be shown in any units."""
-    from ballscrew.report.drawing import drawing as drawn
+    from ballscrew.faces.report.drawing import drawing as drawn
 
     def work(found: runs.Run) -> Response:
         with units.placeholders() as quantities:
@@ -384,7 +400,7 @@ async def report(
     heading = Heading.of(body.project, body.date)
 
     def work(done: Deadline) -> Response:
-        from ballscrew.report.files import Kind, report_bytes  # slow to import
+        from ballscrew.faces.report.files import Kind, report_bytes  # slow to import
 
         case, *beside = map(case_of, (body.case, *body.beside))
         written: Kind = "pdf" if kind == "pdf" else "html"

@@ -1,7 +1,7 @@
 """Bodies of requests, with limits that are checked before any work.
 
-Bytes, values and nesting are counted here. The case itself is checked by :mod:`ballscrew.cases.case_file`, as for a
-file.
+Bytes, values and nesting are counted here. The case itself is checked by :mod:`ballscrew.cases.case_files.case_file`,
+as for a file.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ import anyio
 from pydantic import BaseModel, ConfigDict, Field
 from starlette.requests import ClientDisconnect, Request
 
-from ballscrew.case_schema.duty_schema import TRAJECTORY
-from ballscrew.case_schema.schema import read_table
-from ballscrew.cases import case_file
-from ballscrew.cases.case_file import Case
-from ballscrew.errors import Fault, InputError, raise_if_any
-from ballscrew.sizing.catalogue import catalogue
-from ballscrew.web.limits import check_motion
-from ballscrew.web.problems import Refused
+from ballscrew.basis.errors import Fault, InputError, raise_if_any
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.case_file import Case
+from ballscrew.cases.schema.duty_schema import TRAJECTORY
+from ballscrew.cases.schema.schema import read_table
+from ballscrew.faces.web.limits import check_motion
+from ballscrew.faces.web.problems import Refused
+from ballscrew.physics.sizing.catalogue import catalogue
 
 #: A case file has one or two kilobytes.
 MOST_BYTES = 65_536
@@ -146,7 +146,7 @@ class SweepBody(BandBody):
 
 
 async def read(request: Request, kind: type[Body]) -> Any:
-    """The body of a request as one of the kinds above. Raises :class:`~ballscrew.web.problems.Refused`."""
+    """The body of a request as one of the kinds above. Raises :class:`~ballscrew.faces.web.problems.Refused`."""
     value = _json(await content_of(request, kind.most_bytes))
     _count(_without_contents(value, kind.files), kind.most_values)
     faults: list[Fault] = []
@@ -169,7 +169,7 @@ def _without_contents(value: Any, files: Sequence[str]) -> Any:
 
 
 async def content_of(request: Request, most: int) -> bytes:
-    """The bytes of a body that says it is JSON. Raises :class:`~ballscrew.web.problems.Refused`."""
+    """The bytes of a body that says it is JSON. Raises :class:`~ballscrew.faces.web.problems.Refused`."""
     media = request.headers.get("content-type", "").partition(";")[0].strip().lower()
     if media != "application/json":
         raise Refused(415, Fault("Content-Type", "is not application/json", media, "send JSON"))
@@ -256,7 +256,7 @@ def _texts(value: Any) -> list[str]:
 
 
 def case_of(tables: Mapping[str, Any], *, moves: bool = False, trace: Path | None = None) -> Case:
-    """The case that the tables of a request describe. Raises :class:`~ballscrew.errors.InputError`.
+    """The case that the tables of a request describe. Raises :class:`~ballscrew.basis.errors.InputError`.
 
     No value in them is read as a path. One that ``moves`` has an axis and a motion; a recorded motion, in a file that
     came with the request, takes the place of that of the tables.
@@ -273,7 +273,9 @@ def case_of(tables: Mapping[str, Any], *, moves: bool = False, trace: Path | Non
 
 
 def refuse_paths(tables: Mapping[str, Any]) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` for names of files, and for null, which no case file can have."""
+    """Raise :class:`~ballscrew.basis.errors.InputError` for names of files, and for null, which no case file can
+    have.
+    """
     screw = tables.get("screw")
     if isinstance(screw, Mapping) and "catalogue_file" in screw:
         remedy = "send the numbers of the screw, or name a row that is shipped"
@@ -291,7 +293,7 @@ def refuse_paths(tables: Mapping[str, Any]) -> None:
 
 
 def refuse_nulls(tables: Any) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` for null, which no case file can have."""
+    """Raise :class:`~ballscrew.basis.errors.InputError` for null, which no case file can have."""
     raise_if_any([Fault(where, "must not be null", "", "leave it out") for where in _nulls("", tables)])
 
 

@@ -13,11 +13,11 @@ import uvicorn
 from fastapi import FastAPI
 from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
 
-from ballscrew.errors import Fault
-from ballscrew.web import problems
-from ballscrew.web.bodies import READ_TIMEOUT
-from ballscrew.web.jobs import Jobs
-from ballscrew.web.request_queue import RequestQueue
+from ballscrew.basis.errors import Fault
+from ballscrew.faces.web import problems
+from ballscrew.faces.web.bodies import READ_TIMEOUT
+from ballscrew.faces.web.jobs import Jobs
+from ballscrew.faces.web.request_queue import RequestQueue
 
 #: Bytes of the head of a request.
 LONGEST_HEAD = 65_536

@@ -8,17 +8,17 @@ from collections import OrderedDict
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ballscrew import units
-from ballscrew.cases import case_file
-from ballscrew.cases.descriptions import assumed, title
-from ballscrew.documents import band as band_documents
-from ballscrew.documents import check as check_documents
-from ballscrew.documents import run as run_documents
-from ballscrew.studies import band as bands
-from ballscrew.studies import check as checks
-from ballscrew.studies import run as runs
-from ballscrew.text import band as band_text
-from ballscrew.web.templates import fill_records, filled, template
+from ballscrew.basis import units
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.descriptions import assumed, title
+from ballscrew.faces.web.templates import fill_records, filled, template
+from ballscrew.questions.band import compute as bands
+from ballscrew.questions.band import document as band_documents
+from ballscrew.questions.band import text as band_text
+from ballscrew.questions.check import compute as checks
+from ballscrew.questions.check import document as check_documents
+from ballscrew.questions.run import compute as runs
+from ballscrew.questions.run import document as run_documents
 
 #: Runs that are kept: the page asks for the drawing of what it has just asked the numbers of.
 _MOST_RUNS = 4

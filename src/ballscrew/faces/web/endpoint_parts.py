@@ -14,14 +14,14 @@ from fastapi.routing import APIRoute
 from starlette.datastructures import Headers
 from starlette.responses import Response
 
-from ballscrew.cases import case_file
-from ballscrew.errors import Fault, nearest, raise_if_any
-from ballscrew.output.json_text import plain
-from ballscrew.studies import run as runs
-from ballscrew.web import documents, limits, memory
-from ballscrew.web.bodies import CaseBody, case_of, read
-from ballscrew.web.problems import Refused
-from ballscrew.web.request_queue import Deadline, RequestQueue
+from ballscrew.basis.errors import Fault, nearest, raise_if_any
+from ballscrew.basis.output.json_text import plain
+from ballscrew.cases.case_files import case_file
+from ballscrew.faces.web import documents, limits, memory
+from ballscrew.faces.web.bodies import CaseBody, case_of, read
+from ballscrew.faces.web.problems import Refused
+from ballscrew.faces.web.request_queue import Deadline, RequestQueue
+from ballscrew.questions.run import compute as runs
 
 
 def own_site(request: Request) -> None:

@@ -7,16 +7,16 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Query, Request
 from starlette.responses import Response
 
-from ballscrew.api_answers import file as file_answers
-from ballscrew.cases import project as projects
-from ballscrew.cases.opened_file import opened
-from ballscrew.cases.toml_text import as_toml
-from ballscrew.errors import Fault, InputError, nearest
-from ballscrew.output.json_text import as_json as json_text
-from ballscrew.web import openapi
-from ballscrew.web.bodies import CaseBody, OpenBody, ProjectBody, case_of, read, refuse_nulls
-from ballscrew.web.endpoint_parts import as_json, heavy, queue_of
-from ballscrew.web.sent_files import written
+from ballscrew.basis.errors import Fault, InputError, nearest
+from ballscrew.basis.output.json_text import as_json as json_text
+from ballscrew.cases.case_files import project as projects
+from ballscrew.cases.case_files.opened_file import opened
+from ballscrew.cases.case_files.toml_text import as_toml
+from ballscrew.faces.web import openapi
+from ballscrew.faces.web.bodies import CaseBody, OpenBody, ProjectBody, case_of, read, refuse_nulls
+from ballscrew.faces.web.endpoint_parts import as_json, heavy, queue_of
+from ballscrew.faces.web.sent_files import written
+from ballscrew.questions.shared import file_answer as file_answers
 
 #: Media types of a project, by its ``kind``.
 KINDS = {"toml": "application/toml", "json": "application/json"}

@@ -16,8 +16,8 @@ from starlette.responses import Response
 from starlette.staticfiles import NotModifiedResponse, StaticFiles
 from starlette.types import Scope
 
-from ballscrew.web import languages, plotly_js
-from ballscrew.web.endpoint_parts import takes_gzip
+from ballscrew.faces.web import languages, plotly_js
+from ballscrew.faces.web.endpoint_parts import takes_gzip
 
 #: Browsers keep files, and ask each time whether they have changed.
 _CACHE = "no-cache"
@@ -54,7 +54,7 @@ class _Folder(StaticFiles):
 
 def add_to(app: FastAPI) -> None:
     """Add the addresses of all files."""
-    page = _Folder(directory=Path(str(resources.files("ballscrew.web").joinpath("page"))))
+    page = _Folder(directory=Path(str(resources.files("ballscrew.faces.web").joinpath("page"))))
     viewer = _Folder(directory=_folder_of("fastapi_offline", "static"))
     app.mount("/page", page)
     app.mount("/viewer", viewer)
@@ -102,7 +102,7 @@ def plotly_address() -> str:
 @functools.cache
 def _page(language: str) -> tuple[bytes, bytes, str]:
     """The page in a language as it is sent, plain and compressed, and its tag."""
-    text = resources.files("ballscrew.web").joinpath("page", "index.html").read_text(encoding="utf-8")
+    text = resources.files("ballscrew.faces.web").joinpath("page", "index.html").read_text(encoding="utf-8")
     return _tagged(languages.filled(text.replace(_PLOTLY, plotly_address()), language))
 
 

@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 from starlette.datastructures import Headers, MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from ballscrew.errors import Fault
-from ballscrew.web import problems
+from ballscrew.basis.errors import Fault
+from ballscrew.faces.web import problems
 
 #: Names of the machine that the server runs on: it answers to these, unless told otherwise.
 LOOPBACK = ("127.0.0.1", "localhost", "[::1]")

@@ -8,14 +8,14 @@ from urllib.parse import urlencode
 from fastapi import APIRouter, Path, Query, Request
 from starlette.responses import Response
 
-from ballscrew.api_answers import file as file_answers
-from ballscrew.errors import Fault, InputError, nearest
-from ballscrew.web import openapi
-from ballscrew.web.bodies import content_of
-from ballscrew.web.endpoint_parts import as_bytes
-from ballscrew.web.jobs import Job, Jobs
-from ballscrew.web.log_bodies import MOST_LOG_BYTES
-from ballscrew.web.problems import Refused
+from ballscrew.basis.errors import Fault, InputError, nearest
+from ballscrew.faces.web import openapi
+from ballscrew.faces.web.bodies import content_of
+from ballscrew.faces.web.endpoint_parts import as_bytes
+from ballscrew.faces.web.jobs import Job, Jobs
+from ballscrew.faces.web.log_bodies import MOST_LOG_BYTES
+from ballscrew.faces.web.problems import Refused
+from ballscrew.questions.shared import file_answer as file_answers
 
 #: Addresses whose requests may be jobs: all that may compute for more than two seconds.
 ADDRESSES = (

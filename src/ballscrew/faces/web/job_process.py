@@ -27,14 +27,14 @@ from typing import IO, Any, NoReturn
 
 from starlette.types import ASGIApp
 
-from ballscrew.web.request_queue import RequestQueue
+from ballscrew.faces.web.request_queue import RequestQueue
 
 #: Seconds between two messages on how much has been computed.
 EVERY = 0.2
 #: A lower priority than that of the server, which answers quick requests meanwhile.
 _NICE = 5
 #: The program of a process that starts from nothing.
-_PROGRAM = ("-m", "ballscrew.web.job_program")
+_PROGRAM = ("-m", "ballscrew.faces.web.job_program")
 
 
 @dataclass(frozen=True)

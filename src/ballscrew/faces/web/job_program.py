@@ -1,4 +1,4 @@
-"""The program of a job that starts from nothing: ``python -m ballscrew.web.job_program``, as jobs start it."""
+"""The program of a job that starts from nothing: ``python -m ballscrew.faces.web.job_program``, as jobs start it."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ import signal
 import sys
 from typing import NoReturn
 
-from ballscrew.web.job_process import answer_one
-from ballscrew.web.server import application
+from ballscrew.faces.web.job_process import answer_one
+from ballscrew.faces.web.server import application
 
 
 def main() -> NoReturn:

@@ -17,11 +17,11 @@ from typing import Literal
 
 from anyio import CapacityLimiter
 
-from ballscrew.errors import Fault
-from ballscrew.web import problems
-from ballscrew.web.job_process import Answer, Asked, Computed, Message, OutOfTime, Process, Progress, Row, spawned
-from ballscrew.web.problems import Refused
-from ballscrew.web.request_queue import HEAVY, MOST_WAITING, TIME_LIMIT, busy, closing, out_of_time
+from ballscrew.basis.errors import Fault
+from ballscrew.faces.web import problems
+from ballscrew.faces.web.job_process import Answer, Asked, Computed, Message, OutOfTime, Process, Progress, Row, spawned
+from ballscrew.faces.web.problems import Refused
+from ballscrew.faces.web.request_queue import HEAVY, MOST_WAITING, TIME_LIMIT, busy, closing, out_of_time
 
 #: A job may compute as many times as long as a request that is waited for.
 LONGER = 30

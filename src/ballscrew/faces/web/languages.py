@@ -28,7 +28,7 @@ _MENU = re.compile(r'(<select id="language"[^>]*>)')
 @functools.cache
 def texts() -> Mapping[str, Mapping[str, str]]:
     """The texts of all languages by tag, the default one first."""
-    folder = resources.files("ballscrew.web").joinpath("page", "texts")
+    folder = resources.files("ballscrew.faces.web").joinpath("page", "texts")
     found = {
         file.name.removesuffix(".json"): json.loads(file.read_text(encoding="utf-8"))
         for file in folder.iterdir()

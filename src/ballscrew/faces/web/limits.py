@@ -8,14 +8,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from ballscrew.cases.case_file import (
+from ballscrew.basis.errors import Fault, InputError, raise_if_any
+from ballscrew.cases.case_files.case_file import (
     Case,
 )
-from ballscrew.components.nut import OversizeBallNut
-from ballscrew.errors import Fault, InputError, raise_if_any
-from ballscrew.selection.need import Need
-from ballscrew.studies import sweep as sweeps
-from ballscrew.uncertainty.bands import NUT_SAMPLES, SAMPLES
+from ballscrew.engine.uncertainty.bands import NUT_SAMPLES, SAMPLES
+from ballscrew.physics.components.nut import OversizeBallNut
+from ballscrew.questions.select.need import Need
+from ballscrew.questions.sweep import compute as sweeps
 
 #: Axes and points of a sweep, and the values that it returns; a nut takes a hundred times as long as one ball.
 MOST_AXES, MOST_POINTS, MOST_POINTS_OF_NUT, MOST_RETURNED = 8, 20_000, 2_000, 200_000
@@ -132,7 +132,7 @@ def is_short(case: Case, plan: sweeps.Plan) -> bool:
 def samples_of(case: Case, requested: int | None = None) -> int | None:
     """The samples of a band: the requested number, or the default, or fewer where its balls are too many.
 
-    Raises :class:`~ballscrew.errors.InputError` where more are requested than are computed here.
+    Raises :class:`~ballscrew.basis.errors.InputError` where more are requested than are computed here.
     """
     most = _most_samples(case)
     if requested is None:
@@ -145,8 +145,8 @@ def samples_of(case: Case, requested: int | None = None) -> int | None:
 def samples_of_sweep(case: Case, plan: sweeps.Plan, requested: int | None = None) -> int:
     """The samples of each point of a sweep with a band: the requested number, or the default, or fewer of many points.
 
-    Fewer are a power of two. Raises :class:`~ballscrew.errors.InputError` where more are requested than are computed
-    here, and for more points than there are samples for.
+    Fewer are a power of two. Raises :class:`~ballscrew.basis.errors.InputError` where more are requested than are
+    computed here, and for more points than there are samples for.
     """
     points = math.prod(len(values) for values in plan.axes.values())
     total = MOST_BALLS_IN_ALL // balls_of(case) if balls_of(case) else MOST_SAMPLES_OF_SWEEP

@@ -12,29 +12,33 @@ from collections.abc import Sequence
 from fastapi import APIRouter, Request
 from starlette.responses import Response
 
-from ballscrew.api_answers import log as log_answers
-from ballscrew.cases.case import Case
-from ballscrew.documents import hand_over as hand_over_documents
-from ballscrew.documents import log as log_documents_of
-from ballscrew.errors import Fault, InputError
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.cases.case_files.case import Case
 from ballscrew.exports import requests
-from ballscrew.studies import fit as fits
-from ballscrew.studies import fit_options, service_options
-from ballscrew.studies import service as services
-from ballscrew.studies.fit_log import steady_log
-from ballscrew.studies.moving_log import is_moving
-from ballscrew.torque_logs.preview import preview
-from ballscrew.web import limits, log_documents, openapi, sent_files, starts
-from ballscrew.web.bodies import case_of, read
-from ballscrew.web.endpoint_parts import as_bytes, as_json, heavy, kept
-from ballscrew.web.log_bodies import FitBody, HandOverBody, LogBody, ServiceBody, assignments
-from ballscrew.web.request_queue import Deadline
+from ballscrew.faces.web import limits, log_documents, openapi, sent_files, starts
+from ballscrew.faces.web.bodies import case_of, read
+from ballscrew.faces.web.endpoint_parts import as_bytes, as_json, heavy, kept
+from ballscrew.faces.web.log_bodies import FitBody, HandOverBody, LogBody, ServiceBody, assignments
+from ballscrew.faces.web.request_queue import Deadline
+from ballscrew.files.torque_logs.preview import preview
+from ballscrew.questions.fit import answer as fit_answers
+from ballscrew.questions.fit import compute as fits
+from ballscrew.questions.fit import log_answer
+from ballscrew.questions.fit import log_document as log_documents_of
+from ballscrew.questions.fit import options as fit_options
+from ballscrew.questions.fit.log import steady_log
+from ballscrew.questions.fit_motion.log import is_moving
+from ballscrew.questions.hand_over import answer as hand_over_answers
+from ballscrew.questions.hand_over import document as hand_over_documents
+from ballscrew.questions.service import answer as service_answers
+from ballscrew.questions.service import compute as services
+from ballscrew.questions.service import options as service_options
 
 router = APIRouter()
 
 
 @router.post(
-    "/log", openapi_extra=openapi.body(LogBody), response_model=log_answers.Log, responses=openapi.problems_of()
+    "/log", openapi_extra=openapi.body(LogBody), response_model=log_answer.Log, responses=openapi.problems_of()
 )
 async def log(request: Request) -> Response:
     """The columns of a log and what each is taken for, and the numbers of the case that may be fitted to it."""
@@ -51,7 +55,7 @@ async def log(request: Request) -> Response:
 
 
 @router.post(
-    "/fit", openapi_extra=openapi.body(FitBody), response_model=log_answers.Fit, responses=openapi.problems_of()
+    "/fit", openapi_extra=openapi.body(FitBody), response_model=fit_answers.Fit, responses=openapi.problems_of()
 )
 async def fit(request: Request) -> Response:
     """A case fitted to a log of torques: the document of ``ballscrew fit --json``, with words, rows and the case."""
@@ -72,7 +76,7 @@ async def fit(request: Request) -> Response:
             steady = steady_log(case, paths["log"], chosen, done)
         assumed: Sequence[str] = ()
         if body.self_heating:
-            from ballscrew.axis_studies.warm_log import warm_log
+            from ballscrew.questions.fit.warm_log import warm_log
 
             steady, assumed = warm_log(case, steady, chosen.kind)
         report = dataclasses.replace(fits.fit(case, steady, chosen, done), assumed=assumed)
@@ -84,7 +88,7 @@ async def fit(request: Request) -> Response:
 @router.post(
     "/service",
     openapi_extra=openapi.body(ServiceBody),
-    response_model=log_answers.Service,
+    response_model=service_answers.Service,
     responses=openapi.problems_of(),
 )
 async def service(request: Request) -> Response:
@@ -108,7 +112,7 @@ async def service(request: Request) -> Response:
 @router.post(
     "/hand-over",
     openapi_extra=openapi.body(HandOverBody),
-    response_model=log_answers.HandOver,
+    response_model=hand_over_answers.HandOver,
     responses=openapi.problems_of(),
 )
 async def hand_over(request: Request) -> Response:
@@ -126,7 +130,7 @@ async def hand_over(request: Request) -> Response:
     return await heavy(request, work)
 
 
-@router.get("/targets", response_model=log_answers.Targets, responses=openapi.problems_of())
+@router.get("/targets", response_model=hand_over_answers.Targets, responses=openapi.problems_of())
 async def targets(request: Request) -> Response:
     """The targets of a hand-over, and the choices that each has."""
     return kept(request, _targets())
@@ -137,7 +141,7 @@ def _targets() -> bytes:
     return as_bytes(hand_over_documents.targets())
 
 
-@router.get("/examples", response_model=log_answers.Examples, responses=openapi.problems_of())
+@router.get("/examples", response_model=log_answer.Examples, responses=openapi.problems_of())
 async def examples(request: Request) -> Response:
     """Logs to try, each with its case: those of the folder ``examples`` of the repository."""
     return kept(request, _examples())

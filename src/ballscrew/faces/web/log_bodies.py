@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 
 from pydantic import Field
 
-from ballscrew.web.bodies import CaseBody, SentFile, Tables
+from ballscrew.faces.web.bodies import CaseBody, SentFile, Tables
 
 #: Bytes of a request with a log: some 100,000 rows as text.
 MOST_LOG_BYTES = 4_194_304

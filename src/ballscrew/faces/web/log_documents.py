@@ -10,20 +10,21 @@ from collections.abc import Mapping
 from pathlib import PurePosixPath
 from typing import Any
 
-from ballscrew import units
-from ballscrew.cases import fitted_case
-from ballscrew.cases.case import Case
-from ballscrew.documents import fit as fit_documents
-from ballscrew.documents import hand_over as hand_over_documents
-from ballscrew.documents import log_pictures
-from ballscrew.documents import service as service_documents
+from ballscrew.basis import units
+from ballscrew.cases.case_files import fitted_case
+from ballscrew.cases.case_files.case import Case
 from ballscrew.exports.export import Export
-from ballscrew.studies.fit import FitReport
-from ballscrew.studies.service import ServiceReport
-from ballscrew.text import fit as fit_text
-from ballscrew.text import hand_over as hand_over_text
-from ballscrew.text import service as service_text
-from ballscrew.web.templates import fill_records, filled, template
+from ballscrew.faces.web.templates import fill_records, filled, template
+from ballscrew.questions.fit import document as fit_documents
+from ballscrew.questions.fit import points as fit_points
+from ballscrew.questions.fit import text as fit_text
+from ballscrew.questions.fit.compute import FitReport
+from ballscrew.questions.hand_over import document as hand_over_documents
+from ballscrew.questions.hand_over import text as hand_over_text
+from ballscrew.questions.service import document as service_documents
+from ballscrew.questions.service import points as service_points
+from ballscrew.questions.service import text as service_text
+from ballscrew.questions.service.compute import ServiceReport
 
 
 def fit(case: Case, tables: Mapping[str, Any], report: FitReport) -> dict[str, Any]:
@@ -41,7 +42,7 @@ def fit(case: Case, tables: Mapping[str, Any], report: FitReport) -> dict[str, A
             "next_test": [filled(line, quantities) for line in lines],
         },
         "display": {"next_test": [template(line, quantities) for line in lines]},
-        "picture": log_pictures.of_fit(report.model),
+        "picture": fit_points.of_fit(report.model),
         "calibrated": {"toml": calibrated, "case": tomllib.loads(calibrated)},
     }
 
@@ -56,7 +57,7 @@ def service(case: Case, report: ServiceReport) -> dict[str, Any]:
         **document,
         "words": {"title": ", ".join(service_text.names(report)), "causes": service_text.causes(report)},
         "display": {"verdicts": [template(text, quantities) for text in said]},
-        "picture": log_pictures.of_service(report),
+        "picture": service_points.of_service(report),
     }
 
 

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from ballscrew.evaluation import recordings
+from ballscrew.engine.evaluation import recordings
 
 Argument = TypeVar("Argument")
 Result = TypeVar("Result")

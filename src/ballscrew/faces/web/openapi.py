@@ -8,13 +8,22 @@ from fastapi import FastAPI, Path
 from fastapi.openapi.utils import get_openapi
 from pydantic import BaseModel
 
-from ballscrew.api_answers.parts import Problem
-from ballscrew.case_schema.schema import json_schema
-from ballscrew.sizing.catalogue import catalogue
-from ballscrew.web import problems
-from ballscrew.web.bodies import BandBody, CaseBody, DutyBody, NeedBody, OpenBody, ProjectBody, SweepBody, WarmUpBody
-from ballscrew.web.log_bodies import examples_with_logs
-from ballscrew.web.vocabulary import vocabulary
+from ballscrew.cases.schema.schema import json_schema
+from ballscrew.faces.web import problems
+from ballscrew.faces.web.bodies import (
+    BandBody,
+    CaseBody,
+    DutyBody,
+    NeedBody,
+    OpenBody,
+    ProjectBody,
+    SweepBody,
+    WarmUpBody,
+)
+from ballscrew.faces.web.log_bodies import examples_with_logs
+from ballscrew.faces.web.vocabulary import vocabulary
+from ballscrew.physics.sizing.catalogue import catalogue
+from ballscrew.questions.shared.answer_parts import Problem
 
 _CASE, _SUMMARY = "Case", "Friction losses of ball screws"
 _HERE, _THERE = "#/$defs/", "#/components/schemas/"

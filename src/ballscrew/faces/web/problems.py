@@ -8,7 +8,7 @@ from typing import Any
 
 from starlette.responses import Response
 
-from ballscrew.errors import LINES_AT_MOST, Fault, InputError
+from ballscrew.basis.errors import LINES_AT_MOST, Fault, InputError
 
 MEDIA_TYPE = "application/problem+json"
 #: Titles of the problems, by status.

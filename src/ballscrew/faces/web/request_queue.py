@@ -13,8 +13,8 @@ from typing import Any, TypeVar
 
 from anyio import CapacityLimiter, fail_after
 
-from ballscrew.errors import Fault
-from ballscrew.web.problems import Refused
+from ballscrew.basis.errors import Fault
+from ballscrew.faces.web.problems import Refused
 
 #: Seconds of processor that one request may take.
 TIME_LIMIT = 20.0

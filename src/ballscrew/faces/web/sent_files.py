@@ -12,9 +12,9 @@ import tempfile
 from collections.abc import Generator, Mapping
 from pathlib import Path
 
-from ballscrew.cases.opened_file import is_table
-from ballscrew.errors import Fault, InputError
-from ballscrew.web.limits import check_columns
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.cases.case_files.opened_file import is_table
+from ballscrew.faces.web.limits import check_columns
 
 #: What a name of a file has not: what leads elsewhere, and what some system does not take.
 _ODD = re.compile(r'[\x00-\x1f\x7f<>:"/\\|?*]')
@@ -27,7 +27,7 @@ def written(files: Mapping[str, Mapping[str, str]], *, tables: bool = True) -> G
 
     They are ``tables`` whatever their names are; without it each is what ``opened_file`` takes it for.
     Each file has a ``name`` and its content as ``text`` or in ``base64``. Faults that are found meanwhile name the file
-    and not the folder. Raises :class:`~ballscrew.errors.InputError` for what is no such file.
+    and not the folder. Raises :class:`~ballscrew.basis.errors.InputError` for what is no such file.
     """
     with tempfile.TemporaryDirectory(prefix="ballscrew-", ignore_cleanup_errors=True) as folder:
         paths: dict[str, Path] = {}
@@ -53,7 +53,9 @@ def _name(given: str) -> str:
 
 
 def _content(field: str, file: Mapping[str, str]) -> bytes:
-    """The bytes of a file. Raises :class:`~ballscrew.errors.InputError` unless it has one content that is good."""
+    """The bytes of a file. Raises :class:`~ballscrew.basis.errors.InputError` unless it has one content that is
+    good.
+    """
     text, coded = file.get("text"), file.get("base64")
     if (text is None) == (coded is None):
         raise InputError(Fault(field, "needs one content", "", "send text, or base64, not both"))

@@ -12,16 +12,16 @@ from starlette.exceptions import HTTPException
 from starlette.responses import Response
 from starlette.types import ASGIApp
 
-from ballscrew._version import __version__
-from ballscrew.errors import Fault, InputError
-from ballscrew.studies.run import run
-from ballscrew.web import api, files, memory, openapi, plotly_js, problems, vocabulary
-from ballscrew.web.bodies import case_of
-from ballscrew.web.guard import HEADERS, LOOPBACK, Guard
-from ballscrew.web.jobs import Jobs
-from ballscrew.web.policy import policy
-from ballscrew.web.problems import Refused
-from ballscrew.web.request_queue import RequestQueue
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.version import __version__
+from ballscrew.faces.web import api, files, memory, openapi, plotly_js, problems, vocabulary
+from ballscrew.faces.web.bodies import case_of
+from ballscrew.faces.web.guard import HEADERS, LOOPBACK, Guard
+from ballscrew.faces.web.jobs import Jobs
+from ballscrew.faces.web.policy import policy
+from ballscrew.faces.web.problems import Refused
+from ballscrew.faces.web.request_queue import RequestQueue
+from ballscrew.questions.run.compute import run
 
 
 class _Application(FastAPI):

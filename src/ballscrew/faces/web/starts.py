@@ -8,13 +8,13 @@ from collections.abc import Mapping
 from importlib import resources
 from typing import Any
 
-from ballscrew import units
-from ballscrew.case_schema.schema import DEFAULT_MODEL
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.components.screw import BallScrew
-from ballscrew.papers.olaru2005 import case as paper
-from ballscrew.quantities import fields_of
+from ballscrew.basis import units
+from ballscrew.basis.quantities import fields_of
+from ballscrew.cases.schema.schema import DEFAULT_MODEL
+from ballscrew.evidence.papers.olaru2005 import case as paper
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.screw import BallScrew
 
 #: Examples with a motion by the names of their files, which are those of the folder ``examples`` of the repository.
 _MOVING: Mapping[str, str] = {

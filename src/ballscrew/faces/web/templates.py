@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ballscrew.units import ShownQuantity
+from ballscrew.basis.units import ShownQuantity
 
 _PLACEHOLDER = re.compile(r"\{(\d{1,4})_*\}")
 

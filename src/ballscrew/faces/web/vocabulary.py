@@ -9,33 +9,33 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict
 
-from ballscrew import units
-from ballscrew._version import __version__
-from ballscrew.axis.axis import Axis
-from ballscrew.axis.motor import Motor
-from ballscrew.axis_studies.duty import CAUSES, NUMBERS, slug_of
-from ballscrew.axis_studies.warm_up import SERIES
-from ballscrew.case_schema.duty_schema import MOTIONS, fields_of_motion
-from ballscrew.case_schema.schema import DEFAULT_MODEL, LAWS, MODELS
-from ballscrew.components.contact import RaceState
-from ballscrew.components.materials import Lubricant, Material
-from ballscrew.components.nut import Bodies, Scatter
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.components.screw import BallScrew
-from ballscrew.evaluation.outputs import known_outputs
-from ballscrew.figures.colours import CAUSE_COLOURS, MECHANISM_COLOURS
-from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.result import MECHANISMS, FrictionResult
-from ballscrew.friction.validity import NUT_REASONS
-from ballscrew.motion.profiles import SCurve, Segment, Sine
-from ballscrew.quantities import Info, Quantity, fields_of, quantities_of
-from ballscrew.screw_tables.catalogue import EXAMPLE_PRELOADS
-from ballscrew.screw_tables.nut_kinds import LISTED, LOSSES, NUT_FIELDS, NUTS
-from ballscrew.sizing.catalogue import catalogue
-from ballscrew.sizing.installation import Installation, Limits
-from ballscrew.solvers.load_distribution import BallLoads
-from ballscrew.thermal.surroundings import Surroundings
-from ballscrew.web.starts import starts
+from ballscrew.axis.duty_cycle.axis import Axis
+from ballscrew.axis.duty_cycle.motor import Motor
+from ballscrew.axis.motion.profiles import SCurve, Segment, Sine
+from ballscrew.axis.thermal.surroundings import Surroundings
+from ballscrew.basis import units
+from ballscrew.basis.quantities import Info, Quantity, fields_of, quantities_of
+from ballscrew.basis.version import __version__
+from ballscrew.cases.schema.duty_schema import MOTIONS, fields_of_motion
+from ballscrew.cases.schema.schema import DEFAULT_MODEL, LAWS, MODELS
+from ballscrew.cases.screw_tables.catalogue import EXAMPLE_PRELOADS
+from ballscrew.cases.screw_tables.nut_kinds import LISTED, LOSSES, NUT_FIELDS, NUTS
+from ballscrew.engine.evaluation.outputs import known_outputs
+from ballscrew.faces.web.starts import starts
+from ballscrew.physics.components.contact import RaceState
+from ballscrew.physics.components.materials import Lubricant, Material
+from ballscrew.physics.components.nut import Bodies, Scatter
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
+from ballscrew.physics.friction.validity import NUT_REASONS
+from ballscrew.physics.sizing.catalogue import catalogue
+from ballscrew.physics.sizing.installation import Installation, Limits
+from ballscrew.physics.solvers.load_distribution import BallLoads
+from ballscrew.questions.duty.compute import CAUSES, IF_ANY, NUMBERS, slug_of
+from ballscrew.questions.shared.chart_colours import CAUSE_COLOURS, MECHANISM_COLOURS
+from ballscrew.questions.warm_up.compute import SERIES
 
 #: Units of inches and pounds, by the metric units that they replace; other units are the same in both.
 _INCHES: Mapping[str, str] = {
@@ -63,6 +63,12 @@ class ResultQuantity(_Table):
     symbol: str
     unit: str
     shown_in: str
+
+
+class CycleQuantity(ResultQuantity):
+    """A number of a cycle; ``if_any`` where it is shown only where it is not zero."""
+
+    if_any: bool
 
 
 class Mechanism(_Table):
@@ -104,7 +110,7 @@ class Vocabulary(_Table):
     units: dict[str, list[UnitChoice]]
     systems: dict[str, dict[str, str]]
     results: dict[str, ResultQuantity]
-    of_cycle: dict[str, ResultQuantity]
+    of_cycle: dict[str, CycleQuantity]
     of_warm_up: dict[str, ResultQuantity]
     causes: dict[str, Mechanism]
     mechanisms: dict[str, Mechanism]
@@ -127,7 +133,7 @@ def vocabulary() -> dict[str, Any]:
         "units": _units(),
         "systems": {"metric": {}, "inch": dict(_INCHES)},
         "results": _results(),
-        "of_cycle": {name: _described(quantity) for name, quantity in NUMBERS.items()},
+        "of_cycle": {name: _described(quantity) | {"if_any": name in IF_ANY} for name, quantity in NUMBERS.items()},
         "of_warm_up": {name: _described(quantity) for name, quantity in SERIES.items()},
         "causes": {slug_of(name): {"words": name, "colour": CAUSE_COLOURS[name]} for name in CAUSES},
         "mechanisms": _mechanisms(),

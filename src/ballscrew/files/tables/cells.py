@@ -6,10 +6,10 @@ import dataclasses
 import re
 from typing import Any
 
-from ballscrew import units
-from ballscrew.errors import Fault, as_float, fault_of
-from ballscrew.tables import decimals
-from ballscrew.tables.headings import PERCENT, Heading
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, as_float, fault_of
+from ballscrew.files.tables import decimals
+from ballscrew.files.tables.headings import PERCENT, Heading
 
 #: Marks of a number, at the begin of a cell.
 _DIGITS = tuple("0123456789.,+-−")
@@ -36,23 +36,11 @@ def value_of(where: str, cell: Any, text: str, heading: Heading, decimal: frozen
             return word
         if not text.startswith(_DIGITS):
             return Fault(where, "is neither a number nor a word that is known", text, _of_words(heading))
-    if heading.column.share is not None and isinstance(cell, str) and (unit := _unit_behind(text)):
-        # that of the cell comes before that of the heading, and so does what it is of
-        is_share = unit == PERCENT
-        heading = dataclasses.replace(
-            heading, unit=PERCENT if is_share else "", offset=0.0, scale=0.01 if is_share else 1.0
-        )
+    if isinstance(cell, str):
+        heading = _of_cell(text, heading)
     quantity = heading.quantity
     assert quantity is not None
-    if isinstance(cell, float | int) and not isinstance(cell, bool):
-        value = _converted(where, as_float(cell), text, heading)
-    elif isinstance(cell, str):
-        number = text.removesuffix(PERCENT).rstrip() if heading.unit == PERCENT else text
-        value = _parsed(where, number.replace("−", "-"), heading, decimal)
-    else:
-        value = Fault(
-            where, "is not a number", text, "a spreadsheet makes dates of numbers: format the cell as a number"
-        )
+    value = _number(where, cell, text, heading, decimal)
     fault = value if isinstance(value, Fault) else fault_of("", quantity, value)
     if fault is not None:
         if heading.unit == PERCENT and fault.bound:
@@ -63,6 +51,27 @@ def value_of(where: str, cell: Any, text: str, heading: Heading, decimal: frozen
     if heading.unit == PERCENT:
         return Share(value)
     return int(value) if quantity.info.whole else value
+
+
+def _of_cell(text: str, heading: Heading) -> Heading:
+    """The heading for a cell that may be a share: the unit of the cell comes before that of the heading."""
+    unit = _unit_behind(text) if heading.column.share is not None else ""
+    if not unit:
+        return heading
+    if unit == PERCENT:
+        return dataclasses.replace(heading, unit=PERCENT, offset=0.0, scale=0.01)
+    return dataclasses.replace(heading, unit="", offset=0.0, scale=1.0)
+
+
+def _number(where: str, cell: Any, text: str, heading: Heading, decimal: frozenset[str]) -> float | Fault:
+    """The number in a cell, in SI."""
+    if isinstance(cell, float | int) and not isinstance(cell, bool):
+        return _converted(where, as_float(cell), text, heading)
+    if isinstance(cell, str):
+        number = text.removesuffix(PERCENT).rstrip() if heading.unit == PERCENT else text
+        return _parsed(where, number.replace("−", "-"), heading, decimal)
+    remedy = "a spreadsheet makes dates of numbers: format the cell as a number"
+    return Fault(where, "is not a number", text, remedy)
 
 
 def text_of(where: str, text: str, heading: Heading) -> str | Fault:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 
-from ballscrew.errors import Fault
+from ballscrew.basis.errors import Fault
 
 _NUMBER = re.compile(r"[-+]?[\d.,]*\d[\d.,]*")
 _THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}(?:[.,]\d{3})+")
@@ -24,6 +24,14 @@ def _certain(text: str, mark: str) -> bool:
         return False
     others = [other for other in _MARKS if other != mark and other in number[0]]
     return all(number[0].index(other) < number[0].index(mark) for other in others)
+
+
+def _fraction(digits: str, decimal: frozenset[str]) -> str:
+    """A number that may have a separator of thousands, as the fraction that it may be, written so that it is read."""
+    whole, thousandths = re.split("[.,]", digits, maxsplit=1)
+    (mark,) = decimal if len(decimal) == 1 else (".",)
+    fraction = f"{whole}{mark}{thousandths.rstrip('0') or '0'}"
+    return f"{fraction}0" if len(decimal) > 1 and _THOUSANDS.fullmatch(fraction) else fraction
 
 
 def with_point(where: str, text: str, decimal: frozenset[str]) -> str | Fault:
@@ -47,6 +55,6 @@ def with_point(where: str, text: str, decimal: frozenset[str]) -> str | Fault:
     # without evidence a point is a decimal mark, and a comma may be either
     alone = decimal == frozenset(marks) or (not decimal and marks[0] == ".")
     if _THOUSANDS.fullmatch(digits) and not alone:
-        whole, fraction = digits.replace(marks[0], ""), digits.replace(marks[0], ".").rstrip("0").rstrip(".")
-        return Fault(where, "may have a separator of thousands", text, f"write {whole} or {fraction}")
+        remedy = f"write {digits.replace(marks[0], '')} for thousands, {_fraction(digits, decimal)} for a decimal"
+        return Fault(where, "may have a separator of thousands", text, remedy)
     return digits.replace(",", ".") + rest

@@ -16,10 +16,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ballscrew import units
-from ballscrew.errors import Fault, InputError, raise_if_any
-from ballscrew.quantities import Quantity
-from ballscrew.tables.sheets import HEADINGS_WITHIN, MOST_COLUMNS, Record
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError, raise_if_any
+from ballscrew.basis.quantities import Quantity
+from ballscrew.files.tables.sheets import HEADINGS_WITHIN, MOST_COLUMNS, Record
 
 #: Kinds of faults of headings.
 NEEDS_UNIT, SAME_MEANING, NO_COLUMN = "needs_unit", "same_meaning", "no_column"
@@ -147,16 +147,22 @@ def heading_of(cell: Any, place: int, columns: Sequence[Column]) -> Heading | No
         meant = [column for column in meant if fits(unit, column)]
     if len(meant) == 1:
         (column,) = meant
-        if not bracketed:  # "rpm" is both name and unit
-            return Heading(
-                written, column, place, _unit_behind(name, column) or (spelt(name) if fits(name, column) else "")
-            )
-        no_unit = unit in NOTHING or (column.answers_to(unit) and not fits(unit, column))
-        return Heading(written, column, place, "" if no_unit else spelt(unit))
+        return Heading(written, column, place, _bracketed(unit, column) if bracketed else _unbracketed(name, column))
     if meant or bracketed:
         return None
     found = [Heading(written, column, place, behind) for column in columns if (behind := _unit_behind(name, column))]
     return found[0] if len(found) == 1 else None
+
+
+def _bracketed(unit: str, column: Column) -> str:
+    """The unit that stands in brackets behind a name; nothing for another name of the column."""
+    no_unit = unit in NOTHING or (column.answers_to(unit) and not fits(unit, column))
+    return "" if no_unit else spelt(unit)
+
+
+def _unbracketed(name: str, column: Column) -> str:
+    """The unit in a name without brackets; "rpm" is both name and unit."""
+    return _unit_behind(name, column) or (spelt(name) if fits(name, column) else "")
 
 
 def _unit_behind(written: str, column: Column) -> str:
@@ -197,7 +203,9 @@ def _scale(where: str, unit: str, quantity: Quantity) -> tuple[float, float] | F
 def headings_in(
     path: Path, found: Sequence[Record], columns: Sequence[Column], within: int = HEADINGS_WITHIN
 ) -> tuple[int, list[Heading]]:
-    """The row of the headings, and the headings of known columns. Raises :class:`~ballscrew.errors.InputError`."""
+    """The row of the headings, and the headings of known columns. Raises
+    :class:`~ballscrew.basis.errors.InputError`.
+    """
     if not found:
         raise InputError(Fault(str(path), "is empty", "", "give a table with headings and rows"))
     if (widest := max(len(record.cells) for record in found)) > MOST_COLUMNS:
@@ -231,42 +239,50 @@ def checked(
     known: list[Heading] = []
     for heading in headings:
         twin = next((other for other in known if other.column is heading.column), None)
-        where, quantity = f'{path.name} column "{heading.written}"', heading.column.quantity
-        if twin is not None:
-            meaning = heading.column.name.replace("_", " ")
-            problem = f'means the same as "{twin.written}"'
-            faults.append(
-                Fault(where, problem, meaning, "leave out one of the two", id=SAME_MEANING, column=heading.column.name)
-            )
-        elif quantity is None or (quantity.unit == "1" and not heading.unit):
-            known.append(heading)
-        elif quantity.unit == "1":
-            faults.append(Fault(where, "takes no unit", heading.unit, "it is a plain number; leave the unit out"))
-        elif heading.unit == PERCENT and heading.column.share is not None:
-            known.append(dataclasses.replace(heading, scale=0.01))
-        elif heading.unit:
-            scale = _scale(where, heading.unit, quantity)
-            if isinstance(scale, Fault):
-                faults.append(scale)
-            else:
-                known.append(dataclasses.replace(heading, offset=scale[0], scale=scale[1]))
+        where = f'{path.name} column "{heading.written}"'
+        found = _scaled(where, heading, body) if twin is None else _twice(where, heading, twin)
+        if isinstance(found, Fault):
+            faults.append(found)
         else:
-            cells = [record.cells[heading.place] for record in body if heading.place < len(record.cells)]
-            filled = [cell for cell in cells if cell not in NOTHING]
-            # in place of numbers with a unit there may be words and shares: each cell is asked for its own
-            of_cells = heading.column.share is not None or bool(heading.column.words)
-            if (
-                not filled
-                or of_cells
-                or any(isinstance(cell, str) and units.unit_in(cell.replace(",", ".")) for cell in filled)
-            ):
-                known.append(heading)
-            else:
-                remedy = f'write "{heading.written} [{quantity.shown_in}]"'
-                faults.append(Fault(where, "needs a unit", "", remedy, id=NEEDS_UNIT, column=heading.column.name))
+            known.append(found)
     missing = [column for column in columns if column.required and all(h.column is not column for h in headings)]
     raise_if_any([*(_missing(path, column, headings, first) for column in missing), *faults])
     return known
+
+
+def _twice(where: str, heading: Heading, twin: Heading) -> Fault:
+    """The fault of a heading beside a twin of the same column."""
+    name = heading.column.name
+    problem = f'means the same as "{twin.written}"'
+    return Fault(where, problem, name.replace("_", " "), "leave out one of the two", id=SAME_MEANING, column=name)
+
+
+def _scaled(where: str, heading: Heading, body: Sequence[Record]) -> Heading | Fault:
+    """The heading with the scale of its unit, or the fault of a unit that does not fit or is not there."""
+    column, quantity = heading.column, heading.column.quantity
+    if quantity is None or (quantity.unit == "1" and not heading.unit):
+        return heading
+    if quantity.unit == "1":
+        return Fault(where, "takes no unit", heading.unit, "it is a plain number; leave the unit out")
+    if heading.unit == PERCENT and column.share is not None:
+        return dataclasses.replace(heading, scale=0.01)
+    if heading.unit:
+        scale = _scale(where, heading.unit, quantity)
+        return scale if isinstance(scale, Fault) else dataclasses.replace(heading, offset=scale[0], scale=scale[1])
+    if _cells_tell_unit(heading, body):
+        return heading
+    remedy = f'write "{heading.written} [{quantity.shown_in}]"'
+    return Fault(where, "needs a unit", "", remedy, id=NEEDS_UNIT, column=column.name)
+
+
+def _cells_tell_unit(heading: Heading, body: Sequence[Record]) -> bool:
+    """Test whether a heading needs no unit: its cells are empty, have units, or are asked each for its own."""
+    # in place of numbers with a unit there may be words and shares
+    if heading.column.share is not None or heading.column.words:
+        return True
+    cells = [record.cells[heading.place] for record in body if heading.place < len(record.cells)]
+    filled = [cell for cell in cells if cell not in NOTHING]
+    return not filled or any(isinstance(cell, str) and units.unit_in(cell.replace(",", ".")) for cell in filled)
 
 
 def _missing(path: Path, column: Column, headings: Sequence[Heading], first: Record) -> Fault:

@@ -8,10 +8,10 @@ import numpy as np
 import pandas
 from numpy.typing import NDArray
 
-from ballscrew.quantities import within_bounds
-from ballscrew.tables import decimals
-from ballscrew.tables.headings import NOTHING, Heading
-from ballscrew.tables.sheets import is_error
+from ballscrew.basis.quantities import within_bounds
+from ballscrew.files.tables import decimals
+from ballscrew.files.tables.headings import NOTHING, Heading
+from ballscrew.files.tables.sheets import is_error
 
 pd: Any = pandas  # its own types know little of what comes out
 #: The decimal marks of a file with decimal commas only.
@@ -27,7 +27,7 @@ def column_numbers(
 ) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """The numbers of a column in SI, and the places of cells that are not plain numbers, or out of bounds.
 
-    :func:`~ballscrew.tables.cells.value_of` reads the cells at those places, one by one.
+    :func:`~ballscrew.files.tables.cells.value_of` reads the cells at those places, one by one.
     """
     quantity = heading.column.quantity
     assert quantity is not None

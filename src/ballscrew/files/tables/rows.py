@@ -1,6 +1,6 @@
 """Tables people bring: CSV or spreadsheets in their own words and units, checked rows in SI out.
 
-As in case files, a dimensional value needs a unit: in its heading (:mod:`ballscrew.tables.headings`) or
+As in case files, a dimensional value needs a unit: in its heading (:mod:`ballscrew.files.tables.headings`) or
 behind the number, which comes first.
 
 Every row is either good or has a fault that names file, row, column and value: none is lost silently.
@@ -13,12 +13,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
-from ballscrew import units
-from ballscrew.errors import Fault, InputError, raise_if_any
-from ballscrew.tables import decimals
-from ballscrew.tables.cells import shown, text_of, value_of
-from ballscrew.tables.headings import NOTHING, Column, Heading, checked, headings_in, known_heading_of, unused
-from ballscrew.tables.sheets import Record, records
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError, raise_if_any
+from ballscrew.files.tables import decimals
+from ballscrew.files.tables.cells import shown, text_of, value_of
+from ballscrew.files.tables.headings import NOTHING, Column, Heading, checked, headings_in, known_heading_of, unused
+from ballscrew.files.tables.sheets import Record, records
 
 T = TypeVar("T")
 
@@ -61,7 +61,7 @@ class Table:
 
 
 def read(path: Path, columns: Sequence[Column]) -> Table:
-    """The table of a file. Raises :class:`~ballscrew.errors.InputError` for faults of the table as a whole."""
+    """The table of a file. Raises :class:`~ballscrew.basis.errors.InputError` for faults of the table as a whole."""
     found = records(path, lambda cell: known_heading_of(cell, 0, columns) is not None)
     start, matched = headings_in(path, found, columns)
     body = found[start + 1 :]
@@ -86,7 +86,7 @@ def read(path: Path, columns: Sequence[Column]) -> Table:
 def made(table: Table, make: Callable[[Row], T], keep_going: bool = False) -> tuple[list[T], list[str]]:
     """The good rows as ``make`` converts them, and the faults of the others, one line each.
 
-    Faults that ``make`` raises are faults of the row. Raises :class:`~ballscrew.errors.InputError` if there
+    Faults that ``make`` raises are faults of the row. Raises :class:`~ballscrew.basis.errors.InputError` if there
     is any fault; with ``keep_going`` only if no row is good.
     """
     found: list[T] = []

@@ -15,10 +15,10 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ballscrew import child_process
-from ballscrew.errors import Fault, InputError
-from ballscrew.files import read_bytes
-from ballscrew.tables import workbooks
+from ballscrew.basis import child_process
+from ballscrew.basis.atomic_files import read_bytes
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.files.tables import workbooks
 
 #: Bytes of a table at most: its cells take some forty times as much memory.
 LARGEST_TABLE = 50_000_000
@@ -47,7 +47,7 @@ def records(path: Path, is_heading: Callable[[str], bool]) -> list[Record]:
     """The rows of a file that are neither blank nor comments.
 
     Of the delimiters, the one that makes most headings counts. Raises
-    :class:`~ballscrew.errors.InputError` for what is no table.
+    :class:`~ballscrew.basis.errors.InputError` for what is no table.
     """
     data = _bytes(path)
     found = (

@@ -9,11 +9,11 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.errors import Fault, InputError, fault_of
-from ballscrew.quantities import within_bounds
-from ballscrew.torque_logs.log_rows import INERTIA, REQUIRED, LogRows, quantities
-from ballscrew.torque_logs.motion import CLEAR, Floats, motion_of, runs_in
-from ballscrew.torque_logs.repeats import repeated_rows
+from ballscrew.basis.errors import Fault, InputError, fault_of
+from ballscrew.basis.quantities import within_bounds
+from ballscrew.files.torque_logs.log_rows import INERTIA, REQUIRED, LogRows, quantities
+from ballscrew.files.torque_logs.motion import CLEAR, Floats, motion_of, runs_in
+from ballscrew.files.torque_logs.repeats import repeated_rows
 
 #: Any kind of log: each step returns the kind that it was given.
 Log = TypeVar("Log", bound=LogRows)
@@ -48,7 +48,7 @@ _SAME = 0.02
 
 
 def cleaned(log: Log, inertia: float | None, most: int) -> Log:
-    """All steps in their order; see :meth:`~ballscrew.torque_logs.torque_log.TorqueLog.cleaned`."""
+    """All steps in their order; see :meth:`~ballscrew.files.torque_logs.torque_log.TorqueLog.cleaned`."""
     if inertia is not None and (fault := fault_of("log", INERTIA, inertia)) is not None:
         raise InputError(fault)
     log = log if log.keys is not None else dataclasses.replace(log, keys=random_keys(len(log)))

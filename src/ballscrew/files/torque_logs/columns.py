@@ -13,11 +13,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ballscrew import units
-from ballscrew.errors import Fault, InputError, nearest, raise_if_any
-from ballscrew.quantities import Info, Quantity
-from ballscrew.tables import decimals
-from ballscrew.tables.headings import (
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
+from ballscrew.basis.quantities import Info, Quantity
+from ballscrew.files.tables import decimals
+from ballscrew.files.tables.headings import (
     NEEDS_UNIT,
     NO_COLUMN,
     SAME_MEANING,
@@ -32,8 +32,8 @@ from ballscrew.tables.headings import (
     spelt,
     unused,
 )
-from ballscrew.tables.sheets import Record
-from ballscrew.torque_logs.log_rows import Kind, quantities, within
+from ballscrew.files.tables.sheets import Record
+from ballscrew.files.torque_logs.log_rows import Kind, quantities, within
 
 #: The headings stand within this many rows: loggers write about themselves first.
 WITHIN = 60
@@ -175,7 +175,7 @@ def is_load(cell: Any) -> bool:
 def layout(path: Path, found: Sequence[Record], flags: Mapping[str, str]) -> Layout:
     """The layout of a file, from its first rows and the columns given by the user, by name.
 
-    Raises :class:`~ballscrew.errors.InputError` for columns that are missing, double or without a unit that fits.
+    Raises :class:`~ballscrew.basis.errors.InputError` for columns that are missing, double or without a unit that fits.
     """
     given = _given_columns(flags)
     rows, constants, named = _renamed(found, given)

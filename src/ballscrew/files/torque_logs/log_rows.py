@@ -14,10 +14,9 @@ from typing import Annotated, Any, Literal, Self, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew._deprecated import RenamedAttribute
-from ballscrew.errors import Fault, InputError, si_value
-from ballscrew.quantities import AngularSpeed, Force, Info, Quantity, Temperature, Torque, Unit, quantities_of
-from ballscrew.torque_logs.motion import Floats, Motion
+from ballscrew.basis.errors import Fault, InputError, si_value
+from ballscrew.basis.quantities import AngularSpeed, Force, Info, Quantity, Temperature, Torque, Unit, quantities_of
+from ballscrew.files.torque_logs.motion import Floats, Motion
 
 #: Kind of the torque of a log; unknown where the heading is only "torque".
 Kind: TypeAlias = Literal["friction", "drive", "unknown"]
@@ -44,7 +43,7 @@ class LogRows:
 
     The bounds lie far beyond all machines: what loggers write for no value (9.9e37) is no measurement.
 
-    Raises :class:`~ballscrew.errors.InputError` if the lengths differ.
+    Raises :class:`~ballscrew.basis.errors.InputError` if the lengths differ.
     """
 
     axial_load: Annotated[
@@ -58,6 +57,7 @@ class LogRows:
     time: Annotated[Time | None, within(1e18, Info("t", "time", "s"))] = None
     #: Numbers of the rows in the file, or in the arrays given, from 1.
     line: Any = None
+    #: Whether the torque is ``"friction"`` or ``"drive"`` torque, or ``"unknown"``.
     kind: Kind = "unknown"
     #: How many rows there were before any was left out.
     rows: int = 0
@@ -75,9 +75,6 @@ class LogRows:
     keys: Floats | None = None
     #: Derivatives of the speed, where they are known already.
     motion: Motion | None = None
-
-    taken = RenamedAttribute("taken", "select")
-    noted = RenamedAttribute("noted", "with_notes")
 
     def __post_init__(self) -> None:
         for name, values in self.columns.items():
@@ -118,7 +115,7 @@ class LogRows:
         return f"{said}; left out: {'; '.join(reasons)}" if reasons else said
 
     def select(self, keep: NDArray[Any], reason: str = "") -> Self:
-        """The rows of a mask or of indices. The others are counted under ``reason``."""
+        """The rows to ``keep``: of a mask or of indices. The others are counted under ``reason``."""
         columns = {name: values[keep] for name, values in self.columns.items()}
         line = self.line[keep]
         lost = len(self) - line.size
@@ -128,7 +125,7 @@ class LogRows:
         return dataclasses.replace(self, **columns, line=line, left_out=counts, keys=keys, motion=motion)
 
     def with_notes(self, *notes: str) -> Self:
-        """The same log with further notes, each once."""
+        """The same log with further ``notes``, each once."""
         return dataclasses.replace(self, notes=tuple(dict.fromkeys((*self.notes, *filter(None, notes)))))
 
 

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew import child_process
-from ballscrew.errors import Fault, InputError
-from ballscrew.torque_logs import matlab_arrays
+from ballscrew.basis import child_process
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.files.torque_logs import matlab_arrays
 
 #: How files of MATLAB begin: those up to version 7, and those since.
 OLD, NEW = b"MATLAB 5.0 MAT-file", b"MATLAB 7.3 MAT-file"
@@ -26,7 +26,7 @@ def is_matlab(path: Path, begin: bytes) -> bool:
 def variables(path: Path, begin: bytes) -> tuple[dict[str, NDArray[np.float64]], dict[str, float]]:
     """The columns of a file by name, and its single numbers.
 
-    Raises :class:`~ballscrew.errors.InputError` if there are no columns.
+    Raises :class:`~ballscrew.basis.errors.InputError` if there are no columns.
     """
     hdf5 = begin.startswith((NEW, _HDF5))
     if hdf5 and importlib.util.find_spec("h5py") is None:

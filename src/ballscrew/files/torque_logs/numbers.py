@@ -11,13 +11,13 @@ import numpy as np
 import pandas
 from numpy.typing import NDArray
 
-from ballscrew.errors import Fault, InputError
-from ballscrew.tables.cells import shown, value_of
-from ballscrew.tables.number_columns import column_numbers, is_missing
-from ballscrew.tables.sheets import is_error
-from ballscrew.torque_logs.columns import CLOCK, Layout
-from ballscrew.torque_logs.log_rows import seconds
-from ballscrew.torque_logs.motion import Floats
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.files.tables.cells import shown, value_of
+from ballscrew.files.tables.number_columns import column_numbers, is_missing
+from ballscrew.files.tables.sheets import is_error
+from ballscrew.files.torque_logs.columns import CLOCK, Layout
+from ballscrew.files.torque_logs.log_rows import seconds
+from ballscrew.files.torque_logs.motion import Floats
 
 pd: Any = pandas  # its own types know little of what comes out
 #: With this many faults a file is no log.

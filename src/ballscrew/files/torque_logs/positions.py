@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.torque_logs.motion import Floats
+from ballscrew.files.torque_logs.motion import Floats
 
 #: Numbers of rows on either side that a line goes through.
 _HALF_WIDTHS = (1, 2, 4, 8, 16, 32, 64)

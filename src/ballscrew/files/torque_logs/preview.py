@@ -6,11 +6,11 @@ import dataclasses
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from ballscrew.errors import Fault, InputError
-from ballscrew.tables.headings import Heading, bare, known_heading_of
-from ballscrew.tables.sheets import Record, unreadable
-from ballscrew.torque_logs.columns import BRACKETS, COLUMNS, WITHIN, layout
-from ballscrew.torque_logs.sources import source_of
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.files.tables.headings import Heading, bare, known_heading_of
+from ballscrew.files.tables.sheets import Record, unreadable
+from ballscrew.files.torque_logs.columns import BRACKETS, COLUMNS, WITHIN, layout
+from ballscrew.files.torque_logs.sources import source_of
 
 #: Columns that are listed, rows of cells below each, and letters of a cell.
 MOST_COLUMNS, ROWS, LETTERS = 200, 3, 60
@@ -42,11 +42,11 @@ class Preview:
 
 
 def preview(path: Path, columns: Mapping[str, str] | None = None) -> Preview:
-    """The columns of a log in a file, as :func:`~ballscrew.torque_logs.reading.read` takes them.
+    """The columns of a log in a file, as :func:`~ballscrew.files.torque_logs.reading.read` takes them.
 
     ``columns`` are those given by hand, ``{"torque": "M_ist [N m]"}``. Faults of the columns are listed, not raised:
-    what they would be taken for is shown all the same. Raises :class:`~ballscrew.errors.InputError` for what is no
-    table.
+    what they would be taken for is shown all the same. Raises :class:`~ballscrew.basis.errors.InputError` for what is
+    no table.
     """
     path, columns = Path(path), columns or {}
     try:

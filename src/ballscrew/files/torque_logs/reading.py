@@ -14,18 +14,18 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.errors import LINES_AT_MOST, Fault, InputError, raise_if_any
-from ballscrew.tables.sheets import unreadable
-from ballscrew.torque_logs.cleaning import HELD
-from ballscrew.torque_logs.columns import NO_LOAD, TEMPERATURE, TORQUES, Layout, layout, temperatures_among
-from ballscrew.torque_logs.log_rows import REQUIRED
-from ballscrew.torque_logs.motion import Floats
-from ballscrew.torque_logs.numbers import NumberReader
-from ballscrew.torque_logs.positions import FeedRates
-from ballscrew.torque_logs.reservoir_sampler import ReservoirSampler
-from ballscrew.torque_logs.sources import source_of
-from ballscrew.torque_logs.text_files import Piece, size_of
-from ballscrew.torque_logs.torque_log import TorqueLog
+from ballscrew.basis.errors import LINES_AT_MOST, Fault, InputError, raise_if_any
+from ballscrew.files.tables.sheets import unreadable
+from ballscrew.files.torque_logs.cleaning import HELD
+from ballscrew.files.torque_logs.columns import NO_LOAD, TEMPERATURE, TORQUES, Layout, layout, temperatures_among
+from ballscrew.files.torque_logs.log_rows import REQUIRED
+from ballscrew.files.torque_logs.motion import Floats
+from ballscrew.files.torque_logs.numbers import NumberReader
+from ballscrew.files.torque_logs.positions import FeedRates
+from ballscrew.files.torque_logs.reservoir_sampler import ReservoirSampler
+from ballscrew.files.torque_logs.sources import source_of
+from ballscrew.files.torque_logs.text_files import Piece, size_of
+from ballscrew.files.torque_logs.torque_log import TorqueLog
 
 #: Rows of text that are read at a time.
 CHUNK = 200_000
@@ -43,15 +43,16 @@ def read(
     held: int = HELD,
     chunk: int = CHUNK,
 ) -> TorqueLog:
-    """The log of a file, in SI; :meth:`~ballscrew.torque_logs.torque_log.TorqueLog.cleaned` makes it fit for a fit.
+    """The log of a file, in SI; :meth:`~ballscrew.files.torque_logs.torque_log.TorqueLog.cleaned` makes it fit for a
+    fit.
 
     ``columns`` says which heading a column has, and in which unit it is, where the file does not: ``"M_ist [N m]"``; or
     what it is in every row: ``"0 N"``. A current needs the ``torque_constant`` (N m/A), a feed rate the ``lead`` (m).
     ``done`` gets the bytes read so far and those of the file. A log longer than ``held`` rows is thinned while it
     is read, ``chunk`` rows at a time.
 
-    Raises :class:`~ballscrew.errors.InputError` for faults of the file as a whole, and for cells that are no numbers;
-    with ``keep_going`` their rows are left out and counted.
+    Raises :class:`~ballscrew.basis.errors.InputError` for faults of the file as a whole, and for cells that are no
+    numbers; with ``keep_going`` their rows are left out and counted.
     """
     path, columns = Path(path), columns or {}
     try:

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.torque_logs.motion import Floats
+from ballscrew.files.torque_logs.motion import Floats
 
 #: The least number of rows in a repeated sequence that differ from each other.
 DISTINCT_ROWS = 10

@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.torque_logs import cleaning
-from ballscrew.torque_logs.log_rows import REQUIRED, Kind
-from ballscrew.torque_logs.motion import SCALES, SHORTEST_RUN, Floats, Motion, joined, motion_of
-from ballscrew.torque_logs.torque_log import TorqueLog
+from ballscrew.files.torque_logs import cleaning
+from ballscrew.files.torque_logs.log_rows import REQUIRED, Kind
+from ballscrew.files.torque_logs.motion import SCALES, SHORTEST_RUN, Floats, Motion, joined, motion_of
+from ballscrew.files.torque_logs.torque_log import TorqueLog
 
 #: Distinct times that a row must have on either side before its motion is final.
 _MARGIN = max(SCALES) + 4

@@ -10,11 +10,11 @@ from typing import Any, BinaryIO, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.errors import Fault, InputError
-from ballscrew.tables.sheets import Record, is_spreadsheet, records
-from ballscrew.torque_logs.columns import Layout, is_heading
-from ballscrew.torque_logs.matlab_files import is_matlab, variables
-from ballscrew.torque_logs.text_files import Piece, TextLog, size_of
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.files.tables.sheets import Record, is_spreadsheet, records
+from ballscrew.files.torque_logs.columns import Layout, is_heading
+from ballscrew.files.torque_logs.matlab_files import is_matlab, variables
+from ballscrew.files.torque_logs.text_files import Piece, TextLog, size_of
 
 
 class LogSource(Protocol):

@@ -14,10 +14,10 @@ import numpy as np
 import pandas
 from numpy.typing import NDArray
 
-from ballscrew.errors import Fault, InputError
-from ballscrew.tables.number_columns import COMMA, MISSING
-from ballscrew.tables.sheets import Record, delimiter_of, encoding_of, in_text, is_error
-from ballscrew.torque_logs.columns import WITHIN, Layout, is_heading
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.files.tables.number_columns import COMMA, MISSING
+from ballscrew.files.tables.sheets import Record, delimiter_of, encoding_of, in_text, is_error
+from ballscrew.files.torque_logs.columns import WITHIN, Layout, is_heading
 
 pd: Any = pandas  # its own types know little of what comes out
 #: The headings and what a number looks like are found in so many bytes at the top of a file, and so many of their rows.

@@ -1,6 +1,6 @@
 """Torque logs: arrays by name made into rows in SI, and cleaned for the calibration of a model.
 
-The signs are those of :mod:`~ballscrew.torque_logs.log_rows`.
+The signs are those of :mod:`~ballscrew.files.torque_logs.log_rows`.
 """
 
 from __future__ import annotations
@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.errors import Fault, InputError, accepts_units, nearest, raise_if_any, without_unit
-from ballscrew.quantities import MomentOfInertia
-from ballscrew.torque_logs import cleaning
-from ballscrew.torque_logs.log_rows import OPTIONAL, REQUIRED, TORQUES, LogRows, quantities, seconds
-from ballscrew.torque_logs.motion import Floats
+from ballscrew.basis.errors import Fault, InputError, accepts_units, nearest, raise_if_any, without_unit
+from ballscrew.basis.quantities import MomentOfInertia
+from ballscrew.files.torque_logs import cleaning
+from ballscrew.files.torque_logs.log_rows import OPTIONAL, REQUIRED, TORQUES, LogRows, quantities, seconds
+from ballscrew.files.torque_logs.motion import Floats
 
 #: A median temperature below this is one in °C given as one in kelvin: no ball screw is so cold.
 _COLDEST = 150.0
@@ -26,20 +26,21 @@ NO_LOAD = "no axial load: 0 N in every row"
 class TorqueLog(LogRows):
     """A log of torque in SI: arrays of equal length, one number for each row.
 
-    Raises :class:`~ballscrew.errors.InputError` if the lengths differ. See :meth:`of` for data of other kinds,
+    Raises :class:`~ballscrew.basis.errors.InputError` if the lengths differ. See :meth:`of` for data of other kinds,
     and :meth:`cleaned` for the rows that a model can be fitted to.
     """
 
     @classmethod
     def of(cls, data: Any) -> TorqueLog:
-        """A log from arrays by name: a mapping, a pandas DataFrame or an xarray Dataset; in SI.
+        """A log from ``data``, arrays by name: a mapping, a pandas DataFrame or an xarray Dataset; in SI.
 
         ``screw_speed`` and a torque are needed, and ``axial_load`` where there was one: without it and without a column
         of another name the load is 0 N, which a note says. The torque is called ``friction_torque``,
         ``drive_torque`` or just ``torque``. ``temperature`` (K) and ``time`` (s, or dates) may be there too. A single
         number stands for every row. A log passes as it is.
 
-        Raises :class:`~ballscrew.errors.InputError` for columns that are missing, of unequal length or no numbers.
+        Raises :class:`~ballscrew.basis.errors.InputError` for columns that are missing, of unequal length or no
+        numbers.
         """
         return data if isinstance(data, TorqueLog) else _log_of(data)
 
@@ -51,44 +52,78 @@ class TorqueLog(LogRows):
         and of the rest at most ``most`` rows stay. ``inertia`` (kg m²) is what the torque accelerates: its share is
         taken off a torque that is not said to be one of friction. ``left_out`` and ``notes`` say what was done.
 
-        Raises :class:`~ballscrew.errors.InputError` if fewer than three rows are left, or if the signs make no sense.
+        Raises :class:`~ballscrew.basis.errors.InputError` if fewer than three rows are left, or if the signs make no
+        sense.
         """
         return self if self.is_clean else cleaning.cleaned(self, inertia, most)
 
 
 def _log_of(data: Any) -> TorqueLog:
-    if not hasattr(data, "keys") or not hasattr(data, "__getitem__"):
-        remedy = "give a mapping of arrays, a pandas DataFrame or an xarray Dataset"
-        raise InputError(Fault("data", "is no log", type(data).__name__, remedy))
-    names = [str(name) for name in (data.variables if hasattr(data, "data_vars") else data.keys())]
-    torques = [name for name in TORQUES if name in names]
-    known = [*(name for name in (*REQUIRED, *OPTIONAL) if name in names and name not in TORQUES), *torques[:1]]
-    others = [name for name in names if name not in known]
-    # another name may be that of the load
-    without_load = "axial_load" not in known and not others
-    faults = [
-        Fault("data", f'has no column "{name}"', "", _hint(name, others))
-        for name in REQUIRED
-        if name not in known and not (name == "torque" and torques) and not (name == "axial_load" and without_load)
-    ]
-    if len(torques) > 1:
-        faults.append(Fault("data", "has more than one torque", ", ".join(torques), "give one of them"))
-    raise_if_any(faults)
+    named = _Named.of(data)
+    raise_if_any(named.faults)
+    arrays: dict[str, Any] = _arrays(data, named.known)
+    if named.without_load:
+        arrays["axial_load"] = np.zeros(())
+    size = max((array.size for array in arrays.values() if array.ndim), default=1)
+    arrays = {name: np.full(size, array) if array.ndim == 0 else array for name, array in arrays.items()}
+    log = TorqueLog(**arrays, kind=TORQUES[named.torques[0]], assumes_no_load=named.without_load)
+    not_used = f"columns not used: {', '.join(named.others)}" if named.others else ""
+    return log.with_notes(not_used, NO_LOAD if named.without_load else "")
+
+
+@dataclasses.dataclass(frozen=True)
+class _Named:
+    """The columns of data by name: those that a log has, with one torque, and the others."""
+
+    known: list[str]
+    others: list[str]
+    torques: list[str]
+
+    @classmethod
+    def of(cls, data: Any) -> _Named:
+        """Those of arrays by name. Raises :class:`~ballscrew.basis.errors.InputError` for anything else."""
+        if not hasattr(data, "keys") or not hasattr(data, "__getitem__"):
+            remedy = "give a mapping of arrays, a pandas DataFrame or an xarray Dataset"
+            raise InputError(Fault("data", "is no log", type(data).__name__, remedy))
+        names = [str(name) for name in (data.variables if hasattr(data, "data_vars") else data.keys())]
+        torques = [name for name in TORQUES if name in names]
+        known = [*(name for name in (*REQUIRED, *OPTIONAL) if name in names and name not in TORQUES), *torques[:1]]
+        return cls(known, [name for name in names if name not in known], torques)
+
+    @property
+    def without_load(self) -> bool:
+        """Whether there was no load; a column of another name may be that of the load."""
+        return "axial_load" not in self.known and not self.others
+
+    @property
+    def faults(self) -> list[Fault]:
+        """The faults of columns that are missing, and of torques beside each other."""
+        there = {*self.known, *(["torque"] if self.torques else []), *(["axial_load"] if self.without_load else [])}
+        faults = [
+            Fault("data", f'has no column "{name}"', "", _hint(name, self.others))
+            for name in REQUIRED
+            if name not in there
+        ]
+        if len(self.torques) > 1:
+            given = ", ".join(self.torques)
+            faults.append(Fault("data", "has more than one torque", given, "give one of them"))
+        return faults
+
+
+def _arrays(data: Any, names: list[str]) -> dict[str, Any]:
+    """The arrays of numbers by the name of their column in a log. Raises
+    :class:`~ballscrew.basis.errors.InputError`.
+    """
+    faults: list[Fault] = []
     arrays: dict[str, Any] = {}
-    for name, values in _raw(data, known).items():
+    for name, values in _raw(data, names).items():
         made = _numbers(name, values)
         if isinstance(made, Fault):
             faults.append(made)
         else:
             arrays["torque" if name in TORQUES else name] = made
     raise_if_any(faults)
-    if without_load:
-        arrays["axial_load"] = np.zeros(())
-    size = max((array.size for array in arrays.values() if array.ndim), default=1)
-    arrays = {name: np.full(size, array) if array.ndim == 0 else array for name, array in arrays.items()}
-    log = TorqueLog(**arrays, kind=TORQUES[torques[0]], assumes_no_load=without_load)
-    notes = [f"columns not used: {', '.join(others)}" if others else "", NO_LOAD if without_load else ""]
-    return log.with_notes(*notes)
+    return arrays
 
 
 def _raw(data: Any, names: list[str]) -> dict[str, Any]:

@@ -16,12 +16,12 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from ballscrew.errors import Fault, InputError, raise_if_any, si_value, without_unit
-from ballscrew.quantities import AngularSpeed, Info, Quantity, Temperature, Torque, Unit, fields_of, quantities_of
-from ballscrew.tables import rows as tables
-from ballscrew.tables.headings import Column
-from ballscrew.torque_logs.log_rows import within
-from ballscrew.torque_logs.motion import Floats
+from ballscrew.basis.errors import Fault, InputError, raise_if_any, si_value, without_unit
+from ballscrew.basis.quantities import AngularSpeed, Info, Quantity, Temperature, Torque, Unit, fields_of, quantities_of
+from ballscrew.files.tables import rows as tables
+from ballscrew.files.tables.headings import Column
+from ballscrew.files.torque_logs.log_rows import within
+from ballscrew.files.torque_logs.motion import Floats
 
 Time = Annotated[Any, Unit("s")]
 #: A torque so many times as large as the one before, or as small, is in another unit.
@@ -37,8 +37,8 @@ _ALIKE = 0.15
 class TorqueSeries:
     """Mean friction torques of one axis in SI, one for each test, in the order of time; NaN where nothing is known.
 
-    Raises :class:`~ballscrew.errors.InputError` for columns of different lengths, torques that are not positive, times
-    that run back, another unit midway, and more than one nut; each names the row.
+    Raises :class:`~ballscrew.basis.errors.InputError` for columns of different lengths, torques that are not positive,
+    times that run back, another unit midway, and more than one nut; each names the row.
     """
 
     torque: Annotated[Torque, within(1e6, Info("M", "mean friction torque of a test", "N m", above=0))]
@@ -50,9 +50,11 @@ class TorqueSeries:
     labels: Sequence[str] = ()
     #: What the times count: ``"s"``, or ``"test"`` for numbers of tests.
     per: str = "test"
-    #: Numbers of the rows in the file, and names of the nuts.
+    #: Numbers of the rows in the file.
     line: Sequence[int] = ()
+    #: Names of the nuts.
     nuts: Sequence[str] = ()
+    #: Remarks on the series, one line each.
     notes: tuple[str, ...] = ()
     #: Name and SHA-256 of the file.
     source: tuple[str, str] | None = None
@@ -131,11 +133,11 @@ class TorqueSeries:
 
     @classmethod
     def of(cls, data: Any) -> TorqueSeries:
-        """A series from arrays by name, in SI: ``torque`` (N m), or ``torque_forward`` and ``torque_backward``; and
-        ``time`` (dates, seconds, or numbers of tests as ``number``), ``temperature`` (K), ``screw_speed`` (rad/s) and
-        ``nut`` (names).
+        """A series from ``data``, arrays by name in SI.
 
-        A series passes as it is. Raises :class:`~ballscrew.errors.InputError` for what is no such data.
+        ``torque`` (N m), or ``torque_forward`` and ``torque_backward``; and ``time`` (dates, seconds, or numbers of
+        tests as ``number``), ``temperature`` (K), ``screw_speed`` (rad/s) and ``nut`` (names). A series passes as it
+        is. Raises :class:`~ballscrew.basis.errors.InputError` for what is no such data.
         """
         return data if isinstance(data, TorqueSeries) else _of_arrays(data)
 
@@ -227,8 +229,8 @@ def _columns(aliases: Mapping[str, str]) -> list[Column]:
 def read(path: Path, columns: Mapping[str, str] | None = None, keep_going: bool = False) -> TorqueSeries:
     """The series in a table of a file, a row for each test. ``columns`` has headings by name of a column.
 
-    Raises :class:`~ballscrew.errors.InputError` for faults of the table and its rows; with ``keep_going`` rows that
-    cannot be read are left out and counted.
+    Raises :class:`~ballscrew.basis.errors.InputError` for faults of the table and its rows; with ``keep_going`` rows
+    that cannot be read are left out and counted.
     """
     table = tables.read(path, _columns(columns or {}))
     if "screw_speed" in table.headings and any(row.values.get("screw_speed", 1.0) <= 0 for row in table.rows):
@@ -262,21 +264,26 @@ def _times(table: tables.Table, found: Sequence[tables.Row]) -> tuple[str, Any, 
     absent = [row for row in found if name not in row.values]
     raise_if_any([Fault(table.where(row.line, name), "is empty", "", "give each test its time") for row in absent])
     written = [row.written[name] for row in found]
-    if name != "date":
-        unit = table.headings[name].unit
-        labels = [f"{text} {unit}" if unit and name == "time" else text for text in written]
-        return "s" if name == "time" else "test", np.array([float(row.values[name]) for row in found]), labels
-    dates = [_date(str(row.values[name])) for row in found]
-    wrong = [row for row, date in zip(found, dates, strict=True) if date is None]
+    if name == "date":
+        return "s", _seconds(table, found), written
+    unit = table.headings[name].unit
+    labels = [f"{text} {unit}" if unit and name == "time" else text for text in written]
+    return "s" if name == "time" else "test", np.array([float(row.values[name]) for row in found]), labels
+
+
+def _seconds(table: tables.Table, found: Sequence[tables.Row]) -> Floats:
+    """The dates of tests in seconds from the first. Raises :class:`~ballscrew.basis.errors.InputError`."""
+    dates = [_date(str(row.values["date"])) for row in found]
     raise_if_any(
         [
-            Fault(table.where(row.line, name), "is no date that is known", row.written[name], "write 2026-03-31")
-            for row in wrong
+            Fault(table.where(row.line, "date"), "is no date that is known", row.written["date"], "write 2026-03-31")
+            for row, date in zip(found, dates, strict=True)
+            if date is None
         ]
     )
     first = dates[0]
     assert first is not None
-    return "s", np.array([(date - first).total_seconds() for date in dates if date is not None]), written
+    return np.array([(date - first).total_seconds() for date in dates if date is not None])
 
 
 _FORMATS: Sequence[Callable[[str], datetime.datetime]] = (

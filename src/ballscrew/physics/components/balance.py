@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ballscrew.components.frame import Frame
-from ballscrew.components.laws import BallChain
-from ballscrew.equations import equilibrium
-from ballscrew.quantities import Force, Length, Ratio, Torque
+from ballscrew.basis.quantities import Force, Length, Ratio, Torque
+from ballscrew.physics.components.frame import Frame
+from ballscrew.physics.components.laws import BallChain
+from ballscrew.physics.equations import equilibrium
 
 
 class Resistances(NamedTuple):

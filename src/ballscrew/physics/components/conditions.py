@@ -5,10 +5,10 @@ from __future__ import annotations
 import dataclasses
 from typing import Annotated, Any, NamedTuple, TypeVar
 
-from ballscrew._arrays import lazy, namespace
-from ballscrew.components.materials import Lubricant
-from ballscrew.equations import film, hertz, rheology, slip
-from ballscrew.quantities import AngularSpeed, Force, Info, Length, Pressure, Ratio, Speed
+from ballscrew.basis.arrays import lazy, namespace
+from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Pressure, Ratio, Speed
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.equations import film, hertz, rheology, slip
 
 C = TypeVar("C", bound="ContactConditions")
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import dataclasses
 from typing import Annotated
 
-from ballscrew._arrays import lazy, namespace
-from ballscrew.components.conditions import ContactConditions, Motion
-from ballscrew.components.laws import (
+from ballscrew.basis.arrays import lazy, namespace
+from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Ratio, Speed, Stiffness, Torque
+from ballscrew.physics.components.conditions import ContactConditions, Motion
+from ballscrew.physics.components.laws import (
     ElasticResistanceLaw,
     FilmLaw,
     FilmParameterLaw,
@@ -17,10 +18,9 @@ from ballscrew.components.laws import (
     InletLaw,
     RollingLaw,
 )
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.screw import BallScrew, Raceway
-from ballscrew.equations import film, friction, geometry, hertz, rheology, rolling
-from ballscrew.quantities import AngularSpeed, Force, Info, Length, Ratio, Speed, Stiffness, Torque
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.screw import BallScrew, Raceway
+from ballscrew.physics.equations import film, friction, geometry, hertz, rheology, rolling
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)

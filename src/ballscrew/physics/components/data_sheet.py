@@ -11,11 +11,9 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
-from ballscrew._arrays import ByValue, namespace
-from ballscrew.equations import rheology
-from ballscrew.equations import viscosity_temperature as equations
-from ballscrew.errors import Fault, faults_of, is_concrete, raise_if_any
-from ballscrew.quantities import (
+from ballscrew.basis.arrays import ByValue, namespace
+from ballscrew.basis.errors import Fault, faults_of, is_concrete, raise_if_any
+from ballscrew.basis.quantities import (
     Density,
     Info,
     KinematicViscosity,
@@ -27,6 +25,8 @@ from ballscrew.quantities import (
     Viscosity,
     within_bounds,
 )
+from ballscrew.physics.equations import rheology
+from ballscrew.physics.equations import viscosity_temperature as equations
 
 #: The temperatures of the two viscosities and of the density of a data sheet, K.
 AT_40, AT_100, AT_15 = 313.15, 373.15, 288.15
@@ -70,7 +70,8 @@ class DataSheet(ByValue):
     mineral oils: others lie off it). Data sheets state typical values: an oil may lie 10 % off. The default density is
     that of Jungnickel2010's oils. ``data["name"].lubricant(temperature)`` is the oil at a temperature.
 
-    Raises :class:`~ballscrew.errors.InputError` for values out of bounds, and for an oil that is not thinner at 100 °C.
+    Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds, and for an oil that is not thinner at
+    100 °C.
     """
 
     kinematic_viscosity_40: Annotated[
@@ -110,12 +111,15 @@ class DataSheet(ByValue):
     highest_temperature: Annotated[
         Temperature | None, Info("T_h", "highest temperature that the maker states", "degC", above=0, hint="in kelvin")
     ] = None
+    #: The name of the oil.
     name: str = ""
     #: Where the numbers are from; a key of the bibliography, or words.
     source: str = ""
-    #: Of a grease: its base oil and thickener, and its consistency (NLGI). Empty for an oil.
+    #: Of a grease: its base oil. Empty for an oil.
     base_oil: str = ""
+    #: Of a grease: its thickener. Empty for an oil.
     thickener: str = ""
+    #: Of a grease: its consistency (NLGI). Empty for an oil.
     nlgi: str = ""
 
     def __post_init__(self) -> None:
@@ -133,7 +137,7 @@ class DataSheet(ByValue):
         return bool(self.thickener)
 
     def at(self, temperature: Temperature) -> NominalState:
-        """The numbers at a temperature, K; NaN for elements of an array that no oil is computed at."""
+        """The numbers at a ``temperature``, K; NaN for elements of an array that no oil is computed at."""
         allowed = is_concrete(temperature) or within_bounds(SHEET_TEMPERATURE.info, temperature)
         number_40 = equations.walther_number(self.kinematic_viscosity_40)
         number_100 = equations.walther_number(self.kinematic_viscosity_100)

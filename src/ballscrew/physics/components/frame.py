@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import dataclasses
 
-from ballscrew.components.screw import BallScrew
-from ballscrew.components.traits import law_traits
-from ballscrew.equations import geometry, kinematics
-from ballscrew.quantities import Angle, AngularSpeed, Length, Ratio, Speed
+from ballscrew.basis.quantities import Angle, AngularSpeed, Length, Ratio, Speed
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.components.traits import law_traits
+from ballscrew.physics.equations import geometry, kinematics
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

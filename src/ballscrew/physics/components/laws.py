@@ -1,6 +1,6 @@
 """Laws: the interchangeable pieces of a friction model.
 
-Each slot of :class:`~ballscrew.friction.model.FrictionModel` is a Protocol. A law without coefficients is a
+Each slot of :class:`~ballscrew.physics.friction.model.FrictionModel` is a Protocol. A law without coefficients is a
 plain function, a law with coefficients a frozen dataclass that can be called; anything that fits
 the signature may be plugged in.
 """
@@ -10,15 +10,14 @@ from __future__ import annotations
 import dataclasses
 from typing import Annotated, NamedTuple, Protocol
 
-from ballscrew._arrays import ByValue
-from ballscrew.components.conditions import ContactConditions, HertzShape
-from ballscrew.components.frame import Frame
-from ballscrew.components.old_calls import also_with_arguments_of_0_1
-from ballscrew.components.screw import BallScrew
-from ballscrew.components.traits import law_traits
-from ballscrew.equations import equilibrium, friction, hertz, rolling, transmission
-from ballscrew.errors import faults_of, raise_if_any
-from ballscrew.quantities import Angle, Count, Force, Info, Length, Ratio, Torque
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import faults_of, raise_if_any
+from ballscrew.basis.quantities import Angle, Count, Force, Info, Length, Ratio, Torque
+from ballscrew.physics.components.conditions import ContactConditions, HertzShape
+from ballscrew.physics.components.frame import Frame
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.components.traits import law_traits
+from ballscrew.physics.equations import equilibrium, friction, hertz, rolling, transmission
 
 # -- slots ----------------------------------------------------------------------------------------
 
@@ -185,7 +184,6 @@ class Hysteresis(ByValue):
     def __post_init__(self) -> None:
         raise_if_any(faults_of("model.elastic_resistance", self))
 
-    @also_with_arguments_of_0_1("elastic_resistance")
     def __call__(self, conditions: ContactConditions) -> Torque:
         """Moment about the ball."""
         return rolling.hysteresis_moment(self.loss_factor, conditions.contact_load, conditions.semi_minor_axis)

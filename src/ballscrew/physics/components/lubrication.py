@@ -5,20 +5,22 @@ from __future__ import annotations
 import dataclasses
 from typing import Annotated
 
-from ballscrew._arrays import ByValue, namespace
-from ballscrew.components.conditions import ContactConditions
-from ballscrew.components.laws import InletFactors
-from ballscrew.components.old_calls import also_with_arguments_of_0_1
-from ballscrew.components.traits import law_traits
-from ballscrew.equations import film, rolling
-from ballscrew.errors import faults_of, raise_if_any
-from ballscrew.quantities import Force, Info, Length, Pressure, Ratio
+from ballscrew.basis.arrays import ByValue, namespace
+from ballscrew.basis.errors import faults_of, raise_if_any
+from ballscrew.basis.quantities import Force, Info, Length, Pressure, Ratio
+from ballscrew.physics.components.conditions import ContactConditions
+from ballscrew.physics.components.laws import InletFactors
+from ballscrew.physics.components.traits import law_traits
+from ballscrew.physics.equations import film, rolling
 
 
 @law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
 class HamrockDowson(ByValue):
-    """Minimum film thickness by HamrockDowson1977; the paper prints the exponent as 0.66."""
+    """Minimum film thickness by HamrockDowson1977; the paper prints the exponent as 0.66.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for an exponent out of bounds.
+    """
 
     speed_exponent: Annotated[
         Ratio, Info("m", "exponent of the speed parameter", above=0, below=1, hint="0.68; the paper prints 0.66")
@@ -27,9 +29,8 @@ class HamrockDowson(ByValue):
     def __post_init__(self) -> None:
         raise_if_any(faults_of("model.film", self))
 
-    @also_with_arguments_of_0_1("film")
     def __call__(self, conditions: ContactConditions) -> Length:
-        """Minimum film thickness, m."""
+        """Minimum film thickness at the ``conditions`` of a contact, m."""
         return film.minimum_film_thickness(*_film_groups(conditions), self.speed_exponent)
 
 

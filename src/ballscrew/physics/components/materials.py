@@ -7,14 +7,17 @@ import math
 from collections.abc import Mapping
 from typing import Annotated, Any
 
-from ballscrew._arrays import ByValue, same
-from ballscrew.components.data_sheet import AT_40, AT_100, SHEET_TEMPERATURE, DataSheet, viscosity_index
-from ballscrew.components.oil_grades import TEMPERATURE as TEMPERATURE
-from ballscrew.components.oil_grades import OilState, oil_of_grade, oil_of_sheet
-from ballscrew.components.oil_grades import grades as grades
-from ballscrew.components.oil_grades import nominal_oil as nominal_oil
-from ballscrew.errors import Fault, InputError, accepts_units, faults_of, names_keywords, raise_if_any, without_unit
-from ballscrew.quantities import (
+from ballscrew.basis.arrays import ByValue, same
+from ballscrew.basis.errors import (
+    Fault,
+    InputError,
+    accepts_units,
+    faults_of,
+    names_keywords,
+    raise_if_any,
+    without_unit,
+)
+from ballscrew.basis.quantities import (
     Conductivity,
     Density,
     HeatCapacity,
@@ -29,7 +32,12 @@ from ballscrew.quantities import (
     Viscosity,
     fields_of,
 )
-from ballscrew.usual_ranges import warn_at_once
+from ballscrew.basis.usual_ranges import warn_at_once
+from ballscrew.physics.components.data_sheet import AT_40, AT_100, SHEET_TEMPERATURE, DataSheet, viscosity_index
+from ballscrew.physics.components.oil_grades import TEMPERATURE as TEMPERATURE
+from ballscrew.physics.components.oil_grades import OilState, oil_of_grade, oil_of_sheet
+from ballscrew.physics.components.oil_grades import grades as grades
+from ballscrew.physics.components.oil_grades import nominal_oil as nominal_oil
 
 
 @names_keywords
@@ -39,7 +47,7 @@ class Material(ByValue):
 
     The paper prints no value of its equivalent modulus.
 
-    Raises :class:`~ballscrew.errors.InputError` (a ``ValueError``) for a modulus that is not
+    Raises :class:`~ballscrew.basis.errors.InputError` (a ``ValueError``) for a modulus that is not
     positive or a Poisson's ratio outside [0, 0.5).
     """
 
@@ -79,7 +87,7 @@ class Lubricant(ByValue):
     capacity are not used yet. The defaults are round figures for mineral oils: the density of
     Jungnickel2010; the others are from no source (the reference oil FVA 3 has 0.134 W/(m K),
     Lubricants2023; ISO VG 100 at 40 °C has a temperature coefficient of 0.054 1/K by its constants
-    here, and 0.041 1/K at 60 °C). Raises :class:`~ballscrew.errors.InputError` for
+    here, and 0.041 1/K at 60 °C). Raises :class:`~ballscrew.basis.errors.InputError` for
     values that are not positive.
     """
 
@@ -169,10 +177,10 @@ class Lubricant(ByValue):
         return {"grade": there.grade, **moved}
 
     def at(self, temperature: Temperature) -> Lubricant:
-        """The oil at another temperature in kelvin: what depends on it changes as it does for the sheet or grade.
+        """The oil at another ``temperature`` in kelvin: what depends on it changes as it does for the sheet or grade.
 
         What was changed against it, such as a measured viscosity, keeps its ratio to the nominal one.
-        Raises :class:`~ballscrew.errors.InputError` for an oil that was made from neither, or a number
+        Raises :class:`~ballscrew.basis.errors.InputError` for an oil that was made from neither, or a number
         out of the bounds of :meth:`from_data_sheet` or :meth:`from_grade`; of an array, elements out of them are NaN.
         """
         if not self.follows_temperature:
@@ -206,7 +214,7 @@ class Lubricant(ByValue):
         return viscosity_index(*(oil.viscosity / oil.density for oil in nominal))
 
     def changed(self, values: Mapping[str, Any]) -> Lubricant:
-        """The oil with other values of its own fields, those of its data sheet among them.
+        """The oil with other ``values`` (SI) of its own fields by name, those of its data sheet among them.
 
         The temperature and the sheet come first: a number of the oil that is given, too, counts as it is given.
         """
@@ -219,7 +227,7 @@ class Lubricant(ByValue):
         return dataclasses.replace(moved, **rest) if rest else moved
 
     def value_of(self, name: str) -> Any:
-        """The value of a field of the oil or of its data sheet."""
+        """The value of the field ``name`` of the oil or of its data sheet."""
         return getattr(self._own_sheet if name in INPUTS_OF_SHEET else self, name)
 
     @property
@@ -242,15 +250,17 @@ class Lubricant(ByValue):
         highest_temperature: Temperature | None = None,
         name: str = "",
     ) -> Lubricant:
-        """An oil by the two viscosities of its data sheet (m²/s), at a temperature in kelvin.
+        """An oil by the two viscosities of its data sheet, at a ``temperature`` in kelvin.
 
-        The viscosity is on the line of ASTMD341 through both points, full form; the density (at 15 °C on the sheet, in
-        kg/m³) follows ASTMD1250, the pressure–viscosity coefficient the estimate of Jungnickel2010 for mineral oils.
-        Below the pour point, and outside the range that the maker states, results carry a warning. See
-        :class:`~ballscrew.components.data_sheet.DataSheet`.
+        ``kinematic_viscosity_40`` and ``kinematic_viscosity_100`` are those at 40 °C and 100 °C, m²/s. The viscosity is
+        on the line of ASTMD341 through both points, full form; the density (``density_15``, at 15 °C, in kg/m³) follows
+        ASTMD1250, the pressure–viscosity coefficient the estimate of Jungnickel2010 for mineral oils. Below the
+        ``pour_point`` (K), and outside the range that the maker states (``lowest_temperature`` to
+        ``highest_temperature``, K), results carry a warning. ``name`` is that of the oil. See
+        :class:`~ballscrew.physics.components.data_sheet.DataSheet`.
 
-        Raises :class:`~ballscrew.errors.InputError` for values out of bounds, an oil that is not thinner at 100 °C, and
-        a temperature outside 193.15–473.15 K (-80 to 200 °C).
+        Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds, an oil that is not thinner at 100
+        °C, and a temperature outside 193.15–473.15 K (-80 to 200 °C).
         """
         sheet = DataSheet(
             kinematic_viscosity_40=kinematic_viscosity_40,
@@ -266,9 +276,9 @@ class Lubricant(ByValue):
     @classmethod
     @accepts_units("lubricant")
     def from_sheet(cls, sheet: DataSheet, temperature: Temperature = 313.15) -> Lubricant:
-        """An oil of a data sheet, such as one of ``bs.oils()``, at a temperature in kelvin.
+        """An oil of a data ``sheet``, such as one of ``bs.oils()``, at a ``temperature`` in kelvin.
 
-        Raises :class:`~ballscrew.errors.InputError` for a temperature outside 193.15–473.15 K (-80 to 200 °C).
+        Raises :class:`~ballscrew.basis.errors.InputError` for a temperature outside 193.15–473.15 K (-80 to 200 °C).
         """
         state = oil_of_sheet(sheet, temperature)
         return cls(**{field.name: getattr(state, field.name) for field in dataclasses.fields(state)})
@@ -276,7 +286,7 @@ class Lubricant(ByValue):
     @classmethod
     @accepts_units("lubricant")
     def from_grade(cls, grade: str, temperature: Temperature = 313.15) -> Lubricant:
-        """An oil by its grade (``"ISO VG 100"``, ``"FVA 3"``) at a temperature in kelvin: a shortcut for a usual oil.
+        """An oil by its ``grade`` (``"ISO VG 100"``, ``"FVA 3"``) at a ``temperature`` in K: a shortcut.
 
         With the viscosities of a data sheet take :meth:`from_data_sheet`: far below 0 °C the two laws differ by
         a factor of two and more (ISO VG 100 at -20 °C: 35800 mm²/s here, 18900 mm²/s through 100 and 11.1 mm²/s).
@@ -285,7 +295,7 @@ class Lubricant(ByValue):
         FVA 3 it is measured (Lubricants2023). A real oil of a grade may lie 10 % off its nominal
         viscosity at 40 °C, and further off elsewhere (its viscosity index is not known here).
 
-        Raises :class:`~ballscrew.errors.InputError` for an unknown grade or a temperature
+        Raises :class:`~ballscrew.basis.errors.InputError` for an unknown grade or a temperature
         outside 253.15–423.15 K (-20 to 150 °C).
         """
         state = oil_of_grade(grade, temperature)

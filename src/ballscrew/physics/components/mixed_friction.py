@@ -5,13 +5,12 @@ from __future__ import annotations
 import dataclasses
 from typing import Annotated
 
-from ballscrew._arrays import ByValue, namespace
-from ballscrew.components.conditions import ContactConditions
-from ballscrew.components.old_calls import also_with_arguments_of_0_1
-from ballscrew.components.traits import law_traits
-from ballscrew.equations import friction, mixed_lubrication, rheology, traction
-from ballscrew.errors import faults_of, raise_if_any
-from ballscrew.quantities import ArealDensity, Info, Length, Pressure, Ratio, ShearRate, Viscosity
+from ballscrew.basis.arrays import ByValue, namespace
+from ballscrew.basis.errors import faults_of, raise_if_any
+from ballscrew.basis.quantities import ArealDensity, Info, Length, Pressure, Ratio, ShearRate, Viscosity
+from ballscrew.physics.components.conditions import ContactConditions
+from ballscrew.physics.components.traits import law_traits
+from ballscrew.physics.equations import friction, mixed_lubrication, rheology, traction
 
 Boundary = Annotated[
     Ratio,
@@ -39,6 +38,7 @@ class ZhouHoeprich(ByValue):
     After ZhouHoeprich1991. With the paper's coefficients the full-film value is reached at a film
     parameter of 1.83, not at 2.5 to 3 as its text says. The decay and its exponent belong to the
     surfaces; other published pairs are (2.32, 0.97), (1.90, 0.99) and (2.1, 0.85).
+    Raises :class:`~ballscrew.basis.errors.InputError` for coefficients out of bounds.
     """
 
     boundary_friction_coefficient: Boundary = 0.2
@@ -49,9 +49,8 @@ class ZhouHoeprich(ByValue):
     def __post_init__(self) -> None:
         raise_if_any(faults_of("model.friction", self))
 
-    @also_with_arguments_of_0_1("friction")
     def __call__(self, conditions: ContactConditions) -> Ratio:
-        """Friction coefficient."""
+        """Friction coefficient at the ``conditions`` of a contact."""
         mu_a = friction.asperity_friction_coefficient(
             conditions.film_parameter, self.boundary_friction_coefficient, self.decay, self.exponent
         )
@@ -82,7 +81,6 @@ class LoadSharing(ByValue):
     def __post_init__(self) -> None:
         raise_if_any(faults_of("model.friction", self))
 
-    @also_with_arguments_of_0_1("friction")
     def __call__(self, conditions: ContactConditions) -> Ratio:
         """Friction coefficient."""
         share = mixed_lubrication.asperity_load_share_zhou_hoeprich(
@@ -158,7 +156,6 @@ class BalanSharing(ByValue):
     def __post_init__(self) -> None:
         raise_if_any(faults_of("model.friction", self))
 
-    @also_with_arguments_of_0_1("friction")
     def __call__(self, conditions: ContactConditions) -> Ratio:
         """Friction coefficient."""
         # no share is left beyond 2, and an infinite film, without load, would be infinity over infinity
@@ -193,7 +190,6 @@ class GreenwoodTrippSharing(ByValue):
     def __post_init__(self) -> None:
         raise_if_any(faults_of("model.friction", self))
 
-    @also_with_arguments_of_0_1("friction")
     def __call__(self, conditions: ContactConditions) -> Ratio:
         """Friction coefficient."""
         pressure, most = (

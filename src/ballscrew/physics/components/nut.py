@@ -8,8 +8,8 @@ from typing import Annotated, Any, NamedTuple, Protocol, TypeAlias, cast
 
 import numpy as np
 
-from ballscrew._arrays import ByValue
-from ballscrew.errors import (
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import (
     MISSING,
     Fault,
     InputError,
@@ -19,8 +19,8 @@ from ballscrew.errors import (
     names_keywords,
     raise_if_any,
 )
-from ballscrew.quantities import Count, Force, Info, Length, Torque, fields_of
-from ballscrew.usual_ranges import warn_at_once
+from ballscrew.basis.quantities import Count, Force, Info, Length, Torque, fields_of
+from ballscrew.basis.usual_ranges import warn_at_once
 
 #: Of a preload. The smallest screws on sale, of 4 mm, are rated at some 300 N: 5 N is the least of their 2 to 10 %.
 PRELOAD = Info(
@@ -61,7 +61,7 @@ class Bodies(ByValue):
     """The bodies of screw and nut between the balls: bars, and tubes that swell, and where the load enters them.
 
     A diameter that is not given has the usual size for the screw (:meth:`sized`).
-    Raises :class:`~ballscrew.errors.InputError` for diameters that are not positive or do not fit.
+    Raises :class:`~ballscrew.basis.errors.InputError` for diameters that are not positive or do not fit.
     """
 
     screw_diameter: Annotated[
@@ -93,13 +93,16 @@ class Bodies(ByValue):
 
     @classmethod
     def of(cls, screw: _Sized, *, same_side: bool = True) -> Bodies:
-        """Bodies of a usual size: the core of the screw, and a nut one and a half pitch circles wide."""
+        """Bodies of a usual size for ``screw``: its core, and a nut one and a half pitch circles wide.
+
+        ``same_side`` is the field of that name. Raises :class:`~ballscrew.basis.errors.InputError` as :meth:`sized`.
+        """
         return cls(same_side=same_side).sized(screw)
 
     def sized(self, screw: _Sized) -> Bodies:
-        """These bodies with the usual sizes for a screw where none is given.
+        """These bodies with the usual sizes for ``screw`` where none is given.
 
-        Raises :class:`~ballscrew.errors.InputError` for a nut that swells and has no wall around its balls.
+        Raises :class:`~ballscrew.basis.errors.InputError` for a nut that swells and has no wall around its balls.
         """
         d_m, d_w = screw.pitch_circle_diameter, screw.ball_diameter
         usual = {
@@ -118,7 +121,8 @@ class Bodies(ByValue):
 class Deviations(NamedTuple):
     """Deviations of each ball and of the lead at its place from the nominal ones, the ball axis last.
 
-    Of a double nut both halves in a row, the one that carries the load first.
+    ``ball_diameter`` and ``lead`` are arrays in m, or one number for all balls. Of a double nut both halves in a row,
+    the one that carries the load first.
     """
 
     ball_diameter: Length = 0.0
@@ -127,7 +131,11 @@ class Deviations(NamedTuple):
     @classmethod
     @accepts_units("deviations")
     def scattered(cls, balls: int, *, seed: int, ball_diameter: Length = 0.0, lead: Length = 0.0) -> Deviations:
-        """Normal scatter with these standard deviations; the same seed gives the same balls."""
+        """Normal scatter of so many ``balls``; the same ``seed`` gives the same balls.
+
+        ``ball_diameter`` and ``lead`` are standard deviations, m. Raises :class:`~ballscrew.basis.errors.InputError`
+        for a unit that is none of a length.
+        """
         generator = np.random.default_rng(seed)
         return cls(ball_diameter * generator.standard_normal(balls), lead * generator.standard_normal(balls))
 
@@ -137,7 +145,7 @@ class Deviations(NamedTuple):
 class Scatter(ByValue):
     """Scatter of balls and lead as standard deviations; one seed gives the same balls every time.
 
-    Raises :class:`~ballscrew.errors.InputError` for negative numbers.
+    Raises :class:`~ballscrew.basis.errors.InputError` for negative numbers.
     """
 
     ball_diameter: Annotated[
@@ -170,7 +178,7 @@ class Scatter(ByValue):
         raise_if_any(faults_of("deviations", self))
 
     def of(self, balls: int) -> Deviations:
-        """The deviations of so many balls."""
+        """The deviations of so many ``balls``."""
         return Deviations.scattered(balls, seed=int(self.seed), ball_diameter=self.ball_diameter, lead=self.lead)
 
 
@@ -179,12 +187,14 @@ class NutParts(ByValue):
     """What every nut may have besides its balls and its preload.
 
     Without bodies, screw and nut are rigid between the balls. Losses are laws of torque besides the balls by name, as
-    ``{"seals": Seals(seal_torque=0.2)}`` (:mod:`ballscrew.components.nut_losses`).
+    ``{"seals": Seals(seal_torque=0.2)}`` (:mod:`ballscrew.physics.components.nut_losses`).
     """
 
+    #: Screw and nut between the balls; without them both are rigid there.
     bodies: Bodies | None = None
     #: Deviations of each ball, or their scatter.
     deviations: Deviations | Scatter | None = None
+    #: Laws of torque besides the balls, N m, by name.
     losses: Mapping[str, Callable[..., Torque]] = dataclasses.field(default_factory=dict[str, Callable[..., Torque]])
     #: Whether every second ball is a spacer: smaller than the others, so that it parts them and carries nothing.
     spacer_balls: bool = False
@@ -215,12 +225,12 @@ class NutParts(ByValue):
         return {section: part for section, part in found.items() if part is not None}
 
     def value_of(self, name: str) -> Any:
-        """The value of an input: ``preload``, ``nut.preload``, or ``losses.seals.seal_torque`` of what it loses."""
+        """The value of an input by ``name``: ``preload``, ``nut.preload``, or ``losses.seals.seal_torque``."""
         section, _, field = name.rpartition(".")
         return getattr(self.losses[section.removeprefix("losses.")] if section not in ("", "nut") else self, field)
 
     def changed(self, name: str, value: Any) -> Nut:
-        """The nut with another value of an input, named as in :meth:`value_of`."""
+        """The nut with another ``value`` (SI) of an input, whose ``name`` is as in :meth:`value_of`."""
         section, _, field = name.rpartition(".")
         if section in ("", "nut"):
             return self._with(field, value)
@@ -235,7 +245,7 @@ class NutParts(ByValue):
         return cast("Nut", self)
 
     def deviations_of(self, balls: Any) -> Deviations | None:
-        """The deviations of each ball of a nut of which so many carry load in each half."""
+        """The deviations of each ball of a nut of which so many ``balls`` carry load in each half."""
         if not isinstance(self.deviations, Scatter):
             return self.deviations
         if not is_concrete(balls):
@@ -250,7 +260,7 @@ class SingleNut(NutParts):
 
     Rigid, and with balls alike, it is the row of equal balls of Olaru2005 at the nominal contact angle; with
     ``angle_under_load`` the angle follows the load there too, as it always does where balls differ or are preloaded.
-    Raises :class:`~ballscrew.errors.InputError` for a negative play.
+    Raises :class:`~ballscrew.basis.errors.InputError` for a negative play.
     """
 
     axial_play: Annotated[
@@ -277,7 +287,7 @@ class OversizeBallNut(NutParts):
     The preload is the axial force that each flank would carry by itself: that of the balls on one
     flank of the nut, which those on the other hold. Instead of it, the ``oversize`` of the balls against their
     grooves can be given.
-    Raises :class:`~ballscrew.errors.InputError` for a negative preload or oversize, and for both or none of them.
+    Raises :class:`~ballscrew.basis.errors.InputError` for a negative preload or oversize, and for both or none of them.
     """
 
     preload: Annotated[Force | None, PRELOAD] = None
@@ -313,7 +323,7 @@ class DoubleNut(NutParts):
     """Two nut bodies braced against each other: the balls of each touch one flank, opposite to the other's.
 
     The loaded balls of the screw are those of one body; the other has as many.
-    Raises :class:`~ballscrew.errors.InputError` for a negative preload or spacing.
+    Raises :class:`~ballscrew.basis.errors.InputError` for a negative preload or spacing.
     """
 
     preload: Preload
@@ -331,7 +341,7 @@ class OffsetLeadNut(NutParts):
     """One nut body whose lead has an offset in its middle, which braces the balls before and behind it.
 
     It works like a :class:`DoubleNut`; the loaded balls of the screw are those of one half.
-    Raises :class:`~ballscrew.errors.InputError` for a negative preload or spacing.
+    Raises :class:`~ballscrew.basis.errors.InputError` for a negative preload or spacing.
     """
 
     preload: Preload

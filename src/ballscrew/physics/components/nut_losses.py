@@ -15,13 +15,13 @@ import tomllib
 from importlib import resources
 from typing import Annotated, NamedTuple, Protocol
 
-from ballscrew._arrays import ByValue
-from ballscrew.components.frame import helix_frame
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.screw import BallScrew
-from ballscrew.equations import geometry, kinematics, parasitic, preload, transmission
-from ballscrew.errors import Fault, InputError, accepts_units, faults_of, raise_if_any
-from ballscrew.quantities import AngularSpeed, Count, Force, Info, Length, Ratio, Speed, Torque
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import Fault, InputError, accepts_units, faults_of, raise_if_any
+from ballscrew.basis.quantities import AngularSpeed, Count, Force, Info, Length, Ratio, Speed, Torque
+from ballscrew.physics.components.frame import helix_frame
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.equations import geometry, kinematics, parasitic, preload, transmission
 
 #: Coefficients behind the no-load torques of Rexroth2006: their middle meets the tables within their digits.
 DOUBLE_NUT_DRAG = 0.0040
@@ -146,7 +146,10 @@ def seal_table() -> tuple[SealRow, ...]:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Seals(ByValue):
-    """Seals whose torque is known: measured, or a vendor's."""
+    """Seals whose torque is known: measured, or a vendor's.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for a negative torque.
+    """
 
     seal_torque: Annotated[
         Torque,
@@ -165,9 +168,10 @@ class Seals(ByValue):
     @classmethod
     @accepts_units("losses.seals")
     def of_table(cls, nominal_diameter: Length, lead: Length) -> Seals:
-        """The two standard seals of Rexroth2006, by nominal diameter and lead.
+        """The two standard seals of Rexroth2006, by ``nominal_diameter`` and ``lead``, m.
 
-        Raises :class:`~ballscrew.errors.InputError` with the nearest row for a screw that the table does not have.
+        Raises :class:`~ballscrew.basis.errors.InputError` with the nearest row for a screw that the table does not
+        have.
         """
         found = min(seal_table(), key=lambda row: row.distance(nominal_diameter, lead))
         if not all(distance <= SAME_SIZE for distance in found.distance(nominal_diameter, lead)):
@@ -176,7 +180,7 @@ class Seals(ByValue):
         return cls(seal_torque=found.torque)
 
     def __call__(self, screw: BallScrew, lubricant: Lubricant, screw_speed: AngularSpeed) -> Torque:
-        """Torque of the seals, N m; the same at any speed."""
+        """Torque of the seals, N m; the same for any ``screw`` and ``lubricant``, and at any ``screw_speed``."""
         return self.seal_torque
 
 

@@ -11,11 +11,9 @@ from collections.abc import Iterable
 from importlib import resources
 from typing import Any
 
-from ballscrew._arrays import namespace
-from ballscrew.components.data_sheet import ROUNDING, SHEET_TEMPERATURE, DataSheet
-from ballscrew.equations import rheology
-from ballscrew.errors import Fault, InputError, fault_of, is_concrete, nearest
-from ballscrew.quantities import (
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.errors import Fault, InputError, fault_of, is_concrete, nearest
+from ballscrew.basis.quantities import (
     Density,
     Info,
     PressureCoefficient,
@@ -25,6 +23,8 @@ from ballscrew.quantities import (
     Viscosity,
     within_bounds,
 )
+from ballscrew.physics.components.data_sheet import ROUNDING, SHEET_TEMPERATURE, DataSheet
+from ballscrew.physics.equations import rheology
 
 
 @dataclasses.dataclass(frozen=True)

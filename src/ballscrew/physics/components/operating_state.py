@@ -5,9 +5,9 @@ from __future__ import annotations
 import dataclasses
 from typing import Annotated
 
-from ballscrew._arrays import ByValue, where
-from ballscrew.errors import faults_of, names_keywords, raise_if_any
-from ballscrew.quantities import AngularSpeed, Array, Force, Info, Temperature
+from ballscrew.basis.arrays import ByValue, where
+from ballscrew.basis.errors import faults_of, names_keywords, raise_if_any
+from ballscrew.basis.quantities import AngularSpeed, Array, Force, Info, Temperature
 
 #: A load (N) or a speed (rad/s) nearer to zero than this is none to the formulas. A speed that decays to rest passes
 #: numbers whose reciprocals and powers leave the range of numbers of 64 bits; those of what is farther away do not.
@@ -20,7 +20,7 @@ class OperatingState(ByValue):
     """Operating state: axial load and speed of the screw with their signs, and the temperature of the oil.
 
     A positive load is one that a positive speed lifts. Zero load and zero speed are legal and give limits; without a
-    temperature the oil has its own. Any of them may be an array. Raises :class:`~ballscrew.errors.InputError` for
+    temperature the oil has its own. Any of them may be an array. Raises :class:`~ballscrew.basis.errors.InputError` for
     non-finite numbers.
     """
 

@@ -11,11 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.components.conditions import HertzShape
-from ballscrew.components.frame import Frame
-from ballscrew.components.laws import BallChain, InletFactors, RaceTorques
-from ballscrew.components.old_calls import of_conditions
-from ballscrew.errors import Fault, InputError
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.physics.components.conditions import HertzShape
+from ballscrew.physics.components.frame import Frame
+from ballscrew.physics.components.laws import BallChain, InletFactors, RaceTorques
 
 #: What the law of a slot returns, where it is not one quantity.
 _RETURNS: Mapping[str, type] = {
@@ -25,7 +24,6 @@ _RETURNS: Mapping[str, type] = {
     "ball_chain": BallChain,
     "race_torques": RaceTorques,
 }
-_EQUATIONS = "ballscrew.equations."
 _CONTAINERS = (str, bytes, list, tuple, dict, set)
 
 
@@ -41,25 +39,21 @@ def name_of(law: Any) -> str:
 
 
 def usable(slot: str, law: Any, returns: type | None = None) -> Any:
-    """The law itself, or around one from outside a law that takes the conditions and checks what it returns."""
-    if is_own(law):
-        # an equation, put into a slot as 0.1 did, still takes the arguments of the slot
-        return of_conditions(slot, law) if (getattr(law, "__module__", None) or "").startswith(_EQUATIONS) else law
-    return _Checked(slot, law, of_conditions(slot, law), returns or _RETURNS.get(slot))
+    """The law itself, or around one from outside a law that checks what it returns."""
+    return law if is_own(law) else _Checked(slot, law, returns or _RETURNS.get(slot))
 
 
 @dataclasses.dataclass(frozen=True, eq=False, slots=True)
 class _Checked:
-    """A law from outside; ``call`` is the law as the model calls it."""
+    """A law from outside."""
 
     slot: str
     law: Any
-    call: Any
     returns: type | None
 
     def __call__(self, *arguments: Any) -> Any:
         try:
-            found = self.call(*arguments)
+            found = self.law(*arguments)
         except Exception as error:  # named and raised again, whatever it is
             error.add_note(f"raised by the law model.{self.slot} = {name_of(self.law)}")
             # an attribute of our own on an error of anybody

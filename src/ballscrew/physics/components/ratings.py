@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.components.nut import PRELOAD
-from ballscrew.equations import geometry, rating
-from ballscrew.errors import shown_in_si
-from ballscrew.quantities import Angle, Count, Force, Info, Length, Quantity, Ratio
-from ballscrew.records import Measured, Message, Record
-from ballscrew.usual_ranges import IMPLAUSIBLE
+from ballscrew.basis.errors import shown_in_si
+from ballscrew.basis.quantities import Angle, Count, Force, Info, Length, Quantity, Ratio
+from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.usual_ranges import IMPLAUSIBLE
+from ballscrew.physics.components.nut import PRELOAD
+from ballscrew.physics.equations import geometry, rating
 
 #: With this conformity the formulas of ISO3408-5 give the ratings of catalogues (HIWIN2016), whose grooves have 0.54.
 RATING_CONFORMITY = 0.52

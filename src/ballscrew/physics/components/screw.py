@@ -6,14 +6,14 @@ import dataclasses
 import math
 from typing import Annotated, Any, cast
 
-from ballscrew._arrays import ByValue, namespace
-from ballscrew.components.materials import Material
-from ballscrew.components.nut import Nut, NutParts, SingleNut
-from ballscrew.components.ratings import odd_preload
-from ballscrew.equations import geometry, hertz
-from ballscrew.errors import Fault, faults_of, is_concrete, names_keywords, raise_if_any, shown
-from ballscrew.quantities import Angle, Count, Info, Length, Mask, Pressure, Ratio
-from ballscrew.usual_ranges import warn_at_once
+from ballscrew.basis.arrays import ByValue, namespace
+from ballscrew.basis.errors import Fault, faults_of, is_concrete, names_keywords, raise_if_any, shown
+from ballscrew.basis.quantities import Angle, Count, Info, Length, Mask, Pressure, Ratio
+from ballscrew.basis.usual_ranges import warn_at_once
+from ballscrew.physics.components.materials import Material
+from ballscrew.physics.components.nut import Nut, NutParts, SingleNut
+from ballscrew.physics.components.ratings import odd_preload
+from ballscrew.physics.equations import geometry, hertz
 
 STEEL = Material()
 SINGLE_NUT = SingleNut()
@@ -37,7 +37,7 @@ class BallScrew(ByValue):
 
     Without a ``nut`` it has a single one without preload, rigid: a row of equal balls, each of which touches one flank
     of screw and nut. Of a double nut the loaded balls are those of one half.
-    Raises :class:`~ballscrew.errors.InputError` (a ``ValueError``) with one fault for each value
+    Raises :class:`~ballscrew.basis.errors.InputError` (a ``ValueError``) with one fault for each value
     out of bounds, and for a ball too big for the pitch circle or for the lead.
     """
 
@@ -144,8 +144,11 @@ class BallScrew(ByValue):
             "N", "number of thread starts", at_least=1, whole=True, hint="give a whole number, 1 or more", usual=(1, 12)
         ),
     ] = 1
+    #: Elastic constants of the balls.
     ball_material: Material = STEEL
+    #: Elastic constants of the screw.
     screw_material: Material = STEEL
+    #: Elastic constants of the nut.
     nut_material: Material = STEEL
     nut: Nut = SINGLE_NUT
 
@@ -253,6 +256,6 @@ class BallScrew(ByValue):
         return Raceway(self.nut_conformity, self.nut_roughness, self.nut_material)
 
     def equivalent_modulus(self, raceway: Raceway) -> Pressure:
-        """Equivalent modulus of ball and race, Pa."""
+        """Equivalent modulus of ball and race, Pa; ``raceway`` is the groove of the screw or of the nut."""
         ball, race = self.ball_material, raceway.material
         return hertz.equivalent_modulus(ball.young_modulus, ball.poisson_ratio, race.young_modulus, race.poisson_ratio)

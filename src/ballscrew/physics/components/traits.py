@@ -30,7 +30,7 @@ class LawTraits:
     #: knows no arrays but NumPy's.
     recordable: bool = True
     #: Of a slip law: the numbers of contacts a ball may have. With four, over the whole ellipse, the balance is that of
-    #: :mod:`ballscrew.solvers.four_point_slip`.
+    #: :mod:`ballscrew.physics.solvers.four_point_slip`.
     contacts_per_ball: frozenset[int] = _TWO
     #: Of a slip law: curvature is the only slip, so that an offset of the lines of pure rolling means something.
     curvature_alone: bool = False

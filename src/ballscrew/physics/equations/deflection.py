@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ballscrew._arrays import namespace
-from ballscrew.quantities import Angle, Force, Length, LoadDeflection, Pressure, Ratio
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import Angle, Force, Length, LoadDeflection, Pressure, Ratio
 
 
 def groove_centre_distance(screw_conformity: Ratio, nut_conformity: Ratio, ball_diameter: Length) -> Length:
@@ -68,7 +68,7 @@ def contact_load_deflection(
 
     .. math:: K = E \sqrt{R_x} \, c_d^{-3/2}
 
-    Johnson1985 §4.2; the coefficient is that of :func:`~ballscrew.equations.hertz.mutual_approach`.
+    Johnson1985 §4.2; the coefficient is that of :func:`~ballscrew.physics.equations.hertz.mutual_approach`.
     """
     c_d, E, R_x = approach_coefficient, equivalent_modulus, rolling_radius
     xp = namespace(c_d, E, R_x)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ballscrew.quantities import AngularSpeed, Force, Power, Speed, Torque
+from ballscrew.basis.quantities import AngularSpeed, Force, Power, Speed, Torque
 
 
 def hydrodynamic_rolling_power(

@@ -7,8 +7,8 @@ elastic moments of both contacts.
 
 from __future__ import annotations
 
-from ballscrew._arrays import namespace
-from ballscrew.quantities import Angle, Count, Force, Length, Ratio, Torque
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import Angle, Count, Force, Length, Ratio, Torque
 
 
 def screw_sliding_force(

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ballscrew._arrays import namespace
-from ballscrew.quantities import Angle, Length, Ratio
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import Angle, Length, Ratio
 
 
 def lead_angle(lead: Length, pitch_circle_diameter: Length) -> Angle:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ballscrew._arrays import namespace
-from ballscrew.quantities import (
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import (
     Angle,
     AngularSpeed,
     Conductance,

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ballscrew._arrays import namespace
-from ballscrew.quantities import Length, Pressure, Ratio, Stiffness
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import Length, Pressure, Ratio, Stiffness
 
 #: Steps of the arithmetic–geometric mean: full double precision for 1e-4 < ellipticity < 1e4.
 AGM_STEPS = 7

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ballscrew._arrays import namespace
-from ballscrew.quantities import Angle, AngularSpeed, Length, Ratio, Speed
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import Angle, AngularSpeed, Length, Ratio, Speed
 
 
 def entrainment_speed(screw_speed: AngularSpeed, path_radius: Length, curvature_ratio: Ratio) -> Speed:

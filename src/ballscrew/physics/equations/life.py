@@ -5,8 +5,8 @@ The formulas of ISO3408-5 are as recalled: the standard itself was not read.
 
 from __future__ import annotations
 
-from ballscrew._arrays import namespace
-from ballscrew.quantities import AngularSpeed, Duration, Force, Ratio
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import AngularSpeed, Duration, Force, Ratio
 
 
 def basic_life(dynamic_load_rating: Force, axial_load: Force) -> Ratio:

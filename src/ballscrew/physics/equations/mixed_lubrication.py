@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ballscrew._arrays import namespace
-from ballscrew.quantities import ArealDensity, Length, Pressure, Ratio
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import ArealDensity, Length, Pressure, Ratio
 
 
 def asperity_load_share_zhou_hoeprich(film_parameter: Ratio, decay: Ratio, exponent: Ratio) -> Ratio:

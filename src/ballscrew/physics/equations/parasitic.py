@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from ballscrew._arrays import namespace
-from ballscrew.quantities import Array, Count, Density, Force, Length, Ratio, Speed, Torque, Unit, Viscosity
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import Array, Count, Density, Force, Length, Ratio, Speed, Torque, Unit, Viscosity
 
 LineForce = Annotated[Array, Unit("N/m")]
 

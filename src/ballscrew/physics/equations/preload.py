@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ballscrew._arrays import namespace
-from ballscrew.quantities import Angle, Force, Length, Ratio, Torque
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import Angle, Force, Length, Ratio, Torque
 
 
 def preload_torque(preload_torque_coefficient: Ratio, preload: Force, lead: Length) -> Torque:
@@ -73,7 +73,8 @@ def backward_half_load(preload: Force, relative_displacement: Ratio) -> Force:
 
     .. math:: F_b = F_{pr} \left(\max\left(1 - x, 0\right)\right)^{3/2}
 
-    As :func:`forward_half_load`; zero from a displacement of one on, where the half lifts off.
+    As :func:`forward_half_load`; zero from a displacement of one on, where the half lifts off. The same is left of a
+    preload whose approach heat takes, by so much in units of it.
     """
     F_pr, x = preload, relative_displacement
     xp = namespace(F_pr, x)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ballscrew._arrays import namespace
-from ballscrew.quantities import Angle, Length, Pressure, Ratio, RotationalStiffness, Stiffness
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import Angle, Length, Pressure, Ratio, RotationalStiffness, Stiffness
 
 
 def shear_modulus(young_modulus: Pressure, poisson_ratio: Ratio) -> Pressure:

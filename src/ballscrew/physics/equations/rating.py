@@ -8,8 +8,8 @@ The numbers hold for hardened bearing steel.
 
 from __future__ import annotations
 
-from ballscrew._arrays import namespace
-from ballscrew.quantities import Angle, Count, Force, Length, Pressure, Ratio
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import Angle, Count, Force, Length, Pressure, Ratio
 
 
 def contact_angle_factor(contact_angle: Angle) -> Ratio:
@@ -81,7 +81,7 @@ def turn_rating(screw_turn_rating: Force, turn_rating_ratio: Ratio) -> Force:
 
     .. math:: C_i = \frac{C_s}{\left(1 + q^{10/3}\right)^{0.3}}
 
-    ISO3408-5, as recalled: two lives with the exponents of :func:`~ballscrew.equations.life.combined_life`.
+    ISO3408-5, as recalled: two lives with the exponents of :func:`~ballscrew.physics.equations.life.combined_life`.
     """
     C_s, q = screw_turn_rating, turn_rating_ratio
     return C_s / (1 + q ** (10 / 3)) ** 0.3

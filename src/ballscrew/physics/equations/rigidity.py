@@ -7,8 +7,8 @@ sums and the shaft; Steinmeyer2019 says in words what R_b/t, R_nu and R_nu,ar ar
 
 from __future__ import annotations
 
-from ballscrew._arrays import namespace
-from ballscrew.quantities import Angle, Force, Length, Pressure, PressureCoefficient, Ratio, Stiffness
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import Angle, Force, Length, Pressure, PressureCoefficient, Ratio, Stiffness
 
 
 def shaft_force_diameter(pitch_circle_diameter: Length, ball_diameter: Length, contact_angle: Angle) -> Length:

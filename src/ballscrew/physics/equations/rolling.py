@@ -2,8 +2,17 @@
 
 from __future__ import annotations
 
-from ballscrew._arrays import namespace
-from ballscrew.quantities import Force, KinematicViscosity, Length, Pressure, PressureCoefficient, Ratio, Speed, Torque
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import (
+    Force,
+    KinematicViscosity,
+    Length,
+    Pressure,
+    PressureCoefficient,
+    Ratio,
+    Speed,
+    Torque,
+)
 
 #: Takes the place of a zero below a fraction: at rest and without load a share, 0/0, becomes zero.
 SMALLEST = 1e-300

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ballscrew._arrays import namespace
-from ballscrew.quantities import AngularSpeed, Density, DiameterSpeed, Force, Length, Pressure, Ratio
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import AngularSpeed, Density, DiameterSpeed, Force, Length, Pressure, Ratio
 
 
 def shaft_stress(axial_load: Force, root_diameter: Length) -> Pressure:

@@ -11,8 +11,8 @@ changes sign at two heights or at one. Over the *ellipse* with D, it is summed o
 
 from __future__ import annotations
 
-from ballscrew._arrays import namespace
-from ballscrew.quantities import AngularSpeed, Force, Length, Ratio, Speed, Torque
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import AngularSpeed, Force, Length, Ratio, Speed, Torque
 
 
 def curvature_slip_speed(semi_major_axis: Length, deformed_radius: Length, contact_rotation: AngularSpeed) -> Speed:
@@ -48,7 +48,7 @@ def half_distance_of_lines(spin_parameter: Ratio, traction_ratio: Ratio) -> Rati
         \sin\left(\frac{1}{3} \arcsin\left(\frac{1 - T}{2 \left(1 - E_s^2/4\right)^{3/2}}\right)\right)
 
     With :math:`E_s = \beta/C` and the net force T in units of friction times load; zero spin gives
-    the Y of Olaru2005 §2.2 (17), see :func:`~ballscrew.equations.friction.offset_from_traction`.
+    the Y of Olaru2005 §2.2 (17), see :func:`~ballscrew.physics.equations.friction.offset_from_traction`.
     Holds while both lines lie in the ellipse and the argument of the arcsine within 1; else
     :func:`single_line`. After Houpert2002, solved in closed form here.
     """

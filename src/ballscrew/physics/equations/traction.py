@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ballscrew._arrays import namespace
-from ballscrew.quantities import Length, Pressure, Ratio, ShearRate, Speed, Viscosity
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import Length, Pressure, Ratio, ShearRate, Speed, Viscosity
 
 
 def film_shear_rate(sliding_speed: Speed, central_film_thickness: Length) -> ShearRate:

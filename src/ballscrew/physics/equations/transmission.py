@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ballscrew._arrays import namespace
-from ballscrew.quantities import Angle, Count, Force, Length, Ratio, Torque
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import Angle, Count, Force, Length, Ratio, Torque
 
 
 def contact_load(axial_load: Force, loaded_balls: Count, contact_angle: Angle, lead_angle: Angle) -> Force:

@@ -8,19 +8,19 @@ from typing import Annotated, Any, Protocol
 
 import numpy as np
 
-from ballscrew._arrays import lazy
-from ballscrew.components.balance import Resistances, ball_forces
-from ballscrew.components.conditions import Motion
-from ballscrew.components.contact import Contact, ContactLaws, RaceState, rolling_contact
-from ballscrew.components.frame import Frame
-from ballscrew.components.laws import BallChain, RaceTorqueLaw
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.screw import BallScrew
-from ballscrew.components.traits import traits_of
-from ballscrew.equations import dissipation, equilibrium, geometry, kinematics
-from ballscrew.equations.rolling import nut_pressure_force, screw_pressure_force
-from ballscrew.quantities import AngularSpeed, Force, Info, Length, Mask, Power, Ratio, Speed, Torque
-from ballscrew.solvers.slip import BallProblem, ContactSlip, Slip
+from ballscrew.basis.arrays import lazy
+from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Mask, Power, Ratio, Speed, Torque
+from ballscrew.physics.components.balance import Resistances, ball_forces
+from ballscrew.physics.components.conditions import Motion
+from ballscrew.physics.components.contact import Contact, ContactLaws, RaceState, rolling_contact
+from ballscrew.physics.components.frame import Frame
+from ballscrew.physics.components.laws import BallChain, RaceTorqueLaw
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.components.traits import traits_of
+from ballscrew.physics.equations import dissipation, equilibrium, geometry, kinematics
+from ballscrew.physics.equations.rolling import nut_pressure_force, screw_pressure_force
+from ballscrew.physics.solvers.slip import BallProblem, ContactSlip, Slip
 
 #: The mechanisms a torque is made of, and what each is called in words.
 MECHANISMS: Mapping[str, str] = {

@@ -7,18 +7,18 @@ from typing import Annotated
 
 import numpy as np
 
-from ballscrew._arrays import lazy, where
-from ballscrew.components.contact import Contact
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.mixed_friction import LoadSharing
-from ballscrew.components.screw import BallScrew, Raceway
-from ballscrew.equations import presliding
-from ballscrew.errors import Fault, accepts_units, raise_if_any
-from ballscrew.friction import directions
-from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.result import FrictionResult
-from ballscrew.quantities import Angle, Force, Info, Length, Mask, Ratio, RotationalStiffness, Stiffness, Torque
-from ballscrew.solvers.load_distribution import BallLoads
+from ballscrew.basis.arrays import lazy, where
+from ballscrew.basis.errors import Fault, accepts_units, raise_if_any
+from ballscrew.basis.quantities import Angle, Force, Info, Length, Mask, Ratio, RotationalStiffness, Stiffness, Torque
+from ballscrew.physics.components.contact import Contact
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.mixed_friction import LoadSharing
+from ballscrew.physics.components.screw import BallScrew, Raceway
+from ballscrew.physics.equations import presliding
+from ballscrew.physics.friction import directions
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.solvers.load_distribution import BallLoads
 
 #: Boundary friction at the start, SKF2018; in motion it has 0.12.
 STATIC_FRICTION_COEFFICIENT = 0.15
@@ -59,7 +59,8 @@ class Breakaway:
     def stiffness(
         self,
     ) -> Annotated[RotationalStiffness, Info(r"k_\theta", "torsional stiffness of the sticking contacts")]:
-        """Stiffness of all sticking contacts against rotation of the screw, :mod:`~ballscrew.equations.presliding`.
+        """Stiffness of all sticking contacts against rotation of the screw,
+        :mod:`~ballscrew.physics.equations.presliding`.
 
         Zero without load.
         """
@@ -105,11 +106,14 @@ def breakaway(
     static_friction_coefficient: Ratio = STATIC_FRICTION_COEFFICIENT,
     loads: BallLoads | None = None,
 ) -> Breakaway:
-    """Friction from rest under an axial load in N, of either sign; arrays are evaluated element by element.
+    """Friction from rest under an axial load: a :class:`Breakaway`.
 
-    All contacts have the static friction coefficient, 0.15 by default (SKF2018 at the start; 0.12 in motion). Grease
-    that has set, seals that stick and a run-in surface may change it. ``loads`` are those of the balls, where they are
-    known. Raises :class:`~ballscrew.errors.InputError` for a coefficient that is not above zero.
+    ``model`` gives the limit at rest of ``screw`` with ``lubricant`` under ``axial_load`` (N, of either sign); arrays
+    are evaluated element by element. All contacts have the ``static_friction_coefficient`` (SKF2018 has 0.15 at the
+    start, 0.12 in motion). Grease that has set, seals that stick and a run-in surface may change it. ``loads`` are
+    those of the balls, where they are known.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for a coefficient that is not above zero.
     """
     if np.any(~(np.asarray(static_friction_coefficient) > 0)):
         given = str(static_friction_coefficient)

@@ -13,12 +13,12 @@ from collections.abc import Mapping, Sequence
 from importlib import resources
 from typing import Any
 
-from ballscrew._arrays import ByValue
-from ballscrew.components.laws import ProportionalBallForce, opposed_neighbours
-from ballscrew.errors import Fault, InputError, nearest
-from ballscrew.friction.law_names import coefficients
-from ballscrew.friction.model import FrictionModel
-from ballscrew.quantities import Ratio
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import Fault, InputError, nearest
+from ballscrew.basis.quantities import Ratio
+from ballscrew.physics.components.laws import ProportionalBallForce, opposed_neighbours
+from ballscrew.physics.friction.law_names import coefficients
+from ballscrew.physics.friction.model import FrictionModel
 
 #: The numbers that a calibration sets, and where they stand in a model.
 PARAMETERS: Mapping[str, str] = {
@@ -76,7 +76,9 @@ def calibrations() -> Mapping[str, Calibration]:
 
 
 def calibration(name: str) -> Calibration:
-    """The calibration of that name. Raises :class:`~ballscrew.errors.InputError` with the nearest if there is none."""
+    """The calibration of that name. Raises :class:`~ballscrew.basis.errors.InputError` with the nearest if there is
+    none.
+    """
     known = calibrations()
     if name not in known:
         raise InputError(Fault("model.calibration", "unknown calibration", name, nearest(name, known)))
@@ -87,8 +89,8 @@ def calibrated(model: FrictionModel, found: Calibration) -> FrictionModel:
     """The model with the numbers that a calibration fitted, and with neighbours that rub as in the fitted model.
 
     In a model whose neighbours brake, the fitted force between balls would brake with all of it, ten times too much.
-    Raises :class:`~ballscrew.errors.InputError` for a model that has no boundary friction, or whose force between the
-    balls is imposed.
+    Raises :class:`~ballscrew.basis.errors.InputError` for a model that has no boundary friction, or whose force
+    between the balls is imposed.
     """
     friction: Any = model.friction
     own = getattr(friction, "boundary_friction_coefficient", found.boundary_friction_coefficient)

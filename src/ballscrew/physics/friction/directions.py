@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from ballscrew._arrays import where
-from ballscrew.equations import transmission
-from ballscrew.quantities import Array, Mask, Ratio, Torque
+from ballscrew.basis.arrays import where
+from ballscrew.basis.quantities import Array, Mask, Ratio, Torque
+from ballscrew.physics.equations import transmission
 
 
 def direction_of(screw_speed: Array) -> Array:

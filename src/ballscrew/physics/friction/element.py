@@ -10,14 +10,14 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Any, Protocol
 
-from ballscrew._arrays import ByValue
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.components.screw import BallScrew
-from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.result import FrictionResult
-from ballscrew.quantities import Array, Mask, Power
-from ballscrew.records import Record
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.quantities import Array, Mask, Power
+from ballscrew.basis.records import Record
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.result import FrictionResult
 
 
 class ElementFriction(Protocol):
@@ -66,6 +66,6 @@ class BallScrewElement(ByValue):
     lubricant: Lubricant
 
     def __call__(self, state: OperatingState, /) -> FrictionResult:
-        """Friction at a state. Raises :class:`~ballscrew.errors.InputError` as the model does."""
+        """Friction at a state. Raises :class:`~ballscrew.basis.errors.InputError` as the model does."""
         given: dict[str, Any] = {"axial_load": state.axial_load, "screw_speed": state.screw_speed}
         return self.model(self.screw, self.lubricant, **given, temperature=state.temperature)

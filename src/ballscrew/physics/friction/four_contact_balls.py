@@ -8,15 +8,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew._arrays import namespace, where
-from ballscrew.components.conditions import Motion
-from ballscrew.components.contact import Contact
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.screw import BallScrew
-from ballscrew.equations import kinematics
-from ballscrew.friction.balls import MECHANISMS, BallFriction, BallModel, ball_contacts, ball_friction
-from ballscrew.quantities import Angle, AngularSpeed, Force, Mask, Power, Ratio, Torque
-from ballscrew.solvers.four_point_slip import FlankPair, FourPointBall, four_point_slip
+from ballscrew.basis.arrays import namespace, where
+from ballscrew.basis.quantities import Angle, AngularSpeed, Force, Mask, Power, Ratio, Torque
+from ballscrew.physics.components.conditions import Motion
+from ballscrew.physics.components.contact import Contact
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.equations import kinematics
+from ballscrew.physics.friction.balls import MECHANISMS, BallFriction, BallModel, ball_contacts, ball_friction
+from ballscrew.physics.solvers.four_point_slip import FlankPair, FourPointBall, four_point_slip
 
 
 class LoadedFlanks(NamedTuple):

@@ -1,7 +1,7 @@
 """Names of laws, as case files and tables have them.
 
 A row here gives a law a name and no more. Whether the uncertainty band counts it as an alternative is declared beside
-the law (:mod:`ballscrew.components.traits`).
+the law (:mod:`ballscrew.physics.components.traits`).
 """
 
 from __future__ import annotations
@@ -10,12 +10,12 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
-from ballscrew.components import frame, laws, lubrication, mixed_friction
-from ballscrew.errors import Fault, nearest
-from ballscrew.quantities import Quantity, fields_of
-from ballscrew.solvers.ellipse_slip import ellipse_slip
-from ballscrew.solvers.line_slip import line_slip
-from ballscrew.solvers.pure_rolling import curvature_slip
+from ballscrew.basis.errors import Fault, nearest
+from ballscrew.basis.quantities import Quantity, fields_of
+from ballscrew.physics.components import frame, laws, lubrication, mixed_friction
+from ballscrew.physics.solvers.ellipse_slip import ellipse_slip
+from ballscrew.physics.solvers.line_slip import line_slip
+from ballscrew.physics.solvers.pure_rolling import curvature_slip
 
 #: The laws of each slot by name: functions, and classes where a law has coefficients.
 LAWS: Mapping[str, Mapping[str, Any]] = {

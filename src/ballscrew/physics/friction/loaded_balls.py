@@ -1,8 +1,9 @@
 """The loaded balls of a nut: each kind of them with its loads, its friction, and how many they are.
 
 The paper sums the torque over equal balls, Olaru2005 §6 (33) and (34); here the terms may differ. Balls of a single or
-a double nut have two contacts, each its own load and contact angle (:mod:`ballscrew.solvers.load_distribution`);
-oversize balls have four (:mod:`ballscrew.friction.four_contact_balls`).
+a double nut have two contacts, each its own load and contact angle
+(:mod:`ballscrew.physics.solvers.load_distribution`); oversize balls have four
+(:mod:`ballscrew.physics.friction.four_contact_balls`).
 """
 
 from __future__ import annotations
@@ -13,16 +14,26 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew._arrays import namespace, where
-from ballscrew.components.contact import Contact
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.operating_state import OperatingState, settled
-from ballscrew.components.screw import SINGLE_NUT, BallScrew
-from ballscrew.friction.balls import BallFriction, BallModel, IdleBallFriction, ball_friction, idle_ball_friction
-from ballscrew.friction.four_contact_balls import FourContactFriction, four_contact_friction, two_contact_friction
-from ballscrew.friction.validity import contact_masks, no_skid, slip_masks
-from ballscrew.quantities import Angle, Count, Force, Mask, Pressure, Ratio
-from ballscrew.solvers.load_distribution import BallLoads, KindLoads, ball_loads
+from ballscrew.basis.arrays import namespace, where
+from ballscrew.basis.quantities import Angle, Count, Force, Mask, Pressure, Ratio
+from ballscrew.physics.components.contact import Contact
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.operating_state import OperatingState, settled
+from ballscrew.physics.components.screw import SINGLE_NUT, BallScrew
+from ballscrew.physics.friction.balls import (
+    BallFriction,
+    BallModel,
+    IdleBallFriction,
+    ball_friction,
+    idle_ball_friction,
+)
+from ballscrew.physics.friction.four_contact_balls import (
+    FourContactFriction,
+    four_contact_friction,
+    two_contact_friction,
+)
+from ballscrew.physics.friction.validity import contact_masks, no_skid, slip_masks
+from ballscrew.physics.solvers.load_distribution import BallLoads, KindLoads, ball_loads
 
 #: A load at which the friction of lifted balls is computed, N, to have a derivative; its value is not used.
 ANY_LOAD = 1.0
@@ -124,7 +135,9 @@ class _OfABall:
 
 
 def loads_of(screw: BallScrew, axial_load: Force, *, compiled: bool = False) -> BallLoads:
-    """The loads of the balls of a screw with its nut. Raises :class:`~ballscrew.errors.InputError` as the solver."""
+    """The loads of the balls of a screw with its nut. Raises :class:`~ballscrew.basis.errors.InputError` as the
+    solver.
+    """
     nut = screw.nut
     bodies = None if nut.bodies is None else nut.bodies.sized(screw)
     deviations = nut.deviations_of(screw.carrying_balls)

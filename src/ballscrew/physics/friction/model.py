@@ -10,10 +10,13 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from ballscrew._arrays import ByValue, as_array, lazy, same
-from ballscrew.components.contact import ContactLaws
-from ballscrew.components.frame import bearing_frame, helix_frame
-from ballscrew.components.laws import (
+from ballscrew.basis.arrays import ByValue, as_array, lazy, same
+from ballscrew.basis.errors import Fault, accepts_units, faults_of, names_keywords, raise_if_any
+from ballscrew.basis.overflow import overflow_as_input_error
+from ballscrew.basis.quantities import AngularSpeed, Force, Info, Ratio, Temperature, fields_of
+from ballscrew.physics.components.contact import ContactLaws
+from ballscrew.physics.components.frame import bearing_frame, helix_frame
+from ballscrew.physics.components.laws import (
     BallChainLaw,
     BallForceLaw,
     ContactLoadLaw,
@@ -42,7 +45,7 @@ from ballscrew.components.laws import (
     two_neighbours,
     virtual_work_torque,
 )
-from ballscrew.components.lubrication import (
+from ballscrew.physics.components.lubrication import (
     HamrockDowson,
     Inlet,
     biboulet_houpert_rolling,
@@ -50,26 +53,23 @@ from ballscrew.components.lubrication import (
     olaru_rolling,
     root_sum_square_film_parameter,
 )
-from ballscrew.components.lubrication import literal_film_parameter as printed_film_parameter
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.mixed_friction import RunInSharing, ZhouHoeprich
-from ballscrew.components.nut import Nut
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.components.outside_laws import usable
-from ballscrew.components.screw import BallScrew
-from ballscrew.components.traits import traits_of
-from ballscrew.equations.transmission import contact_load as equal_contact_load
-from ballscrew.errors import Fault, accepts_units, faults_of, names_keywords, raise_if_any
-from ballscrew.friction.law_names import fault_of_law
-from ballscrew.friction.loaded_balls import balls_under, loads_of, row_of_balls
-from ballscrew.friction.plausibility import named_parts
-from ballscrew.friction.result import FrictionResult
-from ballscrew.overflow import overflow_as_input_error
-from ballscrew.quantities import AngularSpeed, Force, Info, Ratio, Temperature, fields_of
-from ballscrew.solvers.ellipse_slip import ellipse_slip
-from ballscrew.solvers.load_distribution import BallLoads
-from ballscrew.solvers.pure_rolling import curvature_slip
-from ballscrew.solvers.slip import Slip, SlipLaw
+from ballscrew.physics.components.lubrication import literal_film_parameter as printed_film_parameter
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.mixed_friction import RunInSharing, ZhouHoeprich
+from ballscrew.physics.components.nut import Nut
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.outside_laws import usable
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.components.traits import traits_of
+from ballscrew.physics.equations.transmission import contact_load as equal_contact_load
+from ballscrew.physics.friction.law_names import fault_of_law
+from ballscrew.physics.friction.loaded_balls import balls_under, loads_of, row_of_balls
+from ballscrew.physics.friction.plausibility import named_parts
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.solvers.ellipse_slip import ellipse_slip
+from ballscrew.physics.solvers.load_distribution import BallLoads
+from ballscrew.physics.solvers.pure_rolling import curvature_slip
+from ballscrew.physics.solvers.slip import Slip, SlipLaw
 
 PAPER_FRICTION = ZhouHoeprich()
 
@@ -80,24 +80,40 @@ class FrictionModel(ByValue):
     """A friction model of a ball screw: one law in each slot, and three numbers.
 
     Call it with a screw, a lubricant, a load and a speed. Change one thing with
-    ``dataclasses.replace``. Raises :class:`~ballscrew.errors.InputError` for numbers out of bounds.
+    ``dataclasses.replace``. Raises :class:`~ballscrew.basis.errors.InputError` for numbers out of bounds.
     """
 
+    #: The name of the preset that it is, or was made from.
     name: str
+    #: Law of the frame in which the balls roll.
     frame: FrameLaw
+    #: Normal load of a ball from the axial load, N.
     contact_load: ContactLoadLaw = equal_contact_load
+    #: Shape of the contact ellipse from the radii.
     hertz: HertzLaw
+    #: Minimum film thickness, m, inlet cool and full.
     film: FilmLaw
+    #: Film thickness against roughness.
     film_parameter: FilmParameterLaw = root_sum_square_film_parameter
+    #: Heating and filling of the inlet.
     inlet: InletLaw = ideal_inlet
+    #: Friction coefficient of a contact, most often from its film parameter.
     friction: FrictionLaw = PAPER_FRICTION
+    #: Friction coefficient of the film itself, where it alone carries the load; None for that of ``friction``.
     full_film: FullFilmLaw | None = None
+    #: Hydrodynamic rolling force, N.
     rolling: RollingLaw = olaru_rolling
+    #: Elastic resistance to rolling, N m.
     elastic_resistance: ElasticResistanceLaw = snare_resistance
+    #: Slip of the contacts of a ball.
     slip: SlipLaw = curvature_slip
+    #: Law of the contact of a ball with its neighbours.
     ball_chain: BallChainLaw
+    #: Net braking force between neighbouring balls, N.
     ball_force: BallForceLaw = imposed_ball_force
+    #: Friction torque of one ball on screw and nut, N m.
     race_torques: RaceTorqueLaw
+    #: Drive torque without friction, N m.
     ideal_torque: IdealTorqueLaw
     ball_to_ball_force: Annotated[
         Force | None,
@@ -139,7 +155,7 @@ class FrictionModel(ByValue):
     def olaru2005(cls, *, literal_film_parameter: bool = False) -> FrictionModel:
         """The paper as printed, with Q = F/(z sin α) and the square root that (22) of §4 needs.
 
-        ``literal_film_parameter=True`` leaves the square root out: the text to the letter.
+        ``literal_film_parameter`` leaves the square root out: the text to the letter.
         """
         return cls(
             name="olaru2005-literal" if literal_film_parameter else "olaru2005",
@@ -208,13 +224,15 @@ class FrictionModel(ByValue):
         temperature: Temperature | None = None,
         loads: BallLoads | None = None,
     ) -> FrictionResult:
-        """Friction at an axial load (N) and a screw speed (rad/s) of either sign; arrays broadcast.
+        """Friction at an axial load and a screw speed of either sign; arrays broadcast.
 
-        A positive load is one that a positive speed lifts. What is nearer to zero than 1e-100 counts as no load, and as
-        rest under friction of the same direction. With a ``temperature`` (K) the lubricant, which must have been made
-        from a data sheet or a grade, is taken there. ``loads`` are those of the balls under this axial load, where they
-        are known (:func:`~ballscrew.solvers.load_distribution.ball_loads`). Array values are never refused: where they
-        make no sense the result says so in its validity. Raises :class:`~ballscrew.errors.InputError` where plain
+        Returns a :class:`~ballscrew.physics.friction.result.FrictionResult` of ``screw`` with ``lubricant`` at
+        ``axial_load`` (N) and ``screw_speed`` (rad/s). A positive load is one that a positive speed lifts. What is
+        nearer to zero than 1e-100 counts as no load, and as rest under friction of the same direction. With a
+        ``temperature`` (K) the lubricant, which must have been made from a data sheet or a grade, is taken there.
+        ``loads`` are those of the balls under this axial load, where they are known
+        (:func:`~ballscrew.physics.solvers.load_distribution.ball_loads`). Array values are never refused: where they
+        make no sense the result says so in its validity. Raises :class:`~ballscrew.basis.errors.InputError` where plain
         numbers overflow, for a temperature of an oil without either, and for a nut whose balls have four contacts with
         a slip law that knows two.
         """
@@ -226,7 +244,7 @@ class FrictionModel(ByValue):
             return self.under(known, screw, oil, state)
 
     def knows(self, nut: Nut) -> bool:
-        """Return whether the slip law knows the number of contacts that the balls of a nut have."""
+        """Return whether the slip law knows the number of contacts that the balls of ``nut`` have."""
         return nut.contacts_per_ball in traits_of(self.slip).contacts_per_ball
 
     def _misfits_of_nut(self, screw: BallScrew) -> list[Fault]:
@@ -269,7 +287,11 @@ class FrictionModel(ByValue):
     def under(
         self, loads: BallLoads | None, screw: BallScrew, lubricant: Lubricant, state: OperatingState
     ) -> FrictionResult:
-        """Friction where the loads of the balls are known; None for a row of equal balls. Nothing is checked."""
+        """Friction where the ``loads`` of the balls are known; None for a row of equal balls. Nothing is checked.
+
+        Returns a :class:`~ballscrew.physics.friction.result.FrictionResult` of ``screw`` with ``lubricant`` at
+        ``state``.
+        """
         nut, laws, settled = screw.nut, self.laws, state.settled
         of_balls = self.parted if nut.spacer_balls else self
         kinds = (
@@ -307,7 +329,7 @@ class FrictionModel(ByValue):
         return dataclasses.replace(self, **apart)
 
     def imposed_ball_force(self, screw: BallScrew) -> Force:
-        """The ball-to-ball force where the load does not set it: the paper's 1 N over the number of balls, or given."""
+        """Ball force where the load does not set it, N: as given, or the paper's 1 N over the balls of ``screw``."""
         return 1 / screw.loaded_balls if self.ball_to_ball_force is None else self.ball_to_ball_force
 
 

@@ -6,13 +6,13 @@ import dataclasses
 import warnings
 from collections.abc import Mapping
 
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.nut import Bodies, Deviations, Nut, SingleNut
-from ballscrew.components.nut_losses import ParasiticLaw
-from ballscrew.components.screw import BallScrew
-from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.result import FrictionResult
-from ballscrew.quantities import AngularSpeed, Force
+from ballscrew.basis.quantities import AngularSpeed, Force
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.nut import Bodies, Deviations, Nut, SingleNut
+from ballscrew.physics.components.nut_losses import ParasiticLaw
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.result import FrictionResult
 
 
 def nut_friction(
@@ -29,8 +29,12 @@ def nut_friction(
 ) -> FrictionResult:
     """Deprecated: call the model with ``dataclasses.replace(screw, nut=nut)``.
 
-    The contact angle of a single nut follows its load here, as with ``SingleNut(angle_under_load=True)``.
-    Raises what the model raises.
+    Returns the :class:`~ballscrew.physics.friction.result.FrictionResult` of ``model`` for ``screw`` with another
+    ``nut`` and with ``lubricant``, at ``axial_load`` (N) and ``screw_speed`` (rad/s); arrays broadcast. ``bodies``,
+    ``deviations`` and ``losses`` take the place of those of the nut, where they are given. The contact angle of a
+    single nut follows its load here, as with ``SingleNut(angle_under_load=True)``.
+
+    Raises what the model raises (:class:`~ballscrew.basis.errors.InputError`).
     """
     warnings.warn(
         "nut_friction is deprecated: a ball screw has its nut, model(BallScrew(…, nut=…), oil, …)",

@@ -1,6 +1,6 @@
 """Plausibility: inputs that are possible, and that no ball screw has, of all parts of a configuration.
 
-That of one part by itself is judged by the usual ranges of its quantities (:mod:`ballscrew.usual_ranges`).
+That of one part by itself is judged by the usual ranges of its quantities (:mod:`ballscrew.basis.usual_ranges`).
 """
 
 from __future__ import annotations
@@ -10,13 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.components.data_sheet import SHEET_TEMPERATURE, DataSheet
-from ballscrew.components.ratings import odd_preload
-from ballscrew.components.screw import MATERIALS, BallScrew
-from ballscrew.errors import shown_in_si
-from ballscrew.records import Measured, Message, Record
-from ballscrew.usual_ranges import IMPLAUSIBLE as IMPLAUSIBLE
-from ballscrew.usual_ranges import unusual
+from ballscrew.basis.errors import shown_in_si
+from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.usual_ranges import IMPLAUSIBLE as IMPLAUSIBLE
+from ballscrew.basis.usual_ranges import unusual
+from ballscrew.physics.components.data_sheet import SHEET_TEMPERATURE, DataSheet
+from ballscrew.physics.components.ratings import odd_preload
+from ballscrew.physics.components.screw import MATERIALS, BallScrew
 
 _BELOW_POUR_POINT = Message(
     "oil at {value}, below its pour point {limit}: it does not flow by itself, and its viscosity is a guess; "

@@ -8,28 +8,39 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
-from ballscrew._arrays import lazy
-from ballscrew._displayed import Drawn
-from ballscrew.components.contact import RaceState
-from ballscrew.components.frame import Frame
-from ballscrew.components.laws import BallChain, IdealTorqueLaw
-from ballscrew.components.screw import BallScrew
-from ballscrew.equations import transmission
-from ballscrew.friction import directions, loaded_balls, starvation
-from ballscrew.friction.balls import MECHANISMS as MECHANISMS
-from ballscrew.friction.loaded_balls import LoadedBalls, LoadedPair
-from ballscrew.friction.plausibility import implausible
-from ballscrew.friction.validity import (
+from ballscrew.basis.arrays import lazy
+from ballscrew.basis.displayed import Drawn
+from ballscrew.basis.quantities import (
+    AngularSpeed,
+    Force,
+    Info,
+    Mask,
+    Power,
+    Pressure,
+    Ratio,
+    Speed,
+    Torque,
+    quantities_of,
+)
+from ballscrew.basis.records import Record
+from ballscrew.physics.components.contact import RaceState
+from ballscrew.physics.components.frame import Frame
+from ballscrew.physics.components.laws import BallChain, IdealTorqueLaw
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.equations import transmission
+from ballscrew.physics.friction import directions, loaded_balls, starvation
+from ballscrew.physics.friction.balls import MECHANISMS as MECHANISMS
+from ballscrew.physics.friction.loaded_balls import LoadedBalls, LoadedPair
+from ballscrew.physics.friction.plausibility import implausible
+from ballscrew.physics.friction.validity import (
     NUT_CONDITIONS,
     imbalance_records,
     input_mask,
     validity_masks,
     warning_records,
 )
-from ballscrew.friction.vendor_terms import VendorTerms
-from ballscrew.quantities import AngularSpeed, Force, Info, Mask, Power, Pressure, Ratio, Speed, Torque, quantities_of
-from ballscrew.records import Record
-from ballscrew.solvers.load_distribution import BallLoads
+from ballscrew.physics.friction.vendor_terms import VendorTerms
+from ballscrew.physics.solvers.load_distribution import BallLoads
 
 #: The four quadrants: directions of the load on the nut and of the rotation.
 QUADRANTS: Mapping[str, tuple[int, int]] = {
@@ -62,7 +73,9 @@ class FrictionResult(VendorTerms, Drawn):
 
     #: The parts of the input, by section.
     parts: Mapping[str, Any]
+    #: The screw with its nut.
     ball_screw: BallScrew
+    #: The frame in which the balls roll.
     frame: Frame
     axial_load: Annotated[Force, Info("F", "axial load on the nut")]
     screw_speed: Annotated[AngularSpeed, Info(r"\omega", "speed of the screw", "rpm")]
@@ -70,6 +83,7 @@ class FrictionResult(VendorTerms, Drawn):
     kinds: tuple[LoadedBalls, ...]
     #: Torque on the screw besides the balls, by name, N m.
     losses: Mapping[str, Torque]
+    #: The law of the drive torque without friction.
     ideal_torque_law: IdealTorqueLaw
     #: The loads of all balls; None for a row of equal balls, which needs no solver to know them.
     solved_loads: BallLoads | None = None
@@ -163,7 +177,7 @@ class FrictionResult(VendorTerms, Drawn):
         return transmission.back_driving_efficiency(self._direct_efficiency)
 
     def shaft_torque(self, load_sign: int, speed_sign: int) -> Torque:
-        """Torque on the shaft in one of four quadrants, positive the way that moves the nut against a load of +1.
+        """Torque on the shaft in one of four quadrants, N m, positive the way that moves the nut against a load of +1.
 
         ``load_sign`` is the direction of the load on the nut, ``speed_sign`` that of the rotation;
         with equal signs the screw drives the nut against its load, with opposite signs the load
@@ -192,7 +206,7 @@ class FrictionResult(VendorTerms, Drawn):
 
     @property
     def friction_effort(self) -> Torque:
-        """Generalised friction force of the element: ``screw_torque``."""
+        """Generalised friction force of the element, N m: ``screw_torque``."""
         return self.screw_torque
 
     # -- parts and power --------------------------------------------------------------------------
@@ -342,7 +356,7 @@ class FrictionResult(VendorTerms, Drawn):
 
     @lazy
     def validity(self) -> Mapping[str, Mask]:
-        """Masks of the conditions of the model, by reason; see :data:`ballscrew.friction.validity.REASONS`.
+        """Masks of the conditions of the model, by reason; see :data:`ballscrew.physics.friction.validity.REASONS`.
 
         Of a nut whose balls differ, a condition may fail for contacts that carry a negligible share of the load.
         """

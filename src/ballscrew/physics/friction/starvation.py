@@ -1,8 +1,8 @@
 """Starvation: oil that flows back into the track too late, and the torque of the same screw in a full bath of oil.
 
 One rule for all answers. Which of the two torques a ball screw has is not measured: the factor that starves is one of
-bearings (:func:`~ballscrew.equations.rolling.replenishment_factor`), and in the cold it may make friction fall that
-would rise with a full track. A supply that is known to be short (``inlet_film_ratio``) is left as it is given.
+bearings (:func:`~ballscrew.physics.equations.rolling.replenishment_factor`), and in the cold it may make friction fall
+that would rise with a full track. A supply that is known to be short (``inlet_film_ratio``) is left as it is given.
 """
 
 from __future__ import annotations
@@ -12,11 +12,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.components.screw import BallScrew
-from ballscrew.equations import rolling
-from ballscrew.errors import shown_in_si
-from ballscrew.quantities import Quantity
-from ballscrew.records import Measured, Message, Record
+from ballscrew.basis.errors import shown_in_si
+from ballscrew.basis.quantities import Quantity
+from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.equations import rolling
 
 #: The id of the record, in every answer that holds a torque.
 STARVED = "lubricant.starved"
@@ -62,15 +62,20 @@ def most_starved(given: Any, flooded: Any) -> tuple[float, float] | None:
     return float(given[place]), float(flooded[place])
 
 
-def least_replenished(model: Any, screw: BallScrew, lubricant: Any, screw_speed: Any) -> float:
-    """Least share of the rolling force that oil coming back late leaves over; one without a law that starves."""
+def replenished(model: Any, screw: BallScrew, lubricant: Any, screw_speed: Any) -> Any:
+    """Share of the rolling force that oil coming back late leaves over; one without a law that starves."""
     constant = getattr(model.inlet, "replenishment_constant", None)
     if constant is None:
-        return 1.0
+        return np.ones(np.shape(screw_speed))
     speed = model.laws.frame(screw).entrainment_speed(np.abs(screw_speed))
-    left = rolling.replenishment_factor(
+    return rolling.replenishment_factor(
         lubricant.viscosity / lubricant.density, np.asarray(speed, dtype=float), screw.ball_diameter, constant
     )
+
+
+def least_replenished(model: Any, screw: BallScrew, lubricant: Any, screw_speed: Any) -> float:
+    """The least of the shares that are :func:`replenished`, of those that are numbers."""
+    left = replenished(model, screw, lubricant, screw_speed)
     return float(np.min(left, initial=1.0, where=np.isfinite(left)))
 
 

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew._arrays import namespace
-from ballscrew.components.contact import Contact, RaceState
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import is_concrete
-from ballscrew.quantities import Mask, Ratio, Torque, fields_of, within_bounds
-from ballscrew.records import Measured, Message, Record
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.errors import is_concrete
+from ballscrew.basis.quantities import Mask, Ratio, Torque, fields_of, within_bounds
+from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.physics.components.contact import Contact, RaceState
+from ballscrew.physics.components.screw import BallScrew
 
 #: Y at which the curvature moment (15) changes sign: the root of 1 - 5Y³ + 3Y⁵ in (0, 1).
 LARGEST_PURE_ROLLING_OFFSET = 0.643

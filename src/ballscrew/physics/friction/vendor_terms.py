@@ -7,11 +7,11 @@ import math
 import operator
 from typing import Annotated, Any
 
-from ballscrew._arrays import lazy, where
-from ballscrew.equations import transmission
-from ballscrew.friction.loaded_balls import LoadedBalls
-from ballscrew.quantities import Angle, Force, Info, Ratio, Torque
-from ballscrew.solvers.load_distribution import preload_of
+from ballscrew.basis.arrays import lazy, where
+from ballscrew.basis.quantities import Angle, Force, Info, Ratio, Torque
+from ballscrew.physics.equations import transmission
+from ballscrew.physics.friction.loaded_balls import LoadedBalls
+from ballscrew.physics.solvers.load_distribution import preload_of
 
 
 class VendorTerms:

@@ -10,12 +10,12 @@ from collections.abc import Mapping
 from importlib import resources
 from typing import Annotated, Any
 
-from ballscrew._arrays import ByValue
-from ballscrew.components.screw import BallScrew
-from ballscrew.equations import geometry
-from ballscrew.errors import Fault, InputError, faults_of, nearest, raise_if_any, shown
-from ballscrew.quantities import Angle, Count, DiameterSpeed, Force, Info, Length, Ratio, Stiffness, Torque, Unit
-from ballscrew.sizing.listed_nut import faults_of_nut, nut_of
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import Fault, InputError, faults_of, nearest, raise_if_any, shown
+from ballscrew.basis.quantities import Angle, Count, DiameterSpeed, Force, Info, Length, Ratio, Stiffness, Torque, Unit
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.equations import geometry
+from ballscrew.physics.sizing.listed_nut import faults_of_nut, nut_of
 
 #: Turns that carry no load where the balls of a nut leave and enter (ISO3408-5, as it fits the ratings of catalogues).
 TURNS_WITHOUT_LOAD = 0.24
@@ -49,7 +49,7 @@ class CatalogueRow(ByValue):
     Defaults: a conformity of 0.54, which most root diameters of a catalogue imply (HIWIN's grooves for balls of
     3.175 mm have 0.56) and measured grooves (0.542, 0.544) confirm, good to about ±0.01; a contact angle of 45°; one
     thread start; a pitch circle as large as the nominal diameter (those listed are 1.5 to 5 % larger).
-    Raises :class:`~ballscrew.errors.InputError` for values out of bounds.
+    Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
     """
 
     name: str
@@ -245,7 +245,7 @@ class _Rows(dict[str, CatalogueRow]):
 
 @functools.cache
 def catalogue() -> Mapping[str, CatalogueRow]:
-    """The rows shipped, by name (``data/screws.toml``).
+    """The rows shipped, each a :class:`CatalogueRow`, by name (``data/screws.toml``).
 
     A name that it does not have raises an :class:`UnknownRowError` with the nearest one.
     """

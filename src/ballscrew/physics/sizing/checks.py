@@ -3,26 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew import units
-from ballscrew._arrays import as_array
-from ballscrew._deprecated import RenamedAttribute
-from ballscrew.components.nut import Nut, SingleNut
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.components.screw import BallScrew
-from ballscrew.equations import geometry, life, shaft
-from ballscrew.errors import Fault, accepts_units, raise_if_any, shown
-from ballscrew.friction.validity import LARGEST_PRESSURE
-from ballscrew.quantities import AngularSpeed, Force, Length, Pressure, Ratio
-from ballscrew.records import Measured, Message, Record
-from ballscrew.sizing.installation import Installation, Limits
-from ballscrew.sizing.ratings import RATING_CONFORMITY as RATING_CONFORMITY
-from ballscrew.sizing.ratings import Ratings as Ratings
-from ballscrew.sizing.ratings import ratings_of as ratings_of
-from ballscrew.sizing.speed_limits import GENERAL, SpeedLimit
+from ballscrew.basis import units
+from ballscrew.basis.arrays import as_array
+from ballscrew.basis.errors import Fault, accepts_units, raise_if_any, shown
+from ballscrew.basis.quantities import AngularSpeed, Force, Length, Pressure, Ratio
+from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.physics.components.nut import Nut, SingleNut
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.equations import geometry, life, shaft
+from ballscrew.physics.friction.validity import LARGEST_PRESSURE
+from ballscrew.physics.sizing.dn_limits import GENERAL, SpeedLimit
+from ballscrew.physics.sizing.installation import Installation, Limits
+from ballscrew.physics.sizing.ratings import RATING_CONFORMITY as RATING_CONFORMITY
+from ballscrew.physics.sizing.ratings import Ratings as Ratings
+from ballscrew.physics.sizing.ratings import ratings_of as ratings_of
 
 HOUR = 3600.0
 
@@ -67,9 +66,6 @@ class Check(NamedTuple):
     #: The text as a template with its values.
     message: Message | None = None
 
-    passes = RenamedAttribute("passes", "holds")
-    words = RenamedAttribute("words", "text")
-
     @classmethod
     def saying(
         cls,
@@ -84,6 +80,12 @@ class Check(NamedTuple):
     ) -> Check:
         """A check whose text is a message."""
         return cls(name, value, limit, unit, utilisation, holds, units.filled(message), missing, message)
+
+    @classmethod
+    def judged(cls, message: Message, name: str, value: Any, limit: Any, unit: str, utilisation: Any) -> Check:
+        """A check by its utilisation."""
+        used = float(utilisation)
+        return cls.saying(message, name, float(value), float(limit), unit, used, used <= 1)
 
     @property
     def title(self) -> Message:
@@ -165,9 +167,10 @@ def checks(
     ones; where they are not known, those of the closed formula of :func:`loads_of_halves` are taken.
     ``maximum_pressure`` is that of the most loaded contact. The DN value is held against that of ``limits``, if one is
     set there, else against ``speed_limit``, that of the make of the nut, else against a general one
-    (:data:`~ballscrew.sizing.speed_limits.GENERAL`); the text says which. Without a ``root_diameter`` that of the
-    groove is taken.
-    Raises :class:`~ballscrew.errors.InputError` for values that are not positive, and a largest load below the mean.
+    (:data:`~ballscrew.physics.sizing.dn_limits.GENERAL`); the text says which. Without a ``root_diameter`` that of
+    the groove is taken.
+    Raises :class:`~ballscrew.basis.errors.InputError` for values that are not positive, and a largest load below the
+    mean.
     """
     OperatingState(axial_load=axial_load, screw_speed=screw_speed)
     axial_load, screw_speed = abs(axial_load), abs(screw_speed)
@@ -223,13 +226,11 @@ def _not_checked(name: str, unit: str, give: str) -> Check:
 
 
 def _at_most(name: str, value: float, limit: float, unit: str, message: Message) -> Check:
-    utilisation = float(value / limit)
-    return Check.saying(message, name, float(value), float(limit), unit, utilisation, utilisation <= 1)
+    return Check.judged(message, name, value, limit, unit, value / limit)
 
 
 def _at_least(name: str, value: float, limit: float, unit: str, message: Message) -> Check:
-    utilisation = float(limit / as_array(value))
-    return Check.saying(message, name, float(value), float(limit), unit, utilisation, utilisation <= 1)
+    return Check.judged(message, name, value, limit, unit, limit / as_array(value))
 
 
 def _static_safety(rated: Force | None, load: Force, limits: Limits) -> Check:
@@ -253,7 +254,7 @@ def _life(rated: Force | None, loads: Sequence[Force], speed: AngularSpeed, limi
     of_turns = (
         Message("no load tires it")
         if endless
-        else Message("nine of ten outlive {turns} million revolutions, preload included", millions)
+        else Message("basic rating life L10: {turns} million revolutions, preload included", millions)
     )
     without_end = of_turns if endless else Message("no turn tires it")
     of_hours = (
@@ -313,7 +314,7 @@ def _critical_speed(
     ends, E, rho = installation.ends, screw.screw_material.young_modulus, installation.shaft_density
     critical = shaft.critical_speed(ends.whirling_root, E, rho, d_r, installation.unsupported_length)
     message = Message(
-        "speed against {share} of that at which the shaft whirls, ends {ends}",
+        "speed against {share} of the critical speed, ends {ends}",
         {"share": Measured(limits.critical_speed_share, digits=6), "ends": Message(ends.words)},
     )
     return _at_most(name, speed, critical * limits.critical_speed_share, "rad/s", message)

@@ -9,9 +9,9 @@ from collections.abc import Sequence
 from importlib import resources
 from typing import NamedTuple
 
-from ballscrew.quantities import DiameterSpeed
-from ballscrew.records import Message
-from ballscrew.sizing.catalogue import CatalogueRow
+from ballscrew.basis.quantities import DiameterSpeed
+from ballscrew.basis.records import Message
+from ballscrew.physics.sizing.catalogue import CatalogueRow
 
 #: One millimetre times one turn a minute, in m rad/s.
 MM_RPM = 1e-3 * math.tau / 60

@@ -7,9 +7,9 @@ import enum
 import math
 from typing import Annotated, Any, cast
 
-from ballscrew._arrays import ByValue
-from ballscrew.errors import Fault, faults_of, raise_if_any
-from ballscrew.quantities import Array, Density, DiameterSpeed, Info, Length, Pressure, Ratio, Stiffness, Unit
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import Fault, faults_of, raise_if_any
+from ballscrew.basis.quantities import Array, Density, DiameterSpeed, Info, Length, Pressure, Ratio, Stiffness, Unit
 
 
 class Ends(enum.Enum):
@@ -38,7 +38,8 @@ class Ends(enum.Enum):
 class Installation(ByValue):
     """A mounted screw. The default density is that of steel.
 
-    Raises :class:`~ballscrew.errors.InputError` for values out of bounds, and for ends that are not :class:`Ends`.
+    Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds, and for ends that are not
+    :class:`Ends`.
     """
 
     unsupported_length: Annotated[
@@ -106,8 +107,8 @@ class Limits(ByValue):
 
     Defaults, all of THK514E: a static safety of 2, its least for loads without shocks (5 with them); a stress of
     147 MPa; half of the buckling load; 0.8 of the critical speed. No running time is asked for by default, and the DN
-    value is held against that of the make of the nut, or a general one (:mod:`ballscrew.sizing.speed_limits`).
-    Raises :class:`~ballscrew.errors.InputError` for values out of bounds.
+    value is held against that of the make of the nut, or a general one (:mod:`ballscrew.physics.sizing.dn_limits`).
+    Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
     """
 
     static_safety: Annotated[

@@ -6,11 +6,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Protocol
 
-from ballscrew.components.nut import Bodies, DoubleNut, Nut, OffsetLeadNut, OversizeBallNut, SingleNut
-from ballscrew.components.nut_losses import Seals
-from ballscrew.errors import Fault, nearest, shown
-from ballscrew.quantities import Force, fields_of
-from ballscrew.sizing.ratings import Rated, ratings_of
+from ballscrew.basis.errors import Fault, nearest, shown
+from ballscrew.basis.quantities import Force, fields_of
+from ballscrew.physics.components.nut import Bodies, DoubleNut, Nut, OffsetLeadNut, OversizeBallNut, SingleNut
+from ballscrew.physics.components.nut_losses import Seals
+from ballscrew.physics.sizing.ratings import Rated, ratings_of
 
 #: The names of the kinds of nut stand here and nowhere else.
 NUTS: Mapping[str, type[Nut]] = {

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple, Protocol
 
-from ballscrew.components.ratings import RATING_CONFORMITY as RATING_CONFORMITY
-from ballscrew.components.ratings import dynamic_load_rating
-from ballscrew.equations import geometry, rating
-from ballscrew.quantities import Force, Ratio
+from ballscrew.basis.quantities import Force, Ratio
+from ballscrew.physics.components.ratings import RATING_CONFORMITY as RATING_CONFORMITY
+from ballscrew.physics.components.ratings import dynamic_load_rating
+from ballscrew.physics.equations import geometry, rating
 
 
 class Ratings(NamedTuple):

@@ -9,13 +9,13 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.components.nut import Nut, OversizeBallNut
-from ballscrew.components.screw import BallScrew
-from ballscrew.equations import rigidity
-from ballscrew.errors import Fault, accepts_units, is_concrete, raise_if_any, shown
-from ballscrew.quantities import Force, Info, Length, Ratio, Stiffness
-from ballscrew.sizing.installation import Ends, Installation
-from ballscrew.solvers.load_distribution import pair_load_deflection, preload_of
+from ballscrew.basis.errors import Fault, accepts_units, is_concrete, raise_if_any, shown
+from ballscrew.basis.quantities import Force, Info, Length, Ratio, Stiffness
+from ballscrew.physics.components.nut import Nut, OversizeBallNut
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.equations import rigidity
+from ballscrew.physics.sizing.installation import Ends, Installation
+from ballscrew.physics.solvers.load_distribution import pair_load_deflection, preload_of
 
 #: Outer diameters of nuts by DIN 69051-5, m, by nominal diameter: for leads below COARSE_LEAD, and from there on.
 #: HIWIN2017, table 5.5 (double nuts DDB). TBI MOTION prints the same for its nuts "DIN 69051 form B".
@@ -38,7 +38,7 @@ RECALLED_ACCURACY_FACTORS = (0.6, 0.5)
 class AxialRigidity:
     """Outcome: the rigidities that ISO 3408-4 defines, and the deflection of a drive. NaN is what is not known.
 
-    Not the rigidity of the balls one by one, which is :attr:`~ballscrew.friction.result.FrictionResult.loads`.
+    Not the rigidity of the balls one by one, which is :attr:`~ballscrew.physics.friction.result.FrictionResult.loads`.
     """
 
     balls_and_tracks: Annotated[Stiffness, Info("R_{b/t}", "rigidity of balls and tracks, R_b/t", "N/um")]
@@ -77,13 +77,15 @@ def rigidity_iso3408(
 ) -> AxialRigidity:
     """Rigidity of a screw with its nut by ISO 3408-4, of its shaft, and the deflection of the drive under a load.
 
-    A nut without preload needs ``axial_load``: its rigidity is load over deflection. Without ``nut_outer_diameter``
-    that of the nut's bodies is taken, or else that of DIN 69051-5 for the nominal diameter, by default the pitch circle
+    Returns an :class:`AxialRigidity` of ``screw``, with one number for each rigidity, N/m. A nut without preload needs
+    ``axial_load`` (N): its rigidity is load over deflection. Without ``nut_outer_diameter`` (m) that of the nut's
+    bodies is taken, or else that of DIN 69051-5 for the ``nominal_diameter`` (m), by default the pitch circle
     (:func:`usual_nut_outer_diameter`). ``accuracy_factor`` is f_ar, by the accuracy grade, by default that of the
     installation; without it R_nu,ar is NaN, and the drive has R_nu. The shaft is that of ``installation``;
-    ``distance_to_bearing`` is from the nut to the bearing that holds the shaft, by default where the shaft gives way
-    most: its whole length held at one end, half of it held at both. The contact angle stays that without load.
-    Raises :class:`~ballscrew.errors.InputError` for values out of bounds.
+    ``distance_to_bearing`` (m) is from the nut to the bearing that holds the shaft, by default where the shaft gives
+    way most: its whole length held at one end, half of it held at both. The contact angle stays that without load.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
     """
     nut = screw.nut
     if accuracy_factor is None and installation is not None:

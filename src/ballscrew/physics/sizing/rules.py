@@ -12,9 +12,15 @@ import math
 from collections.abc import Callable, Mapping
 from typing import NamedTuple, TypeAlias
 
-from ballscrew.components.nut_losses import DOUBLE_NUT_DRAG, OVERSIZE_BALL_DRAG, EfficiencyDrag, JISDrag, RexrothDrag
-from ballscrew.equations import geometry, preload, transmission
-from ballscrew.quantities import Angle, Force, Length, Ratio, Torque
+from ballscrew.basis.quantities import Angle, Force, Length, Ratio, Torque
+from ballscrew.physics.components.nut_losses import (
+    DOUBLE_NUT_DRAG,
+    OVERSIZE_BALL_DRAG,
+    EfficiencyDrag,
+    JISDrag,
+    RexrothDrag,
+)
+from ballscrew.physics.equations import geometry, preload, transmission
 
 #: The efficiency that THKGeneral computes its examples with; it states 0.9 to 0.95, HIWIN2017 0.85 to 0.95.
 USUAL_EFFICIENCY = 0.9

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.equations import deflection
+from ballscrew.physics.equations import deflection
 
 Field = NDArray[np.float64]
 

@@ -1,8 +1,8 @@
 """Balls between elastic bodies by compiled kernels: their balance, what each carries then, and how far they give way.
 
-The springs are recorded from :class:`~ballscrew.solvers.ball_springs.BallSprings`, step by step as NumPy evaluates
-them. :mod:`ballscrew.kernels.chain` takes the same Newton steps as
-:func:`~ballscrew.solvers.ball_springs.chain_balance`; what would need a part of a step is left to the latter.
+The springs are recorded from :class:`~ballscrew.physics.solvers.ball_springs.BallSprings`, step by step as NumPy
+evaluates them. :mod:`ballscrew.compiler.kernels.chain` takes the same Newton steps as
+:func:`~ballscrew.physics.solvers.ball_springs.chain_balance`; what would need a part of a step is left to the latter.
 Where bodies swell, their gaps are found in the same steps, where NumPy solves the chain anew for each gap.
 """
 
@@ -14,11 +14,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.kernels.buffers import aligned_array
-from ballscrew.kernels.chain import Balanced, Chains, Rings, balanced_chains, chain_kernel
-from ballscrew.kernels.emission import kernel_text, lanes_for
-from ballscrew.kernels.kernel import Kernel
-from ballscrew.solvers.ball_springs import (
+from ballscrew.compiler.kernels.buffers import aligned_array
+from ballscrew.compiler.kernels.chain import Balanced, Chains, Rings, balanced_chains, chain_kernel
+from ballscrew.compiler.kernels.emission import kernel_text, lanes_for
+from ballscrew.compiler.kernels.kernel import Kernel
+from ballscrew.compiler.tracing.program import Program, Source
+from ballscrew.compiler.tracing.verbatim import verbatim_program
+from ballscrew.physics.solvers.ball_springs import (
     BALANCED,
     ROUNDING,
     STEPS,
@@ -30,9 +32,7 @@ from ballscrew.solvers.ball_springs import (
     chain_balance,
     chain_imbalance,
 )
-from ballscrew.solvers.swelling import Swelling, Widened, widened_balance
-from ballscrew.tracing.program import Program, Source
-from ballscrew.tracing.verbatim import verbatim_program
+from ballscrew.physics.solvers.swelling import Swelling, Widened, widened_balance
 
 #: Fewest points of an operation of NumPy whose sums over the balls do not depend on how many there are.
 FEWEST_POINTS = 2

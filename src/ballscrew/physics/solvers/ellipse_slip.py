@@ -5,10 +5,10 @@ the spin and the lateral slip that screw and nut force on them. With friction co
 pressure given, the power lost in slip is a convex function of the four, and its slopes are the
 forces: the balance of the ball is the minimum. So far this is exact, and
 :mod:`oracles.contact_integral` minimises it on a fine grid. Here the ellipse is
-cut into strips (:mod:`ballscrew.solvers.strips`), each with its root-mean-square slip
-(:func:`~ballscrew.equations.slip.cell_slip_speed`), which keeps the function smooth and convex, and
+cut into strips (:mod:`ballscrew.physics.solvers.strips`), each with its root-mean-square slip
+(:func:`~ballscrew.physics.equations.slip.cell_slip_speed`), which keeps the function smooth and convex, and
 the minimum is found by a fixed number of damped Newton steps from the closed form of
-:mod:`~ballscrew.solvers.line_slip`, on whole arrays.
+:mod:`~ballscrew.physics.solvers.line_slip`, on whole arrays.
 
 Against the fine integral the slip torque is 0.02 % off in the median and 0.5 % at the 95th
 percentile (``benchmarks/reference.py``). What the fixed steps leave of an imbalance never reaches the torques:
@@ -22,14 +22,21 @@ import operator
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from ballscrew._arrays import in_blocks, namespace
-from ballscrew.components.contact import Contact
-from ballscrew.components.traits import law_traits
-from ballscrew.equations import kinematics, slip
-from ballscrew.quantities import AngularSpeed, Force, Length, Mask, Ratio, Speed, Torque
-from ballscrew.solvers.line_slip import creep_of_lines, pure_rolling_lines
-from ballscrew.solvers.slip import BallProblem, ContactSlip, Slip, carried_share, contact_rotation, sliding_forces
-from ballscrew.solvers.strips import SMALLEST_SLIP, Forces, Side, forces_of, shapes_of, slip_power
+from ballscrew.basis.arrays import in_blocks, namespace
+from ballscrew.basis.quantities import AngularSpeed, Force, Length, Mask, Ratio, Speed, Torque
+from ballscrew.physics.components.contact import Contact
+from ballscrew.physics.components.traits import law_traits
+from ballscrew.physics.equations import kinematics, slip
+from ballscrew.physics.solvers.line_slip import creep_of_lines, pure_rolling_lines
+from ballscrew.physics.solvers.slip import (
+    BallProblem,
+    ContactSlip,
+    Slip,
+    carried_share,
+    contact_rotation,
+    sliding_forces,
+)
+from ballscrew.physics.solvers.strips import SMALLEST_SLIP, Forces, Side, forces_of, shapes_of, slip_power
 
 #: Share of Newton's second term at each evaluation of the forces; the rest is Weiszfeld's, which
 #: cannot overshoot. A fixed number, so that neighbours in an array change nothing.

@@ -1,7 +1,7 @@
 """The four contacts of an oversize ball as its four freedoms see them: speeds, forces, and what else resists.
 
-Written for :mod:`ballscrew.solvers.four_point_slip`, which says what the freedoms are. Everything is linear in them
-but the forces of the slip.
+Written for :mod:`ballscrew.physics.solvers.four_point_slip`, which says what the freedoms are. Everything is linear in
+them but the forces of the slip.
 """
 
 from __future__ import annotations
@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from ballscrew._arrays import namespace
-from ballscrew.equations import slip
-from ballscrew.quantities import Angle, Force, Length, Ratio, Speed, Torque
-from ballscrew.solvers.strips import Side, forces_of, shapes_of
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import Angle, Force, Length, Ratio, Speed, Torque
+from ballscrew.physics.equations import slip
+from ballscrew.physics.solvers.strips import Side, forces_of, shapes_of
 
 #: Share of its friction that a contact along the path may be asked for by what resists the ball.
 LARGEST_TRACTION_RATIO = 0.9

@@ -2,7 +2,7 @@ r"""Slip of a ball on four contacts: oversize balls touch both flanks of screw a
 
 No axis of rotation lets a ball roll on both flanks. It has four freedoms, its rotation and its travel along the
 path, and takes those at which the power lost is least. With friction coefficient
-and pressure given that power is convex in the four, as in :mod:`ballscrew.solvers.ellipse_slip`: the
+and pressure given that power is convex in the four, as in :mod:`ballscrew.physics.solvers.ellipse_slip`: the
 slopes are what is left of the balance. The contacts are cut into the same strips. What else resists the ball has
 a power that is linear in the freedoms.
 
@@ -28,10 +28,10 @@ import itertools
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from ballscrew._arrays import in_blocks, namespace
-from ballscrew.components.contact import Contact
-from ballscrew.quantities import Angle, Force, Length, Mask, Ratio, Torque
-from ballscrew.solvers.four_contacts import (
+from ballscrew.basis.arrays import in_blocks, namespace
+from ballscrew.basis.quantities import Angle, Force, Length, Mask, Ratio, Torque
+from ballscrew.physics.components.contact import Contact
+from ballscrew.physics.solvers.four_contacts import (
     Ball,
     ContactInput,
     Freedoms,
@@ -40,7 +40,7 @@ from ballscrew.solvers.four_contacts import (
     resistances_of,
 )
 
-#: Share of Newton's second term at each evaluation of the forces; see :mod:`ballscrew.solvers.ellipse_slip`.
+#: Share of Newton's second term at each evaluation of the forces; see :mod:`ballscrew.physics.solvers.ellipse_slip`.
 NEWTON_SHARES = (0.5, 0.9, 0.99, *(0.999,) * 9)
 #: Where a step has made it worse, this much of it is tried instead.
 BACKTRACK = 0.25

@@ -1,7 +1,7 @@
 r"""Slip on the line across the ellipse: curvature, spin and creep in closed form.
 
 With slip that varies along the height t only, friction changes sign on two lines of pure rolling, or
-on one, and every force is a polynomial in their heights (:mod:`ballscrew.equations.slip`). Force
+on one, and every force is a polynomial in their heights (:mod:`ballscrew.physics.equations.slip`). Force
 along the path and spin then fix the lines at each contact. What remains is how the contacts share
 the spin: so that its moments are equal, or, where one contact cannot hold what the other bears even
 in pure spin, the weaker takes nearly all of it and the other all but sticks. The helix's lateral
@@ -13,12 +13,19 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ballscrew._arrays import namespace
-from ballscrew.components.contact import Contact
-from ballscrew.components.traits import law_traits
-from ballscrew.equations import kinematics, slip
-from ballscrew.quantities import AngularSpeed, Force, Length, Mask, Ratio, Speed, Torque
-from ballscrew.solvers.slip import BallProblem, ContactSlip, Slip, carried_share, contact_rotation, sliding_forces
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import AngularSpeed, Force, Length, Mask, Ratio, Speed, Torque
+from ballscrew.physics.components.contact import Contact
+from ballscrew.physics.components.traits import law_traits
+from ballscrew.physics.equations import kinematics, slip
+from ballscrew.physics.solvers.slip import (
+    BallProblem,
+    ContactSlip,
+    Slip,
+    carried_share,
+    contact_rotation,
+    sliding_forces,
+)
 
 #: Steps of the search for the split of the spin; the last ones are Newton's and double the digits.
 STEPS = 40

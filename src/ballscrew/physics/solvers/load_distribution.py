@@ -10,9 +10,9 @@ Screw and nut body are bars between neighbouring balls. The displacements of two
 differ by the stretch of both bars, so that all of them are those of a chain of springs (the two
 bodies in series) with a spring to ground at each ball. Where screw and nut are held on the same side,
 the load enters at the first ball; where they are held on opposite sides, it enters at both ends, in
-the ratio of the flexibilities of screw and nut. :mod:`ballscrew.solvers.ball_springs` solves it. The balls also widen
-the nut and shrink the screw, each nut body by one gap (:mod:`ballscrew.solvers.swelling`). Between
-rigid bodies all balls of a kind are alike, and :mod:`ballscrew.solvers.rigid_nut` has the answer in a fixed
+the ratio of the flexibilities of screw and nut. :mod:`ballscrew.physics.solvers.ball_springs` solves it. The balls
+also widen the nut and shrink the screw, each nut body by one gap (:mod:`ballscrew.physics.solvers.swelling`). Between
+rigid bodies all balls of a kind are alike, and :mod:`ballscrew.physics.solvers.rigid_nut` has the answer in a fixed
 number of steps.
 
 A load of either sign: a negative one presses on the backward flanks, those of a single nut or of the second
@@ -25,21 +25,22 @@ balls, and the change of K with the contact angle.
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
 from typing import Annotated, Any
 
 import numpy as np
 
-from ballscrew._arrays import as_array, in_blocks, lazy, map_blocks, namespace
-from ballscrew.components.frame import helix_frame
-from ballscrew.components.nut import Bodies, Deviations, Nut, OversizeBallNut
-from ballscrew.components.screw import BallScrew, Raceway
-from ballscrew.equations import deflection, geometry, hertz, rigidity
-from ballscrew.errors import Fault, accepts_units, is_concrete, raise_if_any, si_value
-from ballscrew.quantities import Angle, Force, Info, Length, LoadDeflection, Mask, Ratio, Stiffness
-from ballscrew.solvers.ball_springs import Field
-from ballscrew.solvers.compiled_chain import FEWEST_POINTS
-from ballscrew.solvers.nut_balance import NutCase, solved
-from ballscrew.solvers.rigid_nut import KindLoads, RigidLoads, RigidNut, rigid_loads
+from ballscrew.basis.arrays import as_array, in_blocks, lazy, map_blocks, namespace
+from ballscrew.basis.errors import Fault, accepts_units, is_concrete, raise_if_any, si_value
+from ballscrew.basis.quantities import Angle, Force, Info, Length, LoadDeflection, Mask, Ratio, Stiffness
+from ballscrew.physics.components.frame import helix_frame
+from ballscrew.physics.components.nut import Bodies, Deviations, Nut, OversizeBallNut
+from ballscrew.physics.components.screw import BallScrew, Raceway
+from ballscrew.physics.equations import deflection, geometry, hertz, rigidity
+from ballscrew.physics.solvers.ball_springs import Field
+from ballscrew.physics.solvers.compiled_chain import FEWEST_POINTS
+from ballscrew.physics.solvers.nut_balance import NutCase, solved
+from ballscrew.physics.solvers.rigid_nut import KindLoads, RigidLoads, RigidNut, rigid_loads
 
 #: Imbalance, in units of load and preload, that counts as balanced.
 TOLERANCE = 1e-10
@@ -149,7 +150,7 @@ def ball_loads(
     before its flanks are pressed: their preload is less than :func:`preload_of_rigid_bodies`. ``compiled``
     solves balls between elastic bodies by a kernel where the compiler is installed: the same steps, whose sums round
     otherwise.
-    Raises :class:`~ballscrew.errors.InputError` for balls that cannot be counted one by one.
+    Raises :class:`~ballscrew.basis.errors.InputError` for balls that cannot be counted one by one.
     """
     c_phi = namespace(screw.lead_angle).cos(screw.lead_angle)
     A = deflection.groove_centre_distance(screw.screw_conformity, screw.nut_conformity, screw.ball_diameter)
@@ -195,68 +196,111 @@ def _one_by_one(
     compiled: bool,
 ) -> BallLoads:
     """Each ball for itself, in blocks of operating points."""
-    halves = nut.halves
     if deviations is not None:
         deviations = Deviations(*(si_value(f"deviations.{n}", v, "m") for n, v in deviations._asdict().items()))
-    raise_if_any(_faults(screw, halves, deviations))
-    oversize = getattr(nut, "oversize", None)
-    numbers = [
-        *point,
-        getattr(nut, "spacing", 0.0),
-        *body_stiffness(screw, bodies),
-        np.inf if bodies is None or not bodies.swelling else radial_stiffness(screw, bodies),
-        np.nan if oversize is None else oversize,
-    ]
-    shape = np.broadcast_shapes(*(np.shape(number) for number in numbers))
-    flat = [np.broadcast_to(np.asarray(number, dtype=float), shape).reshape(-1) for number in numbers]
-    whole: Any = slice(None)
-    if flat[0].size > 1 and not any(np.ndim(number) for number in numbers[1:]):
-        # the load alone varies: each distinct one is solved once, a single one as two, so that sums have one order
-        distinct, whole = np.unique(flat[0], return_inverse=True)
-        distinct = np.resize(distinct, max(distinct.size, FEWEST_POINTS))
-        flat = [distinct, *(np.broadcast_to(each[:1], distinct.shape) for each in flat[1:])]
-    count = flat[0].size
-    if compiled:
-        # where the load alone varies, the rest is worked out once; a single point is two, so that sums have one order
-        if not any(np.ndim(number) for number in numbers[1:]):
-            flat = [flat[0], *(each[:1] for each in flat[1:])]
-        flat[0] = np.resize(flat[0], max(count, FEWEST_POINTS))
+    raise_if_any(_faults(screw, nut.halves, deviations))
+    points = _points(_numbers(screw, nut, point, bodies), compiled)
+    case = _case(screw, nut, bodies, deviations, constant_angle, compiled)
+    solution = _solution(case, points)
+    by_ball = [points.all_of(np.moveaxis(part, 0, -1)) for part in solution[:4]]
+    plain = [points.all_of(part)[()] for part in solution[4:]]
+    kind = KindLoads(np.ones_like(by_ball[0]), *by_ball)
+    return BallLoads(kinds=(kind,), one_by_one=True, **dict(zip(_OF_NUT, plain, strict=True)))
+
+
+def _case(
+    screw: BallScrew,
+    nut: Nut,
+    bodies: Bodies | None,
+    deviations: Deviations | None,
+    constant_angle: bool,
+    compiled: bool,
+) -> NutCase:
+    """What all operating points have in common."""
     balls = int(screw.carrying_balls)
-    case = NutCase(
+    return NutCase(
         balls=balls,
-        halves=halves,
+        halves=nut.halves,
         oversize=isinstance(nut, OversizeBallNut),
         elastic=bodies is not None,
         swells=bodies is not None and bodies.swelling,
         same_side=bodies is None or bodies.same_side,
         constant_angle=constant_angle,
         scatters=deviations is not None,
-        excess=_by_ball(deviations.ball_diameter if deviations else 0.0, halves * balls),
-        lead_error=_by_ball(deviations.lead if deviations else 0.0, halves * balls),
+        excess=_by_ball(deviations.ball_diameter if deviations else 0.0, nut.halves * balls),
+        lead_error=_by_ball(deviations.lead if deviations else 0.0, nut.halves * balls),
         compiled=compiled,
     )
+
+
+def _numbers(screw: BallScrew, nut: Nut, point: RigidNut, bodies: Bodies | None) -> list[Any]:
+    """The numbers of a :class:`~ballscrew.physics.solvers.nut_balance.NutPoint`, each of a shape of its own."""
+    oversize = getattr(nut, "oversize", None)
+    return [
+        *point,
+        getattr(nut, "spacing", 0.0),
+        *body_stiffness(screw, bodies),
+        np.inf if bodies is None or not bodies.swelling else radial_stiffness(screw, bodies),
+        np.nan if oversize is None else oversize,
+    ]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class _Points:
+    """Operating points to be solved, and where those that were asked for are among them."""
+
+    #: By number of a point; one value where all have it.
+    numbers: list[Field]
+    #: The first so many are asked for; those behind them are there for the order of sums.
+    count: int
+    #: The place of each point that was asked for, and the shape of all of them.
+    places: Any
+    shape: tuple[int, ...]
+
+    def all_of(self, part: Field) -> Field:
+        """A result for all points that were asked for; further axes come last."""
+        return part[self.places].reshape((*self.shape, *part.shape[1:]))
+
+
+def _points(numbers: Sequence[Any], compiled: bool) -> _Points:
+    """The operating points of numbers that broadcast."""
+    shape = np.broadcast_shapes(*(np.shape(number) for number in numbers))
+    flat = [np.broadcast_to(np.asarray(number, dtype=float), shape).reshape(-1) for number in numbers]
+    load_varies_alone = not any(np.ndim(number) for number in numbers[1:])
+    places: Any = slice(None)
+    if flat[0].size > 1 and load_varies_alone:
+        # each distinct one is solved once, a single one as two, so that sums have one order
+        distinct, places = np.unique(flat[0], return_inverse=True)
+        distinct = np.resize(distinct, max(distinct.size, FEWEST_POINTS))
+        flat = [distinct, *(np.broadcast_to(each[:1], distinct.shape) for each in flat[1:])]
+    count = flat[0].size
+    if compiled:
+        # where the load alone varies, the rest is worked out once; a single point is two, so that sums have one order
+        if load_varies_alone:
+            flat = [flat[0], *(each[:1] for each in flat[1:])]
+        flat[0] = np.resize(flat[0], max(count, FEWEST_POINTS))
+    return _Points(flat, count, places, shape)
+
+
+def _solution(case: NutCase, points: _Points) -> list[Field]:
+    """The results of the solver at the points, the ball axis first; NaN for a preload below zero, which has none."""
+    load, preload, *_ = points.numbers
     # who asks for kernels comes block by block, with threads of its own
-    size = flat[0].size if compiled else max(1, BLOCK // (halves * balls))
-    parts: list[Any] = [None] * -(-flat[0].size // size)
+    size = load.size if case.compiled else max(1, BLOCK // (case.halves * case.balls))
+    parts: list[Any] = [None] * -(-load.size // size)
 
     def solve(block: slice) -> None:
         alone = block.stop - block.start == 1 and block.start > 0  # with one before it, sums have one order
         here = slice(block.start - alone, block.stop)
         with np.errstate(all="ignore"):
-            found = solved(case, *(n if n.size == 1 else n[here] for n in flat))
+            found = solved(case, *(n if n.size == 1 else n[here] for n in points.numbers))
         parts[block.start // size] = [part[..., 1:] for part in found] if alone else found
 
-    map_blocks(solve, flat[0].size, block_size=size)
+    map_blocks(solve, load.size, block_size=size)
     joined = parts[0] if len(parts) == 1 else [np.concatenate(part, axis=-1) for part in zip(*parts, strict=True)]
-    joined = [np.broadcast_to(part, (*part.shape[:-1], flat[0].size))[..., :count] for part in joined]
-    # a preload below zero has no distribution
-    meaningless = (np.isnan(flat[0]) | ~(flat[1] >= 0))[:count]
-    if np.any(meaningless):
-        joined = [np.where(meaningless, np.nan, part) for part in joined]
-    by_ball = [np.moveaxis(part, 0, -1)[whole].reshape(*shape, part.shape[0]) for part in joined[:4]]
-    plain = [part[whole].reshape(shape)[()] for part in joined[4:]]
-    kind = KindLoads(np.ones_like(by_ball[0]), *by_ball)
-    return BallLoads(kinds=(kind,), one_by_one=True, **dict(zip(_OF_NUT, plain, strict=True)))
+    joined = [np.broadcast_to(part, (*part.shape[:-1], load.size))[..., : points.count] for part in joined]
+    meaningless = (np.isnan(load) | ~(preload >= 0))[: points.count]
+    return [np.where(meaningless, np.nan, part) for part in joined] if np.any(meaningless) else joined
 
 
 def preload_of(screw: BallScrew, nut: Nut) -> Force:

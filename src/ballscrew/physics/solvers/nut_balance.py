@@ -1,8 +1,8 @@
 """The balls of one nut between its bodies: blocks of operating points, solved with the ball axis first.
 
-What :mod:`ballscrew.solvers.load_distribution` describes and returns is worked out here: which flanks a nut's balls
-have, how its halves are braced, and what follows from the displacements of
-:mod:`ballscrew.solvers.ball_springs`.
+What :mod:`ballscrew.physics.solvers.load_distribution` describes and returns is worked out here: which flanks a nut's
+balls have, how its halves are braced, and what follows from the displacements of
+:mod:`ballscrew.physics.solvers.ball_springs`.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.quantities import Force, Length, Ratio
-from ballscrew.solvers.ball_springs import (
+from ballscrew.basis.quantities import Force, Length, Ratio
+from ballscrew.physics.solvers.ball_springs import (
     BallSprings,
     Bars,
     Field,
@@ -23,7 +23,7 @@ from ballscrew.solvers.ball_springs import (
     rigid_balance,
     tridiagonal,
 )
-from ballscrew.solvers.compiled_chain import (
+from ballscrew.physics.solvers.compiled_chain import (
     CarriedLoads,
     compiled_chain_balance,
     compiled_imbalance,
@@ -32,8 +32,14 @@ from ballscrew.solvers.compiled_chain import (
     compiled_widened_balance,
     compiled_widened_response,
 )
-from ballscrew.solvers.rigid_nut import PICOMETRE, RigidNut, rigid_lift_off_load
-from ballscrew.solvers.swelling import Swelling, excess_at_rest, preload_of_oversize, widened_balance, widened_response
+from ballscrew.physics.solvers.rigid_nut import PICOMETRE, RigidNut, rigid_lift_off_load
+from ballscrew.physics.solvers.swelling import (
+    Swelling,
+    excess_at_rest,
+    preload_of_oversize,
+    widened_balance,
+    widened_response,
+)
 
 #: Imbalance of a ball between its bars that rounding may leave, in the same units.
 LARGEST_OF_A_BALL = 1e-6

@@ -9,12 +9,12 @@ screw and below 0.5 for any contact that fits its groove, so Newton's method can
 
 from __future__ import annotations
 
-from ballscrew._arrays import namespace
-from ballscrew.components.contact import Contact
-from ballscrew.components.traits import law_traits
-from ballscrew.equations import friction
-from ballscrew.quantities import Force, Length, Ratio, Torque
-from ballscrew.solvers.slip import BallProblem, ContactSlip, Slip, sliding_forces
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import Force, Length, Ratio, Torque
+from ballscrew.physics.components.contact import Contact
+from ballscrew.physics.components.traits import law_traits
+from ballscrew.physics.equations import friction
+from ballscrew.physics.solvers.slip import BallProblem, ContactSlip, Slip, sliding_forces
 
 #: A fixed number of steps: block sizes and neighbours in an array cannot change a result.
 NEWTON_STEPS = 5

@@ -2,7 +2,7 @@ r"""The balls of a nut between rigid bodies: all balls of a kind are alike, and 
 
 Every operation is elementwise and the number of steps is fixed, so that the solution runs on numbers and arrays and
 can be recorded. Lengths are in units of the distance A of the groove centres, forces of a ball in units of
-:math:`K A^{3/2}`. The springs are those of :mod:`ballscrew.solvers.ball_springs`:
+:math:`K A^{3/2}`. The springs are those of :mod:`ballscrew.physics.solvers.ball_springs`:
 a flank pair displaced by :math:`\zeta` carries :math:`q = \delta^{3/2}` at the sine :math:`\sigma`,
 
 .. math::
@@ -32,8 +32,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew._arrays import namespace
-from ballscrew.quantities import Angle, Array, Force, Length, LoadDeflection, Mask, Ratio, Stiffness
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import Angle, Array, Force, Length, LoadDeflection, Mask, Ratio, Stiffness
 
 #: Steps for one flank pair alone: from 3 % to rounding; a single one is a start for what follows.
 HALLEY_STEPS = 3

@@ -5,11 +5,11 @@ from __future__ import annotations
 import dataclasses
 from typing import NamedTuple, Protocol
 
-from ballscrew._arrays import namespace
-from ballscrew.components.balance import Resistances, ball_forces
-from ballscrew.components.contact import Contact
-from ballscrew.components.frame import Frame
-from ballscrew.quantities import AngularSpeed, Force, Length, Mask, Ratio, Speed, Torque
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import AngularSpeed, Force, Length, Mask, Ratio, Speed, Torque
+from ballscrew.physics.components.balance import Resistances, ball_forces
+from ballscrew.physics.components.contact import Contact
+from ballscrew.physics.components.frame import Frame
 
 
 class BallProblem(NamedTuple):

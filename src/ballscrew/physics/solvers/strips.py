@@ -3,7 +3,7 @@ r"""The forces of a slipping contact, as sums over strips of its ellipse.
 Friction has its full strength everywhere and the direction of the slip: the slope of friction,
 load and slip speed by a freedom of the slip is the force that goes with it. A strip across the
 ellipse slips with the root-mean-square of what happens in it
-(:func:`~ballscrew.equations.slip.cell_slip_speed`), which keeps all slopes smooth.
+(:func:`~ballscrew.physics.equations.slip.cell_slip_speed`), which keeps all slopes smooth.
 """
 
 from __future__ import annotations
@@ -12,9 +12,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew._arrays import namespace
-from ballscrew.equations import slip
-from ballscrew.quantities import AngularSpeed, Force, Length, Ratio, Speed
+from ballscrew.basis.arrays import namespace
+from ballscrew.basis.quantities import AngularSpeed, Force, Length, Ratio, Speed
+from ballscrew.physics.equations import slip
 
 #: Strips of the ellipse. Against the integral, the 95th percentile of the error is 0.5 % with 8 and rises a little
 #: with more (``benchmarks/reference.py --strips``): what is left is not the strips' but the mean along the path.

@@ -1,9 +1,9 @@
 r"""The radial swelling of nut and shaft under the balls of a nut, and the balance with it.
 
 The balls of a nut body push nut and screw apart with :math:`N = \sum Q \cos\alpha`. By Lamé's cylinders
-(:mod:`ballscrew.equations.rigidity`) a gap :math:`u = N / k_r` opens between them, the same along the body: a wall as
-thick as a nut's carries the push of one ball over a turn and more. The gap moves the grooves apart. It is a spring like
-the others, so that energy is kept, and the forces on nut and screw stay opposite and equal.
+(:mod:`ballscrew.physics.equations.rigidity`) a gap :math:`u = N / k_r` opens between them, the same along the body: a
+wall as thick as a nut's carries the push of one ball over a turn and more. The gap moves the grooves apart. It is a
+spring like the others, so that energy is kept, and the forces on nut and screw stay opposite and equal.
 
 Each half of a preloaded nut has a gap of its own. The gaps are found by Newton's method around the balance of the
 chain of balls; by the symmetry of the energy one slope serves for both.
@@ -16,8 +16,16 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.quantities import Force
-from ballscrew.solvers.ball_springs import BallSprings, Bars, Field, RadialPush, chain_balance, over_balls, tridiagonal
+from ballscrew.basis.quantities import Force
+from ballscrew.physics.solvers.ball_springs import (
+    BallSprings,
+    Bars,
+    Field,
+    RadialPush,
+    chain_balance,
+    over_balls,
+    tridiagonal,
+)
 
 #: Imbalance of the radial forces that counts as none, in units of the forces at work, and steps of the search at most.
 BALANCED, STEPS = 1e-13, 40

@@ -11,22 +11,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew import units
-from ballscrew._arrays import lazy
-from ballscrew.axis_studies.warm_up import length_of
-from ballscrew.cases import case_file
-from ballscrew.cases.case import Case
-from ballscrew.errors import Fault, InputError
-from ballscrew.motion.states import Numbers
-from ballscrew.overflow import overflow_as_input_error
-from ballscrew.quantities import AngularSpeed, Force, Info, Length, Quantity, quantities_of
-from ballscrew.records import Record
-from ballscrew.supports.stiffness import SHARES, AxisStiffness, stiffness_over_stroke
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.axis.supports.stiffness import SHARES, AxisStiffness, stiffness_over_stroke
+from ballscrew.basis import units
+from ballscrew.basis.arrays import lazy
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.overflow import overflow_as_input_error
+from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Quantity, quantities_of
+from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.case import Case
+from ballscrew.questions.warm_up.compute import length_of
 
 #: Places within the travel that the terminal shows.
 SHOWN = 5
 _KNOWN = quantities_of(AxisStiffness)
-LOST_MOTION = Quantity("lost_motion", "m", Info("u", "way lost at a reversal by the friction of the guides", "um"))
+LOST_MOTION = Quantity("lost_motion", "m", Info("u", "lost motion at a reversal by the friction of the guides", "um"))
 FRICTION = Quantity("guide_friction", "N", Info("F_g", "friction of the guides at a reversal"))
 LOAD = Quantity("largest_load", "N", Info("F_max", "largest size of the axial load", "kN"))
 SPEED = Quantity("largest_speed", "rad/s", Info("n_max", "largest speed of the screw", "rpm"))
@@ -85,13 +85,13 @@ class ChainReport:
         return int(self._within[np.argmin(self.chain.total[self._within])])
 
     @lazy
-    def whirls_first(self) -> int:
-        """Index of the place in the travel where the shaft whirls at the lowest speed."""
+    def lowest_critical_speed(self) -> int:
+        """Index of the place in the travel where the critical speed of the shaft is lowest."""
         return int(self._within[np.argmin(self.chain.critical_speed[self._within])])
 
     @lazy
-    def buckles_first(self) -> int:
-        """Index of the place in the travel where the shaft buckles under the least load."""
+    def least_buckling_load(self) -> int:
+        """Index of the place in the travel where the buckling load of the shaft is least."""
         return int(self._within[np.argmin(self.chain.buckling_load[self._within])])
 
     @lazy
@@ -102,46 +102,63 @@ class ChainReport:
     def _softest_record(self) -> Record:
         at = self.softest
         if not math.isfinite(float(self.chain.total[at])):
-            text = "rigidity not known: a nut without preload has none without a load"
-            return Record(id="verdict.rigidity", subject="total", text=text, severity="warning")
+            unknown = Message("rigidity not known: a nut without preload has none without a load")
+            return units.record(unknown, id="verdict.rigidity", subject="total", severity="warning")
         shares = {name: float(share[at]) for name, share in self.chain.shares.items()}
         most = max(shares, key=lambda name: shares[name])
         total = float(self.chain.total[at])
-        text = (
-            f"softest with the nut at {self._place(at)}: {units.shown(total, SERIES['total'])}, "
-            f"{shares[most]:.0%} of what gives way is the {most}"
+        message = Message(
+            "softest with the nut at {place}: {rigidity}, {share} % of what gives way is the {part}",
+            {
+                "place": self._place(at),
+                "rigidity": Measured(total, SERIES["total"]),
+                "share": Measured(100 * shares[most], digits=2),
+                "part": Message(most),
+            },
         )
-        return Record(id="verdict.rigidity", subject="total", text=text, value=total, unit="N/m")
+        return units.record(message, id="verdict.rigidity", subject="total", value=total, unit="N/m")
 
     def _speed_record(self) -> Record:
-        at, share = self.whirls_first, float(self.case.limits.critical_speed_share)
+        at, share = self.lowest_critical_speed, float(self.case.limits.critical_speed_share)
         critical = float(self.chain.critical_speed[at])
         holds = self.largest_speed <= share * critical
-        text = (
-            f"turns at up to {units.shown(self.largest_speed, SPEED)}, "
-            f"{self.largest_speed / critical:.2f} of the {units.shown(critical, SPEED)} at which the shaft whirls with "
-            f"the nut at {self._place(at)}; {share:g} is permitted"
+        message = Message(
+            "highest speed {speed}, {ratio} of the critical speed {critical} with the nut at {place}; {share} is "
+            "permitted",
+            {
+                "speed": Measured(self.largest_speed, SPEED),
+                "ratio": Measured(self.largest_speed / critical, digits=2),
+                "critical": Measured(critical, SPEED),
+                "place": self._place(at),
+                "share": Measured(share),
+            },
         )
-        return Record(
-            id="verdict.critical_speed", subject="critical_speed", text=text, value=self.largest_speed,
+        return units.record(
+            message, id="verdict.critical_speed", subject="critical_speed", value=self.largest_speed,
             limit=share * critical, unit="rad/s", holds=holds, severity="info" if holds else "warning",
         )  # fmt: skip
 
     def _load_record(self) -> Record:
-        at, safety = self.buckles_first, float(self.case.limits.buckling_safety)
+        at, safety = self.least_buckling_load, float(self.case.limits.buckling_safety)
         buckling = float(self.chain.buckling_load[at])
         holds = self.largest_load * safety <= buckling
-        text = (
-            f"buckles under {units.shown(buckling, SERIES['buckling_load'])} with the nut at {self._place(at)}; "
-            f"the largest load is {units.shown(self.largest_load, LOAD)}, and a safety of {safety:g} is asked for"
+        message = Message(
+            "buckling load {buckling} with the nut at {place}; the largest load is {load}, and a safety of {safety} "
+            "is asked for",
+            {
+                "buckling": Measured(buckling, SERIES["buckling_load"]),
+                "place": self._place(at),
+                "load": Measured(self.largest_load, LOAD),
+                "safety": Measured(safety),
+            },
         )
-        return Record(
-            id="verdict.buckling", subject="buckling_load", text=text, value=self.largest_load,
+        return units.record(
+            message, id="verdict.buckling", subject="buckling_load", value=self.largest_load,
             limit=buckling / safety, unit="N", holds=holds, severity="info" if holds else "warning",
         )  # fmt: skip
 
-    def _place(self, at: int) -> str:
-        return units.shown(float(self.chain.position[at]), SERIES["position"])
+    def _place(self, at: int) -> Measured:
+        return Measured(float(self.chain.position[at]), SERIES["position"])
 
 
 def load(path: str | Path, settings: Sequence[str], model: str | None = None, *, allow_code: bool = False) -> Case:
@@ -155,8 +172,8 @@ def load(path: str | Path, settings: Sequence[str], model: str | None = None, *,
 def chain_of(case: Case, positions: Sequence[Length] = ()) -> ChainReport:
     """The chain of a case at places of its nut, or over its travel and the whole shaft.
 
-    Raises :class:`~ballscrew.errors.InputError` for a case without ``[installation]``, for a motion that does not fit
-    on the shaft, and as :func:`~ballscrew.supports.stiffness.stiffness_over_stroke` does.
+    Raises :class:`~ballscrew.basis.errors.InputError` for a case without ``[installation]``, for a motion that does
+    not fit on the shaft, and as :func:`~ballscrew.axis.supports.stiffness.stiffness_over_stroke` does.
     """
     if case.installation is None:
         remedy = 'add a table [installation] with unsupported_length = "1 m" and ends = "fixed-supported"'

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from ballscrew.axis_studies.stiffness import FRICTION, LOAD, SERIES, SPEED, ChainReport
-from ballscrew.cases import case_file, provenance
-from ballscrew.records import documents
+from ballscrew.basis.records import documents
+from ballscrew.cases.case_files import case_file, provenance
+from ballscrew.questions.axis.compute import FRICTION, LOAD, SERIES, SPEED, ChainReport
 
 
 def document(report: ChainReport) -> dict[str, Any]:

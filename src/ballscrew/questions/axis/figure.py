@@ -10,11 +10,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew import units
-from ballscrew.axis_studies.stiffness import LOAD, SERIES, SPEED, SPRINGS, ChainReport
-from ballscrew.figures import style
-from ballscrew.quantities import Quantity
-from ballscrew.text import stiffness as text
+from ballscrew.basis import units
+from ballscrew.basis.quantities import Quantity
+from ballscrew.questions.axis import text
+from ballscrew.questions.axis.compute import LOAD, SERIES, SPEED, SPRINGS, ChainReport
+from ballscrew.questions.shared import chart_style as style
 
 _COLOURS: Mapping[str, str] = dict(
     zip(SPRINGS, (style.BLUE, style.ORANGE, style.GREEN, style.GREY, style.PURPLE), strict=True)
@@ -32,7 +32,7 @@ def picture(report: ChainReport) -> Figure:
     _line(panels[0], report, "total", "rigidity between motor and table")
     panels[0].set_ylim(bottom=0)
     _shares(panels[1], report)
-    _line(panels[2], report, "critical_speed", "speed at which the shaft whirls")
+    _line(panels[2], report, "critical_speed", "critical speed of the shaft")
     _limit(panels[2], report.largest_speed, SPEED, "largest speed")
     _line(panels[3], report, "buckling_load", "load under which it buckles")
     _limit(panels[3], report.largest_load, LOAD, "largest load")

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from ballscrew import units
-from ballscrew.axis_studies.stiffness import SERIES, ChainReport
-from ballscrew.table_files.row_tables import RowTable, put
+from ballscrew.basis import units
+from ballscrew.questions.axis.compute import SERIES, ChainReport
+from ballscrew.questions.shared.row_tables import RowTable, put
 
 
 def places(report: ChainReport) -> RowTable:

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from ballscrew import units
-from ballscrew.axis_studies.stiffness import FRICTION, SERIES, SPRINGS, ChainReport
-from ballscrew.cases import descriptions
-from ballscrew.output.wrapping import aligned, wrapped
-from ballscrew.text.elements import element_lines
-from ballscrew.text.tables import shown_or_dash
+from ballscrew.basis import units
+from ballscrew.basis.output.wrapping import aligned, wrapped
+from ballscrew.cases.case_files import descriptions
+from ballscrew.questions.axis.compute import FRICTION, SERIES, SPRINGS, ChainReport
+from ballscrew.questions.shared.elements_text import element_lines
+from ballscrew.questions.shared.text_tables import shown_or_dash
 
-_SHORT = {"position": "nut at", "total": "rigidity", "lost_motion": "lost at a reversal", "critical_speed": "whirls at",
-          "buckling_load": "buckles under"}  # fmt: skip
+_SHORT = {"position": "nut at", "total": "rigidity", "lost_motion": "lost motion", "critical_speed": "critical speed",
+          "buckling_load": "buckling load"}  # fmt: skip
 
 
 def text(report: ChainReport) -> str:

@@ -9,25 +9,25 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ballscrew.case_schema.schema import LAWS
-from ballscrew.cases import uncertain_inputs
-from ballscrew.cases.case_file import Case
-from ballscrew.cases.uncertain_inputs import Uncertain
-from ballscrew.components.traits import traits_of
-from ballscrew.errors import InputError
-from ballscrew.evaluation.comparison import Candidate
-from ballscrew.friction.calibrations import PARAMETERS
-from ballscrew.overflow import overflow_as_input_error
-from ballscrew.studies import comparison
-from ballscrew.uncertainty import bands
-from ballscrew.uncertainty.band_evaluation import BAND_OUTPUTS
-from ballscrew.uncertainty.bands import Band, BandCurve
-from ballscrew.uncertainty.default_uncertainties import JUDGEMENT
-from ballscrew.uncertainty.distributions import Distribution
-from ballscrew.uncertainty.sampling import Joint, JointParts
+from ballscrew.basis.errors import InputError
+from ballscrew.basis.overflow import overflow_as_input_error
+from ballscrew.cases.case_files import uncertain_inputs
+from ballscrew.cases.case_files.case_file import Case
+from ballscrew.cases.case_files.uncertain_inputs import Uncertain
+from ballscrew.cases.schema.schema import LAWS
+from ballscrew.engine.evaluation.comparison import Candidate
+from ballscrew.engine.uncertainty import bands
+from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
+from ballscrew.engine.uncertainty.bands import Band, BandCurve
+from ballscrew.engine.uncertainty.default_uncertainties import JUDGEMENT
+from ballscrew.engine.uncertainty.distributions import Distribution
+from ballscrew.engine.uncertainty.sampling import Joint, JointParts
+from ballscrew.physics.components.traits import traits_of
+from ballscrew.physics.friction.calibrations import PARAMETERS
+from ballscrew.questions.compare import compute as comparison
 
 if TYPE_CHECKING:  # its solvers are slow to import
-    from ballscrew.axis_studies.heat_samples import HeatSamples
+    from ballscrew.questions.band.heat_samples import HeatSamples
 
 #: Points of the curve, of a screw and of a whole nut, and how far it goes beyond the operating point.
 _POINTS, _NUT_POINTS, _BEYOND = 25, 9, 2.0
@@ -97,7 +97,7 @@ def alternatives(case: Case) -> list[Candidate]:
 def band(case: Case, options: Options, done: Done | None = None, heat: HeatSamples | None = None) -> BandReport:
     """Band of a case, with what its heat leaves open where it is given.
 
-    Raises :class:`~ballscrew.errors.InputError` that names options of the command line.
+    Raises :class:`~ballscrew.basis.errors.InputError` that names options of the command line.
     """
     inputs = uncertain_inputs.all_of(case, options.only_given)
     if heat is not None:

@@ -5,19 +5,19 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from ballscrew import units
-from ballscrew.cases import uncertain_inputs
-from ballscrew.cases.case_file import Case
-from ballscrew.cases.uncertain_inputs import Uncertain
-from ballscrew.documents.run import document as run_document
-from ballscrew.evaluation.outputs import known_outputs
-from ballscrew.friction.result import FrictionResult
-from ballscrew.friction.validity import NUT_CONDITIONS
-from ballscrew.quantities import Quantity, quantities_of
-from ballscrew.records import Measured, Message, Record, documents
-from ballscrew.studies.band import BandReport
-from ballscrew.studies.run import Run
-from ballscrew.uncertainty.bands import OutputBand
+from ballscrew.basis import units
+from ballscrew.basis.quantities import Quantity, quantities_of
+from ballscrew.basis.records import Measured, Message, Record, documents
+from ballscrew.cases.case_files import uncertain_inputs
+from ballscrew.cases.case_files.case_file import Case
+from ballscrew.cases.case_files.uncertain_inputs import Uncertain
+from ballscrew.engine.evaluation.outputs import known_outputs
+from ballscrew.engine.uncertainty.bands import OutputBand
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.friction.validity import NUT_CONDITIONS
+from ballscrew.questions.band.compute import BandReport
+from ballscrew.questions.run.compute import Run
+from ballscrew.questions.run.document import document as run_document
 
 _TORQUE = "screw_torque"
 _KNOWN = quantities_of(FrictionResult)[_TORQUE]

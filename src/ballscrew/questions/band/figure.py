@@ -11,15 +11,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from ballscrew import units
-from ballscrew.cases.case_file import Case
-from ballscrew.cases.descriptions import title
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.figures import style
-from ballscrew.quantities import Quantity, fields_of
-from ballscrew.studies.band import BandReport
-from ballscrew.text import band as text
-from ballscrew.uncertainty.bands import Band, BandCurve
+from ballscrew.basis import units
+from ballscrew.basis.quantities import Quantity, fields_of
+from ballscrew.cases.case_files.case_file import Case
+from ballscrew.cases.case_files.descriptions import title
+from ballscrew.engine.uncertainty.bands import Band, BandCurve
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.questions.band import text
+from ballscrew.questions.band.compute import BandReport
+from ballscrew.questions.shared import chart_style as style
 
 _TORQUE = "friction torque on the screw (N m)"
 #: Inches of a line of the right panel, and of what stands around all.

@@ -7,20 +7,20 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ballscrew import units
-from ballscrew.axis_studies.self_heating import SelfHeating
-from ballscrew.axis_studies.warm_up import SERIES
-from ballscrew.axis_studies.warm_up_band import inputs_of
-from ballscrew.cases.uncertain_inputs import Uncertain
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.errors import Fault, InputError
-from ballscrew.quantities import Quantity
-from ballscrew.thermal.equilibrium import equilibrium
-from ballscrew.thermal.surroundings import PREFIX
-from ballscrew.thermal.warm_up_band import sampled
-from ballscrew.uncertainty.default_uncertainties import JUDGEMENT
-from ballscrew.uncertainty.distributions import LogNormal, Normal
-from ballscrew.uncertainty.sampling import JointSamples, sobol_sequence
+from ballscrew.axis.thermal.equilibrium import equilibrium
+from ballscrew.axis.thermal.surroundings import PREFIX
+from ballscrew.axis.thermal.warm_up_band import sampled
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.quantities import Quantity
+from ballscrew.cases.case_files.uncertain_inputs import Uncertain
+from ballscrew.engine.uncertainty.default_uncertainties import JUDGEMENT
+from ballscrew.engine.uncertainty.distributions import LogNormal, Normal
+from ballscrew.engine.uncertainty.sampling import JointSamples, sobol_sequence
+from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.questions.warm_up.band import inputs_of
+from ballscrew.questions.warm_up.compute import SERIES
+from ballscrew.questions.warm_up.self_heating import SelfHeating
 
 #: Samples of the surroundings, and the share of them that needs a steady state.
 SAMPLES, ENOUGH = 256, 0.5
@@ -40,7 +40,7 @@ def heat_samples(heating: SelfHeating, *, only_given: bool = False) -> HeatSampl
     """The samples of a case that heats itself, about its steady state.
 
     The friction is that of the model: its own uncertain inputs are drawn by the band, and do not change the heat.
-    Raises :class:`~ballscrew.errors.InputError` where half of the samples have no steady state.
+    Raises :class:`~ballscrew.basis.errors.InputError` where half of the samples have no steady state.
     """
     case, network = heating.given, heating.equilibrium.network
     every = inputs_of(case, network, only_given)

@@ -9,16 +9,16 @@ from typing import NamedTuple
 from rich.console import Console
 from rich.table import Table
 
-from ballscrew.cases.case_file import Case
-from ballscrew.cases.descriptions import design, title
-from ballscrew.cases.uncertain_inputs import GIVEN, Uncertain
-from ballscrew.documents.band import verdicts, warnings
-from ballscrew.evaluation.outputs import known_outputs
-from ballscrew.quantities import Quantity
-from ballscrew.studies.band import BandReport
-from ballscrew.text.tables import ends_or_dashes, shown_or_dash, table_of
-from ballscrew.uncertainty.band_evaluation import BAND_OUTPUTS
-from ballscrew.uncertainty.bands import BandCurve, Interval, OutputBand
+from ballscrew.basis.quantities import Quantity
+from ballscrew.cases.case_files.case_file import Case
+from ballscrew.cases.case_files.descriptions import design, title
+from ballscrew.cases.case_files.uncertain_inputs import GIVEN, Uncertain
+from ballscrew.engine.evaluation.outputs import known_outputs
+from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
+from ballscrew.engine.uncertainty.bands import BandCurve, Interval, OutputBand
+from ballscrew.questions.band.compute import BandReport
+from ballscrew.questions.band.document import verdicts, warnings
+from ballscrew.questions.shared.text_tables import ends_or_dashes, shown_or_dash, table_of
 
 _TORQUE = "screw_torque"
 #: Outputs on the terminal besides the friction torque.

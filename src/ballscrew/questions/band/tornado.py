@@ -5,11 +5,11 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping, Sequence
 
-from ballscrew.cases.case import Case
-from ballscrew.cases.uncertain_inputs import Uncertain
-from ballscrew.studies.band import BandReport
-from ballscrew.uncertainty.bands import OutputBand
-from ballscrew.uncertainty.one_at_a_time import Swing, one_at_a_time
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.uncertain_inputs import Uncertain
+from ballscrew.engine.uncertainty.bands import OutputBand
+from ballscrew.engine.uncertainty.one_at_a_time import Swing, one_at_a_time
+from ballscrew.questions.band.compute import BandReport
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -9,11 +9,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew.figures import style
-from ballscrew.output.plain_numbers import plain
-from ballscrew.studies.tornado import Tornado
-from ballscrew.text.band import spoken
-from ballscrew.uncertainty.one_at_a_time import Swing
+from ballscrew.basis.output.plain_numbers import plain
+from ballscrew.engine.uncertainty.one_at_a_time import Swing
+from ballscrew.questions.band.text import spoken
+from ballscrew.questions.band.tornado import Tornado
+from ballscrew.questions.shared import chart_style as style
 
 #: Inputs that are drawn, and the share of the widest swing below which an input is left out.
 MOST, LEAST = 12, 0.01

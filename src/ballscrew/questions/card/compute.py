@@ -8,16 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.errors import Fault, InputError
-from ballscrew.friction.calibrations import Calibration, calibrated
-from ballscrew.friction.model import FrictionModel
-from ballscrew.quantities import Info, Quantity, fields_of
-from ballscrew.sizing.rules import DRAG_RULES, RULES
-from ballscrew.solvers.load_distribution import preload_of
-from ballscrew.studies.comparison import subject_of
-from ballscrew.torque_cards import torque_card
-from ballscrew.torque_cards.torque_card import TorqueCard, TorquePoint
-from ballscrew.validation.entries import Band, Conditions, Entry, Point, ValidationSet, Values
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.quantities import Info, Quantity, fields_of
+from ballscrew.cases.torque_cards import torque_card
+from ballscrew.cases.torque_cards.torque_card import TorqueCard, TorquePoint
+from ballscrew.evidence.validation.entries import Band, Conditions, Entry, Point, ValidationSet, Values
+from ballscrew.physics.friction.calibrations import Calibration, calibrated
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.sizing.rules import DRAG_RULES, RULES
+from ballscrew.physics.solvers.load_distribution import preload_of
+from ballscrew.questions.compare.compute import subject_of
 
 _TORQUE = Quantity("torque", "N m", Info("T", "torque", "N m"))
 
@@ -27,7 +27,8 @@ def evaluate(
 ) -> Iterator[tuple[list[Entry], list[str]]]:
     """The entries of each card, uncalibrated first, and notes on it.
 
-    Raises :class:`~ballscrew.errors.InputError` with the faults of all cards, and for a nut that the model cannot do.
+    Raises :class:`~ballscrew.basis.errors.InputError` with the faults of all cards, and for a nut that the model
+    cannot do.
     """
     cards = torque_card.read_all(paths)
     for card in cards:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from ballscrew.quantities import fields_of
-from ballscrew.studies import torque_cards
-from ballscrew.torque_cards.torque_card import TorqueCard, TorquePoint
+from ballscrew.basis.quantities import fields_of
+from ballscrew.cases.torque_cards.torque_card import TorqueCard, TorquePoint
+from ballscrew.questions.card import compute as torque_cards
 
 
 def documents(cards: Sequence[TorqueCard]) -> list[dict[str, Any]]:

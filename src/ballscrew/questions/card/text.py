@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ballscrew import units
-from ballscrew.cases import descriptions
-from ballscrew.output.wrapping import wrapped
-from ballscrew.quantities import fields_of
-from ballscrew.torque_cards.torque_card import TorqueCard, TorquePoint
+from ballscrew.basis import units
+from ballscrew.basis.output.wrapping import wrapped
+from ballscrew.basis.quantities import fields_of
+from ballscrew.cases.case_files import descriptions
+from ballscrew.cases.torque_cards.torque_card import TorqueCard, TorquePoint
 
 _KNOWN = fields_of(TorquePoint)
 

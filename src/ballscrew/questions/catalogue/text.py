@@ -6,11 +6,11 @@ import dataclasses
 from collections.abc import Sequence
 from typing import Any
 
-from ballscrew import units
-from ballscrew.output.wrapping import aligned
-from ballscrew.quantities import Quantity, quantities_of
-from ballscrew.screw_tables.catalogue import DERIVED, FIELDS, assumed
-from ballscrew.sizing.catalogue import CONFORMITY_DOUBT, CatalogueRow
+from ballscrew.basis import units
+from ballscrew.basis.output.wrapping import aligned
+from ballscrew.basis.quantities import Quantity, quantities_of
+from ballscrew.cases.screw_tables.catalogue import DERIVED, FIELDS, assumed
+from ballscrew.physics.sizing.catalogue import CONFORMITY_DOUBT, CatalogueRow
 
 #: Columns of the list: a row of the catalogue in the units people think in.
 _LIST = ("name", "d0 x lead [mm]", "ball [mm]", "turns", "balls/turn", "loaded", "C_a [kN]", "C_0a [kN]", "source")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from ballscrew.api_answers.answers import Results
-from ballscrew.api_answers.parts import (
+from ballscrew.questions.run.answer import Results
+from ballscrew.questions.shared.answer_parts import (
     Closed,
     JudgedCheck,
     Number,

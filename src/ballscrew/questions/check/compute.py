@@ -8,25 +8,25 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from ballscrew import units
-from ballscrew.case_schema.option_faults import in_options
-from ballscrew.cases import case_file, descriptions, nut_tables
-from ballscrew.cases.case import Case
-from ballscrew.components.nut import Nut, OversizeBallNut
-from ballscrew.errors import Fault, InputError
-from ballscrew.quantities import Force, Pressure
-from ballscrew.records import Message, Record, Severity
-from ballscrew.screw_tables import catalogue
-from ballscrew.screw_tables.nut_kinds import LISTED
-from ballscrew.sizing.catalogue import CatalogueRow
-from ballscrew.sizing.checks import Check, all_hold, checks, verdict_of
-from ballscrew.sizing.listed_nut import PRELOADED, lists_preload
-from ballscrew.sizing.ratings import Ratings, ratings_of
-from ballscrew.sizing.speed_limits import speed_limit_of
-from ballscrew.studies.every_row import Done, OfRows, copied, each, place_of
-from ballscrew.studies.nut_state import NutState
-from ballscrew.studies.own_screws import tables_of_row
-from ballscrew.studies.run import Run, with_nut
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.quantities import Force, Pressure
+from ballscrew.basis.records import Message, Record, Severity
+from ballscrew.cases.case_files import case_file, descriptions, nut_tables
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.schema.option_faults import in_options
+from ballscrew.cases.screw_tables import catalogue
+from ballscrew.cases.screw_tables.nut_kinds import LISTED
+from ballscrew.physics.components.nut import Nut, OversizeBallNut
+from ballscrew.physics.sizing.catalogue import CatalogueRow
+from ballscrew.physics.sizing.checks import Check, all_hold, checks, verdict_of
+from ballscrew.physics.sizing.dn_limits import speed_limit_of
+from ballscrew.physics.sizing.listed_nut import PRELOADED, lists_preload
+from ballscrew.physics.sizing.ratings import Ratings, ratings_of
+from ballscrew.questions.run.compute import Run, with_nut
+from ballscrew.questions.run.nut_state import NutState
+from ballscrew.questions.shared.every_row import Done, OfRows, copied, each, place_of
+from ballscrew.questions.shared.own_screws import tables_of_row
 
 #: Defaults of what neither row nor options give.
 GRADE, TEMPERATURE, SPEED, SHARE_OF_RATING = "ISO VG 100", "40 degC", "600 rpm", 0.1
@@ -58,8 +58,8 @@ class Checked:
     computed: Ratings | None
     checks: Sequence[Check]
     assumed: Sequence[str]
-    #: What self-heating did (:class:`~ballscrew.axis_studies.self_heating.SelfHeating`), where it was asked for; the
-    #: case is then the warm one. Its room is loaded for those who ask.
+    #: What self-heating did (:class:`~ballscrew.questions.warm_up.self_heating.SelfHeating`), where it was asked for;
+    #: the case is then the warm one. Its room is loaded for those who ask.
     heating: Any = None
 
     @property
@@ -120,7 +120,8 @@ def every_row(
     """The checks of all rows, or of those with these words, and notes on rows left out.
 
     A case file in place of the words is checked with the screw of each row, or of one ``row``, in place of its own.
-    Raises :class:`~ballscrew.errors.InputError` if there is any fault; with ``keep_going`` only if no row is good.
+    Raises :class:`~ballscrew.basis.errors.InputError` if there is any fault; with ``keep_going`` only if no row is
+    good.
     """
     rows, notes = catalogue.load(path, keep_going)
     case = Path(name) if path is not None and name is not None and is_case(name) else None
@@ -185,7 +186,7 @@ def _warm(name: str, case: Case, notes: Sequence[str], options: Options) -> Chec
     """The checks of a case, with self-heating where the options ask for it."""
     if not options.self_heating:
         return checked(name, case, notes)
-    from ballscrew.axis_studies.self_heating import self_heating
+    from ballscrew.questions.warm_up.self_heating import self_heating
 
     heating = self_heating(case)
     return dataclasses.replace(checked(name, heating.warm, notes), heating=heating)

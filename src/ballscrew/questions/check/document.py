@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from ballscrew.cases import case_file, nut_tables, provenance
-from ballscrew.components.screw import BallScrew
-from ballscrew.documents import run
-from ballscrew.documents.self_heating import with_self_heating
-from ballscrew.quantities import quantities_of
-from ballscrew.records import documents
-from ballscrew.screw_tables.nut_kinds import LISTED, kind_of
-from ballscrew.sizing.checks import Check, judged
-from ballscrew.studies.check import RATINGS, Checked
+from ballscrew.basis.quantities import quantities_of
+from ballscrew.basis.records import documents
+from ballscrew.cases.case_files import case_file, nut_tables, provenance
+from ballscrew.cases.screw_tables.nut_kinds import LISTED, kind_of
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.sizing.checks import Check, judged
+from ballscrew.questions.check.compute import RATINGS, Checked
+from ballscrew.questions.run import document as run
+from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
 
 def document(found: Checked) -> dict[str, Any]:

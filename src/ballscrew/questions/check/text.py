@@ -2,51 +2,28 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
-from ballscrew import units
-from ballscrew.cases import descriptions, nut_tables
-from ballscrew.components.screw import BallScrew
-from ballscrew.friction.result import FrictionResult
-from ballscrew.output.plain_numbers import plain
-from ballscrew.output.wrapping import beside, wrapped
-from ballscrew.quantities import Info, Quantity, quantities_of
-from ballscrew.screw_tables.nut_kinds import LISTED
-from ballscrew.sizing.checks import Check
-from ballscrew.solvers.load_distribution import BallLoads
-from ballscrew.studies.check import RATINGS, Checked
-from ballscrew.studies.nut_state import NutState
-from ballscrew.text.run import rigidity_rows, stiffness_fields, unloaded_rows
-from ballscrew.text.tables import shown_or_dash
+from ballscrew.basis import units
+from ballscrew.basis.output.wrapping import beside, wrapped
+from ballscrew.basis.quantities import quantities_of
+from ballscrew.cases.case_files import descriptions, nut_tables
+from ballscrew.cases.screw_tables.nut_kinds import LISTED
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.solvers.load_distribution import BallLoads
+from ballscrew.questions.check.compute import RATINGS, Checked
+from ballscrew.questions.run.nut_state import NutState
+from ballscrew.questions.run.text import rigidity_rows, stiffness_fields, unloaded_rows
+from ballscrew.questions.shared.check_lines import check_lines, shown
+from ballscrew.questions.shared.text_tables import shown_or_dash
 
-#: The display units of the checks, by SI unit.
-_SHOWN_IN = {"N": "kN", "Pa": "MPa", "s": "h", "rad/s": "rpm", "m rad/s": "mm rpm", "N m": "N m"}
-#: The options for an input that is missing.
-_GIVE = {
-    "installation": "--length and --ends, or [installation]",
-    "limits.running_time": '--set limits.running_time="20000 h"',
-}
 _RESULT, _LOADS = quantities_of(FrictionResult), quantities_of(BallLoads)
 _HEADINGS = ("name", "load", "torque", "eff.", "eff. back", "rigidity", "life", "verdict")
 _WIDTH = 66
 #: Ratings further apart than this are not of one criterion: rows that ISO 3408-5 meets are within 0.05.
 _OTHER_CRITERION = 0.1
 _STATIC_CRITERION = "a maker may have another criterion than the dent of 1e-4 of the ball diameter of ISO 3408-5"
-
-
-def quantity_of(check: Check) -> Quantity:
-    """The quantity of a check, in the unit it is shown in."""
-    return Quantity(check.name, check.unit, Info("", check.name, _SHOWN_IN.get(check.unit, "")))
-
-
-def shown(check: Check, value: float | None) -> str:
-    """Four digits and the unit, without the exponent of programs."""
-    if value is None or not math.isfinite(value):
-        return "–"
-    quantity = quantity_of(check)
-    rounded = float(f"{value:.4g}") if quantity.unit == "1" else float(units.rounded(value, quantity))
-    return plain(f"{rounded:.6g}") + ("" if quantity.unit == "1" else f" {quantity.shown_in}")
 
 
 def _line(what: str, value: str) -> str:
@@ -120,28 +97,6 @@ def _ratings(found: Checked) -> list[str]:
         if abs(computed / listed - 1) > _OTHER_CRITERION:
             lines.append(f"    the listed one counts: {_STATIC_CRITERION}")
     return lines
-
-
-def check_lines(checks: Sequence[Check], give: Mapping[str, str] | None = None) -> list[str]:
-    """A line for each check: value, limit, share used, verdict; ``give`` names what to give for inputs it lacks."""
-    said = _GIVE if give is None else give
-    lines = [f"{'Checks':<26}{'value':>13} {'limit':>13} {'used':>7}  verdict"]
-    for check in checks:
-        used = used_of(check)
-        verdict = {True: "passes", False: "FAILS", None: ""}[check.holds]
-        explanation = check.text
-        if check.missing in said:
-            explanation = explanation.replace(check.missing, said[check.missing])
-        cells = f"{shown(check, check.value):>13} {shown(check, check.limit):>13} {used:>7}"
-        prefix = f"  {check.name.replace('_', ' '):<24}{cells}  "
-        lines.append(beside(prefix, ": ".join(filter(None, [verdict, explanation]))))
-    return lines
-
-
-def used_of(check: Check) -> str:
-    """The share of a limit that is used; a dash where there is no limit, or nothing is left of it."""
-    used = check.utilisation
-    return "–" if used is None or not math.isfinite(used) else f"{used:.1%}"
 
 
 def list_text(found: Sequence[Checked]) -> str:

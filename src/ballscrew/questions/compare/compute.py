@@ -7,13 +7,13 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from ballscrew.case_schema.schema import LAWS, MODELS, coefficients_of, name_of_law
-from ballscrew.cases import case_file
-from ballscrew.components.traits import traits_of
-from ballscrew.evaluation.comparison import Candidate, Comparison, OfBalls, Row, RuleRow, compare, same_law
-from ballscrew.overflow import overflow_as_input_error
-from ballscrew.sizing.rules import RULES, Estimate, Subject
-from ballscrew.solvers.load_distribution import preload_of
+from ballscrew.basis.overflow import overflow_as_input_error
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.schema.schema import LAWS, MODELS, coefficients_of, name_of_law
+from ballscrew.engine.evaluation.comparison import Candidate, Comparison, OfBalls, Row, RuleRow, compare, same_law
+from ballscrew.physics.components.traits import traits_of
+from ballscrew.physics.sizing.rules import RULES, Estimate, Subject
+from ballscrew.physics.solvers.load_distribution import preload_of
 
 
 def candidates(case: case_file.Case) -> tuple[list[Candidate], list[Candidate]]:

@@ -6,12 +6,12 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from ballscrew import units
-from ballscrew._version import __version__
-from ballscrew.cases import case_file
-from ballscrew.evaluation.comparison import Comparison, Row, Spread
-from ballscrew.friction.validity import NUT_REASONS
-from ballscrew.records import Record, documents
+from ballscrew.basis import units
+from ballscrew.basis.records import Record, documents
+from ballscrew.basis.version import __version__
+from ballscrew.cases.case_files import case_file
+from ballscrew.engine.evaluation.comparison import Comparison, Row, Spread
+from ballscrew.physics.friction.validity import NUT_REASONS
 
 _TORQUE = "screw_torque"
 #: Components named in the verdict on what changes the torque most, and the least change that is shown.

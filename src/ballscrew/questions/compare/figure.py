@@ -10,11 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from ballscrew.cases.case_file import Case
-from ballscrew.evaluation.comparison import Comparison, Row
-from ballscrew.figures import style
-from ballscrew.friction.result import MECHANISMS
-from ballscrew.text import comparison as text
+from ballscrew.cases.case_files.case_file import Case
+from ballscrew.engine.evaluation.comparison import Comparison, Row
+from ballscrew.physics.friction.result import MECHANISMS
+from ballscrew.questions.compare import text
+from ballscrew.questions.shared import chart_style as style
 
 #: Inches of a row, and of what stands above and below all rows.
 _ROW, _FRAME = 0.235, 1.5

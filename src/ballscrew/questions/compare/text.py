@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Mapping, Sequence
 
 from rich.console import Console
 
-from ballscrew.case_schema.schema import LAWS, name_of_law
-from ballscrew.cases import case_file, descriptions
-from ballscrew.cases.spelling import THOUSANDS
-from ballscrew.documents.comparison import percent, verdicts, warnings
-from ballscrew.evaluation.comparison import Comparison, Row
-from ballscrew.friction.plausibility import IMPLAUSIBLE
-from ballscrew.friction.result import MECHANISMS
-from ballscrew.friction.validity import NUT_REASONS
-from ballscrew.studies.comparison import models_without_nut
+from ballscrew.cases.case_files import case_file, descriptions
+from ballscrew.cases.case_files.spelling import THOUSANDS
+from ballscrew.cases.schema.schema import LAWS, name_of_law
+from ballscrew.engine.evaluation.comparison import Comparison, Row
+from ballscrew.physics.friction.plausibility import IMPLAUSIBLE
+from ballscrew.physics.friction.result import MECHANISMS
+from ballscrew.physics.friction.validity import NUT_REASONS
+from ballscrew.questions.compare.compute import models_without_nut
+from ballscrew.questions.compare.document import percent, verdicts, warnings
 
 #: Headings of the mechanisms where there is little room.
 SHORT: Mapping[str, str] = {
@@ -106,52 +107,69 @@ def mechanisms_in(found: Comparison) -> list[str]:
 
 def _table(case: case_file.Case, found: Comparison) -> list[tuple[str, str | None]]:
     """The lines of the table and their styles. Headings run over all columns, which Rich's tables cannot."""
-    unit, scale, decimals = _scale(found)
-    letters = reason_letters(found)
-    shown: dict[str, Sequence[str]] = {}
-    for name in mechanisms_in(found):
-        names = TOGETHER if name in TOGETHER else (name,)
-        shown[SHORT.get(names[0], name)] = names
+    columns = _Columns.of(found)
+    groups = [(title, [(row, columns.cells(row)) for row in rows]) for title, rows in row_groups(case, found)]
+    lines = [columns.heading, *(line for _, rows in groups for _, line in rows)]
+    widths = [max(len(line[column]) for line in lines) for column in range(len(columns.heading))]
+    table: list[tuple[str, str | None]] = [(_aligned(columns.heading, widths), "bold")]
+    for title, rows in groups:
+        table.append((title, "dim"))
+        table += [(_aligned(line, widths), "bold" if row is found.case else None) for row, line in rows]
+    return table
 
-    def number(value: float) -> str:
-        return f"{value * scale:.{decimals}f}" if math.isfinite(value) else "–"
 
-    def cells(row: Row) -> list[str]:
+@dataclasses.dataclass(frozen=True)
+class _Columns:
+    """The columns of the table: the mechanisms by their headings, and the digits of torques."""
+
+    found: Comparison
+    letters: Mapping[str, str]
+    mechanisms: Mapping[str, Sequence[str]]
+    unit: str
+    scale: float
+    decimals: int
+
+    @classmethod
+    def of(cls, found: Comparison) -> _Columns:
+        """Those of a comparison."""
+        mechanisms: dict[str, Sequence[str]] = {}
+        for name in mechanisms_in(found):
+            names = TOGETHER if name in TOGETHER else (name,)
+            mechanisms[SHORT.get(names[0], name)] = names
+        return cls(found, reason_letters(found), mechanisms, *_scale(found))
+
+    @property
+    def heading(self) -> list[str]:
+        """The headings."""
+        return [f"torque, {self.unit}", "total", "change", *self.mechanisms, "η drive", "η load", "out"]
+
+    def cells(self, row: Row) -> list[str]:
+        """The cells of a row."""
         forward, back = float(row.result.efficiency), float(row.result.back_driving_efficiency)
         return [
             f" {name_of(row)}",
-            number(row.torque),
-            "case" if row is found.case else percent(row.change),
-            *(number(sum(float(row.result.contributions[name]) for name in names)) for names in shown.values()),
+            self._number(row.torque),
+            "case" if row is self.found.case else percent(row.change),
+            *(
+                self._number(sum(float(row.result.contributions[name]) for name in names))
+                for names in self.mechanisms.values()
+            ),
             f"{forward:.4f}" if math.isfinite(forward) else "–",
             "–" if math.isnan(back) else f"{back:.4f}" if back > 0 else "locks",
-            "".join(letters[reason] for reason in row.outside),
+            "".join(self.letters[reason] for reason in row.outside),
         ]
 
-    heading = [
-        f"torque, {unit}",
-        "total",
-        "change",
-        *shown,
-        "η drive",
-        "η load",
-        "out",
-    ]
-    groups = [(title, [(row, cells(row)) for row in rows]) for title, rows in row_groups(case, found)]
-    lines = [heading, *(line for _, rows in groups for _, line in rows)]
-    widths = [max(len(line[column]) for line in lines) for column in range(len(heading))]
+    def _number(self, value: float) -> str:
+        return f"{value * self.scale:.{self.decimals}f}" if math.isfinite(value) else "–"
 
-    def aligned(line: list[str]) -> str:
-        first, *others = (
-            cell.ljust(w) if i == 0 else cell.rjust(w) for i, (cell, w) in enumerate(zip(line, widths, strict=True))
-        )
-        return " ".join([first, *others]).rstrip()
 
-    table: list[tuple[str, str | None]] = [(aligned(heading), "bold")]
-    for title, rows in groups:
-        table.append((title, "dim"))
-        table += [(aligned(line), "bold" if row is found.case else None) for row, line in rows]
-    return table
+def _aligned(line: Sequence[str], widths: Sequence[int]) -> str:
+    """A line of cells, the first to the left and the others to the right."""
+    first, *others = (
+        cell.ljust(width) if i == 0 else cell.rjust(width)
+        for i, (cell, width) in enumerate(zip(line, widths, strict=True))
+    )
+    return " ".join([first, *others]).rstrip()
 
 
 def rules_table(found: Comparison) -> list[tuple[str, str | None]]:

@@ -8,9 +8,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from ballscrew.cases import case_file, project
-from ballscrew.errors import Fault, InputError
-from ballscrew.studies.check import Checked, checked, with_nut_named
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.cases.case_files import case_file, project
+from ballscrew.questions.check.compute import Checked, checked, with_nut_named
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -38,8 +38,8 @@ def side_by_side(
 ) -> SideBySide:
     """The designs of case files and projects, at the load and speed of the first one, or each at its own.
 
-    A design is called as its project calls it, or as its file. Raises :class:`~ballscrew.errors.InputError` with the
-    name of the design that is at fault.
+    A design is called as its project calls it, or as its file. Raises :class:`~ballscrew.basis.errors.InputError` with
+    the name of the design that is at fault.
     """
     found = [(design, Path(path).parent) for path in paths for design in project.read(path)]
     names = [design.name for design, _ in found]

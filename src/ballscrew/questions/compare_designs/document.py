@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from ballscrew._version import __version__
-from ballscrew.documents.check import list_document
-from ballscrew.studies.check import Checked
-from ballscrew.studies.side_by_side import SideBySide
+from ballscrew.basis.version import __version__
+from ballscrew.questions.check.compute import Checked
+from ballscrew.questions.check.document import list_document
+from ballscrew.questions.compare_designs.compute import SideBySide
 
 #: Results whose change against the first design is stated.
 COMPARED = ("screw_torque", "drive_torque", "efficiency", "back_driving_efficiency", "friction_power")

@@ -9,8 +9,8 @@ from typing import NamedTuple
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew.figures import style
-from ballscrew.friction.result import MECHANISMS
+from ballscrew.physics.friction.result import MECHANISMS
+from ballscrew.questions.shared import chart_style as style
 
 #: Inches: width, height of a bar, and of what stands above and below all bars.
 _WIDTH, _ROW, _FRAME = 7.1, 0.34, 0.95

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ballscrew import units
-from ballscrew.cases import descriptions
-from ballscrew.documents.comparison import percent
-from ballscrew.documents.side_by_side import COMPARED, change_of
-from ballscrew.friction.result import FrictionResult
-from ballscrew.output.wrapping import wrapped
-from ballscrew.quantities import quantities_of
-from ballscrew.studies.check import Checked
-from ballscrew.studies.side_by_side import SideBySide
+from ballscrew.basis import units
+from ballscrew.basis.output.wrapping import wrapped
+from ballscrew.basis.quantities import quantities_of
+from ballscrew.cases.case_files import descriptions
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.questions.check.compute import Checked
+from ballscrew.questions.compare.document import percent
+from ballscrew.questions.compare_designs.compute import SideBySide
+from ballscrew.questions.compare_designs.document import COMPARED, change_of
 
 _RESULT = quantities_of(FrictionResult)
 _HEADINGS = ("design", "torque", "", "drive torque", "", "eff.", "", "eff. back", "", "heat", "")

@@ -7,11 +7,11 @@ import math
 
 import numpy as np
 
-from ballscrew._arrays import ByValue
-from ballscrew.axis_studies.warm_up import HOUR, WarmUpReport
-from ballscrew.errors import Fault, InputError, nearest
-from ballscrew.motion.states import Numbers
-from ballscrew.quantities import Duration
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import Fault, InputError, nearest
+from ballscrew.basis.quantities import Duration
+from ballscrew.questions.warm_up.compute import HOUR, WarmUpReport
 
 #: Distance of the points of a list, m, and the number of points at most (SINUMERIK 808D).
 STEP, MOST = 0.02, 200
@@ -75,8 +75,8 @@ def position_compensation(
     ``zero`` is the place on the shaft, from its fixed bearing, at which the position of the axis is zero; positions
     grow ``"away"`` from that bearing or ``"towards"`` it, on which the sign of the errors depends. At the
     ``reference``, a position of the axis, nothing is compensated: by default at the fixed bearing, which does not move.
-    Raises :class:`~ballscrew.errors.InputError` for a step that is not positive or too small, for an unknown direction,
-    for a zero or a reference beyond the shaft, and where the warm-up stopped before the hours.
+    Raises :class:`~ballscrew.basis.errors.InputError` for a step that is not positive or too small, for an unknown
+    direction, for a zero or a reference beyond the shaft, and where the warm-up stopped before the hours.
     """
     if report.warm_up.stopped is not None:
         raise InputError(_stopped(report.warm_up.stopped, hours))

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from ballscrew.axis_studies import warm_up_records
-from ballscrew.axis_studies.position_compensation import PositionCompensation
-from ballscrew.axis_studies.warm_up import WarmUpReport
-from ballscrew.cases import case_file, provenance
-from ballscrew.records import documents
+from ballscrew.basis.records import documents
+from ballscrew.cases.case_files import case_file, provenance
+from ballscrew.questions.compensation.compute import PositionCompensation
+from ballscrew.questions.warm_up import records as warm_up_records
+from ballscrew.questions.warm_up.compute import WarmUpReport
 
 
 def document(found: PositionCompensation, report: WarmUpReport) -> dict[str, Any]:

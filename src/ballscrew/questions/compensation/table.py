@@ -18,7 +18,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from ballscrew.axis_studies.position_compensation import PositionCompensation
+from ballscrew.questions.compensation.compute import PositionCompensation
 
 _WIDTH = 28
 

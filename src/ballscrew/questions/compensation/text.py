@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from ballscrew.axis_studies import warm_up_records
-from ballscrew.axis_studies.position_compensation import PositionCompensation
-from ballscrew.axis_studies.warm_up import WarmUpReport
-from ballscrew.output.wrapping import wrapped
+from ballscrew.basis.output.wrapping import wrapped
+from ballscrew.questions.compensation.compute import PositionCompensation
+from ballscrew.questions.warm_up import records as warm_up_records
+from ballscrew.questions.warm_up.compute import WarmUpReport
 
 
 def text(found: PositionCompensation, report: WarmUpReport) -> str:

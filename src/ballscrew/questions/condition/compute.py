@@ -9,15 +9,15 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew import units
-from ballscrew.cases.case import Case
-from ballscrew.cases.uncertain_inputs import all_of, joint_of
-from ballscrew.errors import Fault, InputError
-from ballscrew.service.condition import BASELINE, FALSE_ALARMS, condition
-from ballscrew.service.condition_values import Condition
-from ballscrew.studies.service import distributions
-from ballscrew.torque_logs import reading, torque_series
-from ballscrew.torque_logs.log_rows import Kind
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.uncertain_inputs import all_of, joint_of
+from ballscrew.evidence.service.condition import BASELINE, FALSE_ALARMS, condition
+from ballscrew.evidence.service.condition_values import Condition
+from ballscrew.files.torque_logs import reading, torque_series
+from ballscrew.files.torque_logs.log_rows import Kind
+from ballscrew.questions.service.compute import distributions
 
 #: Options of the command line by the fields in which a condition finds faults.
 _OPTIONS: Mapping[str, str] = {

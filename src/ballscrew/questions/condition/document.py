@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from ballscrew.cases import case_file
-from ballscrew.cases.case import Case
-from ballscrew.cases.provenance import of_case
-from ballscrew.records import documents
-from ballscrew.service.condition_values import Condition, State
+from ballscrew.basis.records import documents
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.provenance import of_case
+from ballscrew.evidence.service.condition_values import Condition, State
 
 
 def document(case: Case, found: Condition) -> dict[str, Any]:

@@ -8,12 +8,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew.calibration.robust import Vector
-from ballscrew.cases.case import Case
-from ballscrew.cases.descriptions import model_text, nut_text
-from ballscrew.figures import style
-from ballscrew.service.condition_values import Condition
-from ballscrew.text import condition as text
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.descriptions import model_text, nut_text
+from ballscrew.evidence.calibration.robust import Vector
+from ballscrew.evidence.service.condition_values import Condition
+from ballscrew.questions.condition import text
+from ballscrew.questions.shared import chart_style as style
 
 _HOUR, _DAY = 3600.0, 86400.0
 

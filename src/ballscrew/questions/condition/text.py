@@ -7,13 +7,13 @@ import math
 from rich.console import Console
 from rich.table import Table
 
-from ballscrew import units
-from ballscrew.cases.case import Case
-from ballscrew.cases.descriptions import design, model_text, nut_text
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.service.condition_values import Condition
-from ballscrew.text.tables import table_of
-from ballscrew.torque_logs.torque_series import quantities
+from ballscrew.basis import units
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.descriptions import design, model_text, nut_text
+from ballscrew.evidence.service.condition_values import Condition
+from ballscrew.files.torque_logs.torque_series import quantities
+from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.questions.shared.text_tables import table_of
 
 #: More tests than these are not all listed: the baseline, those about the alarm and the last ones are.
 MOST_ROWS = 40

@@ -5,12 +5,12 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Mapping
 
-from ballscrew.axis.duty_band import DutyBand, duty_band
-from ballscrew.axis_studies.duty import DutyReport
-from ballscrew.cases.uncertain_inputs import GIVEN, NOTHING_GIVEN, Uncertain, all_of
-from ballscrew.errors import InputError
-from ballscrew.supports.element_laws import BEARING_LAWS, GUIDE_LAWS, fields_of_laws
-from ballscrew.uncertainty.uncertain_value import describe_distribution
+from ballscrew.axis.duty_cycle.duty_band import DutyBand, duty_band
+from ballscrew.axis.supports.element_laws import BEARING_LAWS, GUIDE_LAWS, fields_of_laws
+from ballscrew.basis.errors import InputError
+from ballscrew.cases.case_files.uncertain_inputs import GIVEN, NOTHING_GIVEN, Uncertain, all_of
+from ballscrew.engine.uncertainty.uncertain_value import describe_distribution
+from ballscrew.questions.duty.compute import DutyReport
 
 #: Samples where none are asked for.
 SAMPLES = 1024

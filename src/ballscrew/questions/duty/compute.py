@@ -5,34 +5,50 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from ballscrew._arrays import lazy
-from ballscrew.axis import duty as axis_duty
-from ballscrew.axis.axis import Axis
-from ballscrew.axis.brake import Brake, brake_of
-from ballscrew.axis.cycle_life import CycleLife
-from ballscrew.axis.drive import MotorCheck
-from ballscrew.axis.duty import Duty
-from ballscrew.axis.vendor_rule import VendorRule
-from ballscrew.cases.case import Case
-from ballscrew.cases.nut_tables import dynamic_rating
-from ballscrew.components.nut import OversizeBallNut
-from ballscrew.errors import Fault, InputError
-from ballscrew.friction.element import FrictionElement
-from ballscrew.friction.loaded_balls import loads_of
-from ballscrew.friction.result import MECHANISMS
-from ballscrew.motion.profiles import Motion
-from ballscrew.motion.states import Numbers
-from ballscrew.motion.trajectory import HALF_WIDTHS, Trajectory
-from ballscrew.overflow import overflow_as_input_error
-from ballscrew.quantities import Acceleration, Duration, Energy, Force, Info, Pressure, Quantity, Ratio, Torque
-from ballscrew.records import Message
-from ballscrew.sizing.checks import NOT_CHECKED, NOT_JUDGED, UNJUDGED, Check, checks
-from ballscrew.sizing.speed_limits import speed_limit_of
-from ballscrew.solvers.load_distribution import BallLoads, preload_of
+from ballscrew.axis.duty_cycle import duty as axis_duty
+from ballscrew.axis.duty_cycle.axis import Axis
+from ballscrew.axis.duty_cycle.brake import Brake, brake_of
+from ballscrew.axis.duty_cycle.cycle_life import CycleLife
+from ballscrew.axis.duty_cycle.drive import MotorCheck
+from ballscrew.axis.duty_cycle.duty import Duty
+from ballscrew.axis.duty_cycle.vendor_rule import VendorRule
+from ballscrew.axis.motion.profiles import Motion
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.axis.motion.trajectory import HALF_WIDTHS, Trajectory
+from ballscrew.basis.arrays import lazy
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.overflow import overflow_as_input_error
+from ballscrew.basis.quantities import (
+    Acceleration,
+    AngularSpeed,
+    Duration,
+    Energy,
+    Force,
+    Info,
+    Length,
+    Power,
+    Pressure,
+    Quantity,
+    Ratio,
+    Speed,
+    Torque,
+    quantities_of,
+)
+from ballscrew.basis.records import Message
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.nut_tables import dynamic_rating
+from ballscrew.physics.components.nut import OversizeBallNut
+from ballscrew.physics.friction.element import FrictionElement
+from ballscrew.physics.friction.loaded_balls import loads_of
+from ballscrew.physics.friction.result import MECHANISMS
+from ballscrew.physics.sizing.checks import NOT_CHECKED, NOT_JUDGED, UNJUDGED, Check, checks
+from ballscrew.physics.sizing.dn_limits import speed_limit_of
+from ballscrew.physics.solvers.load_distribution import BallLoads, preload_of
+from ballscrew.questions.shared.declared import Answer
 
 DAY = 86400.0
 #: The efficiency of the rule of catalogues where the case has a model: that of their worked examples (THK514E).
@@ -50,53 +66,6 @@ _ACCELERATION, _GRAVITY, _PROCESS, _BALLS, _OTHERS = CAUSES
 _OF_STORED: Mapping[str, str] = dict(zip(axis_duty.STORED, (_ACCELERATION, _ACCELERATION, _GRAVITY), strict=True))
 #: A part of the torque that is rounding, as a share of the largest torque.
 _LEAST_TORQUE = 1e-9
-
-
-def _quantity(name: str, unit: str, symbol: str, meaning: str, shown_in: str = "") -> Quantity:
-    return Quantity(name, unit, Info(symbol, meaning, shown_in))
-
-
-#: The numbers of a cycle.
-NUMBERS: Mapping[str, Quantity] = {
-    quantity.name: quantity
-    for quantity in (
-        _quantity("cycle_time", "s", "t_c", "time of a cycle"),
-        _quantity("torque_peak", "N m", r"\tau_{max}", "largest torque of the motor"),
-        _quantity("torque_rms", "N m", r"\tau_{rms}", "RMS torque of the motor, rests included"),
-        _quantity("mean_speed", "rad/s", "n_m", "mean speed of the screw over the cycle", "rpm"),
-        _quantity("largest_speed", "rad/s", "n_max", "largest speed of the motor", "rpm"),
-        _quantity("power_peak", "W", "P_{max}", "largest power of the motor"),
-        _quantity("power_returned_peak", "W", "P_{min}", "largest power that drives the motor"),
-        _quantity("energy_drawn", "J", "E_+", "energy that the motor gives in a cycle"),
-        _quantity("energy_returned", "J", "E_-", "energy that it takes back"),
-        _quantity("energy_lost", "J", "E_f", "energy lost to friction in a cycle"),
-        _quantity("energy_of_process", "J", "E_x", "work on the process in a cycle"),
-        _quantity("energy_stored", "J", r"\Delta E", "energy stored between start and end of the cycle"),
-        _quantity("energy_per_day", "J", "E_d", "energy a day, if nothing is used that comes back", "kW h"),
-        _quantity("energy_per_day_with_recovery", "J", "E_r", "energy a day, if all that comes back is used", "kW h"),
-        _quantity("mean_load", "N", "F_m", "mean load of the more loaded flank or half"),
-        _quantity("mean_load_of_both", "N", "F_a", "mean size of the axial load"),
-        _quantity("life_revolutions", "1", "L", "turns that nine of ten outlive"),
-        _quantity("life_cycles", "1", "N_c", "cycles that nine of ten outlive"),
-        _quantity("life_time", "s", "L_h", "time that nine of ten outlive, cycle after cycle", "h"),
-        _quantity("revolutions", "1", "q", "turns of the screw in a cycle"),
-    )
-}
-
-
-#: Largest friction torque of the screw, which its oil changes the most.
-SCREW_TORQUE = _quantity("screw_torque", "N m", "M_S", "largest friction torque of the screw in the cycle")
-#: The numbers that are different in a full bath of oil.
-OF_BATH: Mapping[str, Quantity] = {
-    **{
-        name: NUMBERS[name]
-        for name in (
-            "torque_peak", "torque_rms", "power_peak", "power_returned_peak", "energy_drawn", "energy_returned",
-            "energy_lost",
-        )
-    },
-    "screw_torque": SCREW_TORQUE,
-}  # fmt: skip
 
 
 def slug_of(name: str) -> str:
@@ -123,18 +92,33 @@ class PhaseNumbers(NamedTuple):
     energy: Energy
 
 
-class Smoothing(NamedTuple):
+@dataclasses.dataclass(frozen=True)
+class Smoothing:
     """How a recorded motion was smoothed, and what that does to the RMS torque."""
 
     samples: int
     #: Samples on either side that the smoothing reaches.
     half_width: int
-    #: Standard deviation of one recorded position, m, or speed, m/s.
+    #: Standard deviation of one recorded sample.
     noise: float
     #: What is left of it in the acceleration, m/s².
     acceleration_noise: Acceleration
     #: RMS torque with the narrowest smoothing, N m.
     torque_rms_unsmoothed: Torque
+
+
+@dataclasses.dataclass(frozen=True)
+class PositionSmoothing(Smoothing):
+    """How recorded positions were smoothed, and what that does to the RMS torque."""
+
+    noise: Length
+
+
+@dataclasses.dataclass(frozen=True)
+class SpeedSmoothing(Smoothing):
+    """How recorded speeds were smoothed, and what that does to the RMS torque."""
+
+    noise: Speed
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -168,37 +152,9 @@ class DutyReport:
 
     @lazy
     def numbers(self) -> Mapping[str, float]:
-        """The numbers of the cycle in SI, as :data:`NUMBERS` has them.
-
-        Torques, and the life by the larger mean load alone, are by the rule of catalogues where the case asks for it;
-        energies are always by mechanics.
-        """
-        duty, life = self.duty, self.life
-        torques = self.rule if self.by_rule else duty
-        cycles = DAY / duty.states.cycle_time
-        found = {
-            "cycle_time": duty.states.cycle_time,
-            "torque_peak": torques.torque_peak,
-            "torque_rms": torques.torque_rms,
-            "mean_speed": duty.mean_speed,
-            "largest_speed": float(np.max(np.abs(duty.motor_speed))),
-            "power_peak": max(float(np.max(duty.power)), 0.0),
-            "power_returned_peak": max(float(-np.min(duty.power)), 0.0),
-            "energy_drawn": duty.energy_drawn,
-            "energy_returned": duty.energy_returned,
-            "energy_lost": duty.energy_lost,
-            "energy_of_process": duty.energy_of_process,
-            "energy_stored": duty.energy_stored,
-            "energy_per_day": cycles * duty.energy_drawn,
-            "energy_per_day_with_recovery": cycles * (duty.energy_drawn - duty.energy_returned),
-            "mean_load": life.mean_load,
-            "mean_load_of_both": life.mean_load_of_both,
-            "life_revolutions": self.life_revolutions,
-            "life_cycles": self.life_cycles,
-            "life_time": self.life_time,
-            "revolutions": duty.revolutions,
-        }
-        return {name: float(found[name]) for name in NUMBERS}
+        """The numbers of the cycle in SI, as :class:`CycleNumbers` declares them."""
+        found = CycleNumbers(self)
+        return {name: float(getattr(found, name)) for name in NUMBERS}
 
     @property
     def flooded_torque(self) -> Torque | None:
@@ -208,18 +164,8 @@ class DutyReport:
     @lazy
     def full_bath(self) -> Mapping[str, float]:
         """The numbers of the cycle that friction changes, in a full bath of oil, as :data:`OF_BATH` has them."""
-        duty = self.duty.flooded
-        found = {
-            "torque_peak": duty.torque_peak,
-            "torque_rms": duty.torque_rms,
-            "screw_torque": duty.screw_torque,
-            "power_peak": max(float(np.max(duty.power)), 0.0),
-            "power_returned_peak": max(float(-np.min(duty.power)), 0.0),
-            "energy_drawn": duty.energy_drawn,
-            "energy_returned": duty.energy_returned,
-            "energy_lost": duty.energy_lost,
-        }
-        return {name: float(found[name]) for name in OF_BATH}
+        found = BathNumbers(self)
+        return {name: float(getattr(found, name)) for name in OF_BATH}
 
     @lazy
     def motor_torque(self) -> Mapping[str, Torque]:
@@ -233,21 +179,6 @@ class DutyReport:
             return found
         return {name: max(torque, self.full_bath[name]) for name, torque in found.items()}
 
-    @property
-    def life_revolutions(self) -> Ratio:
-        """Turns that nine of ten outlive; by the larger mean load alone where the case asks for the rule."""
-        return self.life.revolutions_of_the_worse if self.by_rule else self.life.revolutions
-
-    @property
-    def life_cycles(self) -> Ratio:
-        """Cycles that nine of ten outlive; NaN where nothing turns."""
-        return self.life_revolutions / self.duty.revolutions if self.duty.revolutions else math.nan
-
-    @property
-    def life_time(self) -> Duration:
-        """Time that nine of ten outlive, cycle after cycle, s."""
-        return self.life_cycles * self.duty.states.cycle_time
-
     @lazy
     def torque_peak_by(self) -> Mapping[str, Torque]:
         """Parts of the torque where it is largest, N m, with the sign of their sum; by mechanics."""
@@ -259,7 +190,7 @@ class DutyReport:
     def torque_rms_by(self) -> Mapping[str, Torque]:
         r"""Parts of the RMS torque, N m: :math:`\frac{1}{t_c \tau_{rms}} \int \tau_i \tau dt`; they sum to it.
 
-        What the heat of the motor is paid for. A part that acts against the others is negative.
+        They share out the heat of the motor. A part that acts against the others is negative.
         """
         states, torque = self.duty.states, self.duty.torque
         scale = states.cycle_time * self.duty.torque_rms
@@ -288,16 +219,15 @@ class DutyReport:
         return {name: parts for name, parts in found.items() if parts}
 
     @lazy
-    def smoothing(self) -> Smoothing | None:
+    def smoothing(self) -> PositionSmoothing | SpeedSmoothing | None:
         """The smoothing of a recorded motion; None for a motion in closed form."""
         motion = self.motion
         if not isinstance(motion, Trajectory):
             return None
         width = motion.chosen_half_width
         raw = dataclasses.replace(self.duty, states=motion.smoothed_by(HALF_WIDTHS[0]).states())
-        return Smoothing(
-            int(np.size(motion.time)), width, motion.noise, motion.acceleration_noise(width), raw.torque_rms
-        )
+        kind = SpeedSmoothing if motion.position is None else PositionSmoothing
+        return kind(int(np.size(motion.time)), width, motion.noise, motion.acceleration_noise(width), raw.torque_rms)
 
     @lazy
     def phases(self) -> Sequence[PhaseNumbers]:
@@ -381,11 +311,12 @@ class DutyReport:
             idle = Message("not judged: nothing turns")
             return [Check.saying(idle, name, None, None, unit, None, None) for name, unit in _LIFE]
         found: list[Check] = []
+        numbers = CycleNumbers(self)  # of which the life asks for no friction
         for (name, unit), value, words in zip(
             _LIFE,
-            (float(self.life_revolutions), float(self.life_time)),
+            (float(numbers.life_revolutions), float(numbers.life_time)),
             (
-                Message("turns that nine of ten outlive, by the mean load over the cycle"),
+                Message("basic rating life L10 by the mean load over the cycle"),
                 Message("time of so many cycles"),
             ),
             strict=True,
@@ -405,6 +336,159 @@ class DutyReport:
 _LIFE = (("life", "1"), ("running_time", "s"))
 
 
+class CycleNumbers(Answer):
+    """The numbers of a cycle, each declared and computed here, in the order in which they are shown.
+
+    Torques, and the life by the larger mean load alone, are by the rule of catalogues where the case asks for it;
+    energies are always by mechanics. A new number is one property: terminal, JSON, its schema, tables, report and page
+    have it from here.
+    """
+
+    def __init__(self, report: DutyReport) -> None:
+        self._report = report
+
+    @property
+    def _torques(self) -> VendorRule | Duty:
+        return self._report.rule if self._report.by_rule else self._report.duty
+
+    @property
+    def _cycles_a_day(self) -> float:
+        return DAY / self._report.duty.states.cycle_time
+
+    @property
+    def cycle_time(self) -> Annotated[Duration, Info("t_c", "time of a cycle")]:
+        """Time from the start of a cycle to that of the next."""
+        return self._report.duty.states.cycle_time
+
+    @property
+    def torque_peak(self) -> Annotated[Torque, Info(r"\tau_{max}", "largest torque of the motor")]:
+        """By the rule of catalogues where the case asks for it."""
+        return self._torques.torque_peak
+
+    @property
+    def torque_rms(self) -> Annotated[Torque, Info(r"\tau_{rms}", "RMS torque of the motor, rests included")]:
+        """By the rule of catalogues where the case asks for it."""
+        return self._torques.torque_rms
+
+    @property
+    def mean_speed(self) -> Annotated[AngularSpeed, Info("n_m", "mean speed of the screw over the cycle", "rpm")]:
+        """Mean of the size of the speed of the screw."""
+        return self._report.duty.mean_speed
+
+    @property
+    def largest_speed(self) -> Annotated[AngularSpeed, Info("n_max", "largest speed of the motor", "rpm")]:
+        """Largest size of the speed of the motor."""
+        return float(np.max(np.abs(self._report.duty.motor_speed)))
+
+    @property
+    def power_peak(self) -> Annotated[Power, Info("P_{max}", "largest power of the motor")]:
+        """Largest power that the motor gives; zero where it gives none."""
+        return max(float(np.max(self._report.duty.power)), 0.0)
+
+    @property
+    def power_returned_peak(self) -> Annotated[Power, Info("P_{min}", "largest power that drives the motor")]:
+        """Largest power that the motor takes back; zero where it takes none."""
+        return max(float(-np.min(self._report.duty.power)), 0.0)
+
+    @property
+    def energy_drawn(self) -> Annotated[Energy, Info("E_+", "energy that the motor gives in a cycle")]:
+        """Integral of the power of the motor where it is positive."""
+        return self._report.duty.energy_drawn
+
+    @property
+    def energy_returned(self) -> Annotated[Energy, Info("E_-", "energy that it takes back")]:
+        """Integral of the power of the motor where it is negative, as a positive number."""
+        return self._report.duty.energy_returned
+
+    @property
+    def energy_lost(self) -> Annotated[Energy, Info("E_f", "energy lost to friction in a cycle")]:
+        """All friction of the axis, over the cycle."""
+        return self._report.duty.energy_lost
+
+    @property
+    def energy_of_process(self) -> Annotated[Energy, Info("E_x", "work on the process in a cycle")]:
+        """Work of the axis against the force of the process."""
+        return self._report.duty.energy_of_process
+
+    @property
+    def energy_stored(self) -> Annotated[Energy, Info(r"\Delta E", "energy stored between start and end of the cycle")]:
+        """Not zero where a cycle does not end where it began."""
+        return self._report.duty.energy_stored
+
+    @property
+    def energy_per_day(
+        self,
+    ) -> Annotated[Energy, Info("E_d", "energy a day, if nothing is used that comes back", "kW h")]:
+        """Energy drawn, cycle after cycle."""
+        return self._cycles_a_day * self._report.duty.energy_drawn
+
+    @property
+    def energy_per_day_with_recovery(
+        self,
+    ) -> Annotated[Energy, Info("E_r", "energy a day, if all that comes back is used", "kW h")]:
+        """Energy drawn less that returned, cycle after cycle."""
+        return self._cycles_a_day * (self._report.duty.energy_drawn - self._report.duty.energy_returned)
+
+    @property
+    def mean_load(self) -> Annotated[Force, Info("F_m", "mean load of the more loaded flank or half")]:
+        """Cubic mean over the turns."""
+        return self._report.life.mean_load
+
+    @property
+    def mean_load_of_both(self) -> Annotated[Force, Info("F_a", "mean size of the axial load")]:
+        """Cubic mean over the turns, without regard to sign and preload."""
+        return self._report.life.mean_load_of_both
+
+    @property
+    def life_revolutions(self) -> Annotated[Ratio, Info("L", "basic rating life L10 in revolutions")]:
+        """By the larger mean load alone where the case asks for the rule of catalogues."""
+        life = self._report.life
+        return life.revolutions_of_the_worse if self._report.by_rule else life.revolutions
+
+    @property
+    def life_cycles(self) -> Annotated[Ratio, Info("N_c", "basic rating life L10 in cycles")]:
+        """NaN where nothing turns."""
+        turns = self._report.duty.revolutions
+        return self.life_revolutions / turns if turns else math.nan
+
+    @property
+    def life_time(self) -> Annotated[Duration, Info("L_h", "basic rating life L10h, cycle after cycle", "h")]:
+        """Cycles of the life, each as long as the cycle."""
+        return self.life_cycles * self.cycle_time
+
+    @property
+    def revolutions(self) -> Annotated[Ratio, Info("q", "turns of the screw in a cycle")]:
+        """Turns both ways."""
+        return self._report.duty.revolutions
+
+
+class BathNumbers(CycleNumbers):
+    """The numbers of the same cycle in a full bath of oil; those that friction changes count, :data:`OF_BATH`."""
+
+    def __init__(self, report: DutyReport) -> None:
+        super().__init__(dataclasses.replace(report, duty=report.duty.flooded))
+
+    @property
+    def screw_torque(self) -> Annotated[Torque, Info("M_S", "largest friction torque of the screw in the cycle")]:
+        """Largest friction torque of the screw, which its oil changes the most."""
+        return self._report.duty.screw_torque
+
+
+#: The numbers of a cycle, and those that are different in a full bath of oil.
+NUMBERS: Mapping[str, Quantity] = quantities_of(CycleNumbers)
+OF_BATH: Mapping[str, Quantity] = {
+    name: quantities_of(BathNumbers)[name]
+    for name in (
+        "torque_peak", "torque_rms", "power_peak", "power_returned_peak", "energy_drawn", "energy_returned",
+        "energy_lost", "screw_torque",
+    )
+}  # fmt: skip
+
+
+#: Energies that are zero in most cycles, and shown only where they are not.
+IF_ANY = ("energy_of_process", "energy_stored")
+
+
 def planned(case: Case, *, recorded: bool = False) -> DutyReport:
     """The duty of a case of which everything is computed when it is asked for; see :func:`duty`."""
     assert case.axis is not None
@@ -422,7 +506,7 @@ def planned(case: Case, *, recorded: bool = False) -> DutyReport:
 
 @overflow_as_input_error()
 def duty(case: Case, *, recorded: bool = False) -> DutyReport:
-    """The duty of a case with an axis and a motion; ``recorded`` as for :func:`ballscrew.axis.duty.duty`."""
+    """The duty of a case with an axis and a motion; ``recorded`` as for :func:`ballscrew.axis.duty_cycle.duty.duty`."""
     report = planned(case, recorded=recorded)
     found = report.duty
     if not math.isfinite(found.torque_rms):

@@ -1,4 +1,4 @@
-"""A duty: motion, torque by cause and power over the cycle; torque over speed; what the motor is paid for."""
+"""A duty: motion, torque by cause and power over the cycle; torque over speed; torque and energy by cause."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew import units
-from ballscrew.axis_studies import duty_records
-from ballscrew.axis_studies.duty import NUMBERS, DutyReport, cause_of
-from ballscrew.figures import style
-from ballscrew.figures.colours import CAUSE_COLOURS
-from ballscrew.motion.profiles import Trapezoid
-from ballscrew.quantities import fields_of
-from ballscrew.text import duty as text
+from ballscrew.axis.motion.profiles import Trapezoid
+from ballscrew.basis import units
+from ballscrew.basis.quantities import fields_of
+from ballscrew.questions.duty import records as duty_records
+from ballscrew.questions.duty import text
+from ballscrew.questions.duty.compute import NUMBERS, DutyReport, cause_of
+from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared.chart_colours import CAUSE_COLOURS
 
 _MOTION = fields_of(Trapezoid)
 _TURNING = NUMBERS["mean_speed"]

@@ -6,20 +6,20 @@ import math
 
 import numpy as np
 
-from ballscrew import units
-from ballscrew.axis.axis import Axis
-from ballscrew.axis.drive import FULL_BATH, MotorCheck
-from ballscrew.axis_studies.duty import NUMBERS, OF_BATH, DutyReport
-from ballscrew.components.screw import BallScrew
-from ballscrew.friction import starvation
-from ballscrew.friction.plausibility import implausible
-from ballscrew.friction.validity import CONDITIONS, NUT_CONDITIONS
-from ballscrew.motion.profiles import Segments, Trapezoid
-from ballscrew.motion.trajectory import Trajectory
-from ballscrew.quantities import Quantity, fields_of
-from ballscrew.records import Measured, Message, Record, Severity
-from ballscrew.sizing.checks import Check, all_hold, verdict_of
-from ballscrew.supports.bearing import DIRECTION
+from ballscrew.axis.duty_cycle.axis import Axis
+from ballscrew.axis.duty_cycle.drive import FULL_BATH, MotorCheck
+from ballscrew.axis.motion.profiles import Segments, Trapezoid
+from ballscrew.axis.motion.trajectory import Trajectory
+from ballscrew.axis.supports.bearing import DIRECTION
+from ballscrew.basis import units
+from ballscrew.basis.quantities import Quantity, fields_of
+from ballscrew.basis.records import Measured, Message, Record, Severity
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction import starvation
+from ballscrew.physics.friction.plausibility import implausible
+from ballscrew.physics.friction.validity import CONDITIONS, NUT_CONDITIONS
+from ballscrew.physics.sizing.checks import Check, all_hold, verdict_of
+from ballscrew.questions.duty.compute import NUMBERS, OF_BATH, DutyReport
 
 _LENGTH, _SPEED = fields_of(Trapezoid)["stroke"], fields_of(Trapezoid)["speed"]
 _TORQUE, _TURNING = NUMBERS["torque_rms"], NUMBERS["mean_speed"]

@@ -1,4 +1,4 @@
-"""A duty as tables in files: its states over time, the numbers of the cycle, what the motor is paid for, the checks."""
+"""A duty as tables in files: its states over time, the numbers of the cycle, torque and energy by cause, the checks."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew import units
-from ballscrew.axis_studies.duty import NUMBERS, DutyReport
-from ballscrew.files import atomic_write
-from ballscrew.motion.profiles import Trapezoid
-from ballscrew.quantities import Info, Quantity, fields_of
-from ballscrew.table_files.row_tables import RowTable, put, write_csv, xlsx_bytes
-from ballscrew.text.check import quantity_of
+from ballscrew.axis.motion.profiles import Trapezoid
+from ballscrew.basis import units
+from ballscrew.basis.atomic_files import atomic_write
+from ballscrew.basis.quantities import Info, Quantity, fields_of
+from ballscrew.questions.duty.compute import NUMBERS, DutyReport
+from ballscrew.questions.shared.check_lines import quantity_of
+from ballscrew.questions.shared.row_tables import RowTable, put, write_csv, xlsx_bytes
 
 _MOTION = fields_of(Trapezoid)
 _TORQUE, _ENERGY, _TURNING = NUMBERS["torque_rms"], NUMBERS["energy_lost"], NUMBERS["mean_speed"]
@@ -63,7 +63,7 @@ def numbers(report: DutyReport) -> RowTable:
 
 
 def parts(report: DutyReport) -> RowTable:
-    """What the motor is paid for."""
+    """Torque and energy by cause."""
     rows: list[dict[str, Any]] = []
     for name, energy in report.duty.energy_by.items():
         cells: dict[str, Any] = {"part": name}

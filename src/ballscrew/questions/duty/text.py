@@ -1,4 +1,4 @@
-"""Text of a duty on the terminal: the cycle, what the motor is paid for, power off, life, rules and checks."""
+"""Text of a duty on the terminal: the cycle, torque and energy by cause, power off, life, rules and checks."""
 
 from __future__ import annotations
 
@@ -6,28 +6,26 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from ballscrew import units
-from ballscrew.axis.axis import Axis
-from ballscrew.axis.brake import LetGo
-from ballscrew.axis_studies import duty_records
-from ballscrew.axis_studies.duty import NUMBERS, DutyReport
-from ballscrew.case_schema.duty_schema import MOTIONS
-from ballscrew.cases import descriptions
-from ballscrew.cases.case import Case
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.motion.profiles import Trapezoid
-from ballscrew.output.wrapping import aligned, beside, wrapped
-from ballscrew.quantities import Quantity, fields_of
-from ballscrew.screw_tables.nut_kinds import LISTED
-from ballscrew.text.check import check_lines
-from ballscrew.text.elements import element_lines
-from ballscrew.text.tables import shown_or_dash
+from ballscrew.axis.duty_cycle.axis import Axis
+from ballscrew.axis.duty_cycle.brake import LetGo
+from ballscrew.axis.motion.profiles import Trapezoid
+from ballscrew.basis import units
+from ballscrew.basis.output.wrapping import aligned, beside, wrapped
+from ballscrew.basis.quantities import Quantity, fields_of
+from ballscrew.cases.case_files import descriptions
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.schema.duty_schema import MOTIONS
+from ballscrew.cases.screw_tables.nut_kinds import LISTED
+from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.questions.duty import records as duty_records
+from ballscrew.questions.duty.compute import IF_ANY, NUMBERS, DutyReport
+from ballscrew.questions.shared.check_lines import check_lines
+from ballscrew.questions.shared.elements_text import element_lines
+from ballscrew.questions.shared.text_tables import shown_or_dash
 
 if TYPE_CHECKING:  # loads xarray
-    from ballscrew.axis_studies.duty_band import DutyBandReport
+    from ballscrew.questions.duty.band import DutyBandReport
 
-#: Energies that are zero in most cycles.
-_IF_ANY = ("energy_of_process", "energy_stored")
 _WIDTH, _BAR = 66, 24
 _AXIS, _MOTION = fields_of(Axis), fields_of(Trapezoid)
 _FORCE, _SPEED = LISTED["dynamic_load_rating"], _MOTION["speed"]
@@ -149,7 +147,7 @@ def _smoothing(report: DutyReport) -> list[str]:
 def shown_numbers(report: DutyReport) -> Mapping[str, Quantity]:
     """The numbers of a cycle, without those that are zero in most of them."""
     least = _LEAST * report.duty.energy_drawn
-    return {n: q for n, q in NUMBERS.items() if n not in _IF_ANY or abs(report.numbers[n]) > least}
+    return {n: q for n, q in NUMBERS.items() if n not in IF_ANY or abs(report.numbers[n]) > least}
 
 
 def number(quantity: Quantity, value: float, toward: int = 0) -> str:
@@ -162,9 +160,9 @@ def number(quantity: Quantity, value: float, toward: int = 0) -> str:
 
 
 def _parts(report: DutyReport, block: str) -> list[str]:
-    """What the motor is paid for: torque at its peak, share of the RMS torque, energy."""
+    """Torque and energy by cause: torque at its peak, share of the RMS torque, energy."""
     total = report.duty.torque_rms
-    rows, bars = [["What the motor is paid for", "at the peak", "of the RMS", "energy", "share"]], [""]
+    rows, bars = [["Torque and energy by cause", "at the peak", "of the RMS", "energy", "share"]], [""]
     sums = (sum(report.torque_peak_by.values()), total, sum(report.duty.energy_by.values()))
     for name, values in {**shown_parts(report), "sum": sums}.items():
         cells = (units.shown(v, q, 3) for v, q in zip(values, (_TORQUE, _TORQUE, _ENERGY), strict=True))

@@ -9,24 +9,24 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ballscrew import units
-from ballscrew.calibration.calibrated_model import CalibratedModel
-from ballscrew.calibration.constant_torque import constant_torque_missed
-from ballscrew.calibration.fit import fit as fitted
-from ballscrew.calibration.next_test import NextTest
-from ballscrew.calibration.oil_temperature import uses_temperatures
-from ballscrew.calibration.problem import CONSTANT_TORQUE
-from ballscrew.calibration.response import resolve_input
-from ballscrew.cases.case import Case
-from ballscrew.cases.nut_tables import dynamic_rating
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.errors import Fault, InputError
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.quantities import Quantity
-from ballscrew.records import Record
-from ballscrew.studies.fit_log import DEFAULT_FREE, Options
-from ballscrew.torque_logs.torque_log import TorqueLog
-from ballscrew.uncertainty.default_uncertainties import default_distributions
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.quantities import Quantity
+from ballscrew.basis.records import Record
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.nut_tables import dynamic_rating
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.uncertainty.default_uncertainties import default_distributions
+from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
+from ballscrew.evidence.calibration.constant_torque import constant_torque_missed
+from ballscrew.evidence.calibration.fit import fit as fitted
+from ballscrew.evidence.calibration.next_test import NextTest
+from ballscrew.evidence.calibration.oil_temperature import uses_temperatures
+from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
+from ballscrew.evidence.calibration.response import resolve_input
+from ballscrew.files.torque_logs.torque_log import TorqueLog
+from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.questions.fit.log import DEFAULT_FREE, Options
 
 #: Options of the command line by the fields in which the fit finds faults.
 _OPTIONS: Mapping[str, str] = {f"fit.{name}": f"--{name}" for name in ("free", "holdout", "kind", "seed")} | {
@@ -50,7 +50,7 @@ class FitReport:
 def fit(case: Case, log: TorqueLog, options: Options, done: Callable[[int, int], None] | None = None) -> FitReport:
     """Fit of a case to a log. Raises ``InputError`` that names options of the command line.
 
-    A distribution that the case gives a free number is its prior. :mod:`~ballscrew.studies.fit_log` reads the log.
+    A distribution that the case gives a free number is its prior. :mod:`~ballscrew.questions.fit.log` reads the log.
     """
     subject = Configuration(case.model, case.screw, case.lubricant)
     known = free_quantities(case, options.free)

@@ -6,13 +6,13 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
-from ballscrew.calibration.calibrated_model import CalibratedModel
-from ballscrew.calibration.fit_result import Estimate
-from ballscrew.calibration.next_test import NextTest
-from ballscrew.cases import case_file, fitted_case
-from ballscrew.cases.case import Case
-from ballscrew.records import documents
-from ballscrew.studies.fit import FitReport
+from ballscrew.basis.records import documents
+from ballscrew.cases.case_files import case_file, fitted_case
+from ballscrew.cases.case_files.case import Case
+from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
+from ballscrew.evidence.calibration.fit_result import Estimate
+from ballscrew.evidence.calibration.next_test import NextTest
+from ballscrew.questions.fit.compute import FitReport
 
 
 def document(case: Case, report: FitReport) -> dict[str, Any]:

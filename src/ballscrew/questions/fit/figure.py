@@ -11,18 +11,20 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from ballscrew import units
-from ballscrew.calibration.calibrated_model import CalibratedModel
-from ballscrew.calibration.fit_result import Rows
-from ballscrew.calibration.next_test import NextTest
-from ballscrew.cases.case import Case
-from ballscrew.documents.log_pictures import measured_and_predicted, some
-from ballscrew.figures import style
-from ballscrew.quantities import Quantity
-from ballscrew.studies.fit import FitReport
-from ballscrew.studies.fit_log import CONDITIONS
-from ballscrew.text import fit as text
-from ballscrew.torque_logs.log_rows import quantities
+from ballscrew.basis import units
+from ballscrew.basis.quantities import Quantity
+from ballscrew.cases.case_files.case import Case
+from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
+from ballscrew.evidence.calibration.fit_result import Rows
+from ballscrew.evidence.calibration.next_test import NextTest
+from ballscrew.files.torque_logs.log_rows import quantities
+from ballscrew.questions.fit import text
+from ballscrew.questions.fit.compute import FitReport
+from ballscrew.questions.fit.log import CONDITIONS
+from ballscrew.questions.fit.points import measured_and_predicted
+from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared.log_points import some
+from ballscrew.questions.shared.text_tables import spoken
 
 #: More points than this are a blot.
 MOST_POINTS = 4000
@@ -45,7 +47,7 @@ def _axis(name: str, quantity: Quantity) -> Axis:
     def scaled(values: Any) -> Any:
         return units.from_si(np.asarray(values), quantity)
 
-    return scaled, f"{text.spoken(name)} [{quantity.shown_in}]"
+    return scaled, f"{spoken(name)} [{quantity.shown_in}]"
 
 
 def overview(title: str, caption: str, found: CalibratedModel, test: NextTest | None, axes: dict[str, Axis]) -> Figure:

@@ -9,10 +9,10 @@ import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from ballscrew.cases.case import Case
-from ballscrew.torque_logs import reading
-from ballscrew.torque_logs.log_rows import Kind
-from ballscrew.torque_logs.torque_log import TorqueLog
+from ballscrew.cases.case_files.case import Case
+from ballscrew.files.torque_logs import reading
+from ballscrew.files.torque_logs.log_rows import Kind
+from ballscrew.files.torque_logs.torque_log import TorqueLog
 
 #: The number that is fitted by default.
 DEFAULT_FREE = "boundary_friction_coefficient"
@@ -44,7 +44,8 @@ class Options:
 def steady_log(case: Case, path: Path, options: Options, done: Callable[[int, int], None] | None = None) -> TorqueLog:
     """The rows of the log in a file at which the motion is steady. ``done`` gets the bytes read and those of the file.
 
-    Raises :class:`~ballscrew.errors.InputError` for a case that cannot be fitted, and for a log that cannot be used.
+    Raises :class:`~ballscrew.basis.errors.InputError` for a case that cannot be fitted, and for a log that cannot be
+    used.
     """
     log = reading.read(
         path, options.columns, torque_constant=options.torque_constant, lead=float(case.screw.lead),

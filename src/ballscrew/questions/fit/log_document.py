@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from ballscrew.studies.fit import Candidate
-from ballscrew.tables.headings import NO_COLUMN
-from ballscrew.torque_logs.columns import COLUMNS
-from ballscrew.torque_logs.preview import Preview
+from ballscrew.files.tables.headings import NO_COLUMN
+from ballscrew.files.torque_logs.columns import COLUMNS
+from ballscrew.files.torque_logs.preview import Preview
+from ballscrew.questions.fit.compute import Candidate
 
 
 def document(found: Preview, candidates: Sequence[Candidate], *, moving: bool) -> dict[str, Any]:

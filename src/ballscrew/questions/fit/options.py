@@ -6,15 +6,14 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, cast, get_args
 
-from ballscrew import units
-from ballscrew.cases.case import Case
-from ballscrew.errors import Fault, InputError, nearest, raise_if_any
-from ballscrew.evaluation.outputs import inputs_of
-from ballscrew.files import check_writable
-from ballscrew.quantities import Quantity
-from ballscrew.studies.fit_log import CONDITIONS, DEFAULT_FREE, Options, Range
-from ballscrew.studies.moving_log import CARRIED_MASS, GAIN, MovingOptions
-from ballscrew.torque_logs.log_rows import INERTIA, TORQUE_CONSTANT, Kind
+from ballscrew.basis import units
+from ballscrew.basis.atomic_files import check_writable
+from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
+from ballscrew.basis.quantities import Quantity
+from ballscrew.cases.case_files.case import Case
+from ballscrew.engine.evaluation.outputs import inputs_of
+from ballscrew.files.torque_logs.log_rows import INERTIA, TORQUE_CONSTANT, Kind
+from ballscrew.questions.fit.log import CONDITIONS, DEFAULT_FREE, Options, Range
 
 
 def options(
@@ -32,7 +31,7 @@ def options(
     keep_going: bool,
     temperature_error: str | None = None,
 ) -> Options:
-    """The options as typed values. Raises :class:`~ballscrew.errors.InputError` with all faults in them."""
+    """The options as typed values. Raises :class:`~ballscrew.basis.errors.InputError` with all faults in them."""
     names = [name.strip() for given in free or [DEFAULT_FREE] for name in given.split(",") if name.strip()]
     faults: list[Fault] = []
     if not names:
@@ -42,9 +41,9 @@ def options(
         free=names,
         bounds=_ranges("--bounds", bounds, _bounded(case, names) if bounds else {}, faults),
         limits=_ranges("--limits", limits, {n: conditions[n] for n in CONDITIONS if n in conditions}, faults),
-        inertia=_number("--inertia", inertia, INERTIA, faults),
-        torque_constant=_number("--torque-constant", torque_constant, TORQUE_CONSTANT, faults),
-        columns=_columns(columns, faults),
+        inertia=number_of("--inertia", inertia, INERTIA, faults),
+        torque_constant=number_of("--torque-constant", torque_constant, TORQUE_CONSTANT, faults),
+        columns=columns_of(columns, faults),
         kind=cast("Kind", kind or "unknown"),
         holdout=holdout,
         temperature_error=_temperature_error(temperature_error, faults),
@@ -58,7 +57,9 @@ def options(
 
 
 def check_to(to: Path, case: Path) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` if no case file can be written there, or if it is the case itself."""
+    """Raise :class:`~ballscrew.basis.errors.InputError` if no case file can be written there, or if it is the case
+    itself.
+    """
     if to.resolve() == case.resolve():
         raise InputError(
             Fault("--to", "is the case itself", str(to), "choose another name: its comments would be lost")
@@ -68,40 +69,9 @@ def check_to(to: Path, case: Path) -> None:
     check_writable("--to", to)
 
 
-def moving_options(
-    *,
-    free: Sequence[str],
-    columns: Sequence[str],
-    torque_constant: str | None,
-    gain: str | None,
-    carried_mass: str | None,
-    seed: int,
-    keep_going: bool,
-    unused: Mapping[str, bool],
-) -> MovingOptions:
-    """The options of a fit to a moving log; ``unused`` says which of those that do not go with one are given.
-
-    Raises :class:`~ballscrew.errors.InputError` with all faults in them.
-    """
-    remedy = "leave it out: the log is of a motion, not of torques at steady speed"
-    faults = [Fault(option, "does not go with a moving log", "", remedy) for option, given in unused.items() if given]
-    names = [name.strip() for given in free for name in given.split(",") if name.strip()]
-    found = MovingOptions(
-        free=names or None,
-        columns=_columns(columns, faults),
-        torque_constant=_number("--torque-constant", torque_constant, TORQUE_CONSTANT, faults),
-        gain=_number("--gain", gain, GAIN, faults),
-        carried_mass=_number("--carried-mass", carried_mass, CARRIED_MASS, faults, least=0.0),
-        seed=seed,
-        keep_going=keep_going,
-    )
-    raise_if_any(faults)
-    return found
-
-
 def _bounded(case: Case, names: Sequence[str]) -> Mapping[str, Quantity]:
     """Quantities of the free numbers, which bounds need."""
-    from ballscrew.studies.fit import free_quantities  # slow to import: only where bounds are given
+    from ballscrew.questions.fit.compute import free_quantities  # slow to import: only where bounds are given
 
     return free_quantities(case, names)
 
@@ -139,7 +109,7 @@ def _value(where: str, text: str, quantity: Quantity) -> float | Fault:
     return units.parse(where, plain, quantity)
 
 
-def _number(
+def number_of(
     option: str, text: str | None, quantity: Quantity, faults: list[Fault], least: float | None = None
 ) -> float | None:
     """A number above zero, or of at least ``least``; None where none is given or it is a fault."""
@@ -160,7 +130,7 @@ def _temperature_error(text: str | None, faults: list[Fault]) -> float | None:
     """A difference of temperatures in kelvin; None where none is given or it is a fault."""
     if text is None:
         return None
-    from ballscrew.calibration.oil_temperature import TEMPERATURE_ERROR  # loads xarray
+    from ballscrew.evidence.calibration.oil_temperature import TEMPERATURE_ERROR  # loads xarray
 
     option = "--temperature-error"
     if units.unit_in(text) not in ("K", "kelvin", ""):
@@ -168,10 +138,10 @@ def _temperature_error(text: str | None, faults: list[Fault]) -> float | None:
         number = text.replace(units.unit_in(text), "").strip()
         faults.append(Fault(option, "is a difference of temperatures, in K", text, f'write {option} "{number} K"'))
         return None
-    return _number(option, text, TEMPERATURE_ERROR, faults, least=0.0)
+    return number_of(option, text, TEMPERATURE_ERROR, faults, least=0.0)
 
 
-def _columns(given: Sequence[str], faults: list[Fault]) -> dict[str, str]:
+def columns_of(given: Sequence[str], faults: list[Fault]) -> dict[str, str]:
     """``torque="M_ist [N m]"`` as a mapping; the reader of logs checks the names."""
     found: dict[str, str] = {}
     for text in given:

@@ -7,13 +7,13 @@ import re
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from ballscrew.cases.case import Case
-from ballscrew.errors import Fault, InputError, raise_if_any
-from ballscrew.studies import every_row
-from ballscrew.studies.every_row import Done, OfRows, RowCase
-from ballscrew.studies.fit import FitReport, fit
-from ballscrew.studies.fit_log import Options, steady_log
-from ballscrew.torque_logs.torque_log import TorqueLog
+from ballscrew.basis.errors import Fault, InputError, raise_if_any
+from ballscrew.cases.case_files.case import Case
+from ballscrew.files.torque_logs.torque_log import TorqueLog
+from ballscrew.questions.fit.compute import FitReport, fit
+from ballscrew.questions.fit.log import Options, steady_log
+from ballscrew.questions.shared import every_row
+from ballscrew.questions.shared.every_row import Done, OfRows, RowCase
 
 #: What file names have not.
 _ODD = re.compile(r"[^\w.+-]+")
@@ -31,8 +31,8 @@ def logs(
 ) -> OfRows[TorqueLog]:
     """The log of each row, by its place, read and cleaned before anything is fitted.
 
-    Rows without a log are left out, with a note. Raises :class:`~ballscrew.errors.InputError` with the faults of all
-    logs; with ``keep_going`` only if none is good.
+    Rows without a log are left out, with a note. Raises :class:`~ballscrew.basis.errors.InputError` with the faults of
+    all logs; with ``keep_going`` only if none is good.
     """
     without = [row.row.name for row in rows.values() if row.log is None]
     if len(without) == len(rows):
@@ -73,7 +73,7 @@ def fits(
 def files(rows: Mapping[str, RowCase], folder: Path) -> dict[str, Path]:
     """The case file of each row in a folder, by the name of the row without what file names have not.
 
-    Raises :class:`~ballscrew.errors.InputError` for two rows with the same file.
+    Raises :class:`~ballscrew.basis.errors.InputError` for two rows with the same file.
     """
     found = {name: folder / f"{_ODD.sub('_', name).strip('._') or '_'}.toml" for name in rows}
     taken: dict[str, str] = {}

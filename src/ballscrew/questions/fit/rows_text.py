@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ballscrew import units
-from ballscrew.output.wrapping import aligned, wrapped
-from ballscrew.studies.fit import FitReport
-from ballscrew.text.fit import interval, spoken
+from ballscrew.basis import units
+from ballscrew.basis.output.wrapping import aligned, wrapped
+from ballscrew.questions.fit.compute import FitReport
+from ballscrew.questions.fit.text import interval
+from ballscrew.questions.shared.text_tables import spoken
 
 _HEADINGS = ("name", "log", "rows", "number", "value", "95 % interval", "residual rms")
 

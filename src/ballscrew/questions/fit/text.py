@@ -9,17 +9,17 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from ballscrew import units
-from ballscrew.calibration.calibrated_model import CalibratedModel
-from ballscrew.calibration.fit_result import Estimate
-from ballscrew.calibration.next_test import NextTest
-from ballscrew.calibration.problem import TORQUE_WANDER
-from ballscrew.cases.case_file import Case
-from ballscrew.cases.descriptions import design, model_text
-from ballscrew.friction.result import FrictionResult
-from ballscrew.quantities import Quantity, quantities_of
-from ballscrew.studies.fit import FitReport
-from ballscrew.text.tables import table_of
+from ballscrew.basis import units
+from ballscrew.basis.quantities import Quantity, quantities_of
+from ballscrew.cases.case_files.case_file import Case
+from ballscrew.cases.case_files.descriptions import design, model_text
+from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
+from ballscrew.evidence.calibration.fit_result import Estimate
+from ballscrew.evidence.calibration.next_test import NextTest
+from ballscrew.evidence.calibration.problem import TORQUE_WANDER
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.questions.fit.compute import FitReport
+from ballscrew.questions.shared.text_tables import spoken, table_of
 
 _TORQUE = quantities_of(FrictionResult)["screw_torque"]
 #: A change of a number that is less than this share of the largest is no part of a trade-off; one that a log does not
@@ -178,11 +178,6 @@ def _beside_the_log(test: NextTest, model: CalibratedModel, known: Mapping[str, 
     if any(float(test.tests[name].max()) > most * (1 + 1e-9) for name, most in ends.items()):
         return []
     return ["of the loads and speeds that the log has; --limits of ballscrew fit say what else the rig can give"]
-
-
-def spoken(name: str) -> str:
-    """The last part of a name, without underscores."""
-    return name.rpartition(".")[2].replace("_", " ")
 
 
 def _shown(value: float, quantity: Quantity, digits: int = 4) -> str:

@@ -7,18 +7,18 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ballscrew import units
-from ballscrew.axis.to_and_fro import to_and_fro
-from ballscrew.axis_studies.warm_up import assumed_of, bearings_of, check_oil, length_of, stroke_of
-from ballscrew.cases.case import Case
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.errors import Fault, InputError
-from ballscrew.motion.states import Numbers
-from ballscrew.thermal.friction_map import COLDEST, HOTTEST, FrictionMap
-from ballscrew.thermal.network import network_of, steady
-from ballscrew.thermal.surroundings import Surroundings
-from ballscrew.torque_logs.log_rows import Kind
-from ballscrew.torque_logs.torque_log import TorqueLog
+from ballscrew.axis.duty_cycle.to_and_fro import to_and_fro
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.axis.thermal.friction_map import COLDEST, HOTTEST, FrictionMap
+from ballscrew.axis.thermal.network import network_of, steady
+from ballscrew.axis.thermal.surroundings import Surroundings
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.cases.case_files.case import Case
+from ballscrew.files.torque_logs.log_rows import Kind
+from ballscrew.files.torque_logs.torque_log import TorqueLog
+from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.questions.warm_up.compute import assumed_of, bearings_of, check_oil, length_of, stroke_of
 
 OPTION = "--self-heating"
 #: Speeds between which the heat balance is interpolated.
@@ -30,8 +30,8 @@ def warm_log(case: Case, log: TorqueLog, kind: Kind = "unknown") -> tuple[Torque
 
     The heat of a row is its measured torque times its speed, so that no model of friction is needed, and the balance is
     linear in it. That holds for a torque of friction only: of a torque that drives, the share of friction is not known
-    before the fit. Raises :class:`~ballscrew.errors.InputError` for such logs, for those that have temperatures, for an
-    oil without one, and where a row would be warmer than the oil is known.
+    before the fit. Raises :class:`~ballscrew.basis.errors.InputError` for such logs, for those that have temperatures,
+    for an oil without one, and where a row would be warmer than the oil is known.
     """
     check_oil(case)
     if log.temperature is not None:

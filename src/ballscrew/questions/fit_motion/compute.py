@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import dataclasses
 
-from ballscrew.cases.case import Case
-from ballscrew.errors import InputError
-from ballscrew.moving_logs.motion_fit import MotionFit, fit_motion
-from ballscrew.moving_logs.moving_log import MovingLog
-from ballscrew.studies.moving_log import MovingOptions
+from ballscrew.basis.errors import InputError
+from ballscrew.cases.case_files.case import Case
+from ballscrew.evidence.moving_logs.motion_fit import MotionFit, fit_motion
+from ballscrew.evidence.moving_logs.moving_log import MovingLog
+from ballscrew.questions.fit_motion.log import MovingOptions
 
 _OPTIONS = {"fit.free": "--free", "fit.seed": "--seed", "fit.carried_mass": "--carried-mass"}
 

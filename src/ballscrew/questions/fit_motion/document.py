@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from ballscrew.cases import case_file, provenance
-from ballscrew.cases.case import Case
-from ballscrew.moving_logs.linear_model import NAMES
-from ballscrew.moving_logs.motion_fit import LINEAR, POWER, SCREW, MotionEstimate, MotionFit
-from ballscrew.records import documents
-from ballscrew.references import documentation, keys_in
+from ballscrew.basis.records import documents
+from ballscrew.basis.references import documentation, keys_in
+from ballscrew.cases.case_files import case_file, provenance
+from ballscrew.cases.case_files.case import Case
+from ballscrew.evidence.moving_logs.linear_model import NAMES
+from ballscrew.evidence.moving_logs.motion_fit import LINEAR, POWER, SCREW, MotionEstimate, MotionFit
 
 
 def document(case: Case, found: MotionFit) -> dict[str, Any]:
@@ -40,7 +40,7 @@ def document(case: Case, found: MotionFit) -> dict[str, Any]:
 
 
 def _fit() -> Any:
-    from ballscrew.moving_logs.motion_fit import fit_motion
+    from ballscrew.evidence.moving_logs.motion_fit import fit_motion
 
     return fit_motion
 

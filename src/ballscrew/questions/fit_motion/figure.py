@@ -7,12 +7,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from ballscrew.cases.case import Case
-from ballscrew.cases.descriptions import model_text
-from ballscrew.figures import style
-from ballscrew.moving_logs.motion_fit import LINEAR, POWER, SCREW, MotionFit
-from ballscrew.text import fit_motion as text
-from ballscrew.torque_logs.motion import Floats
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.descriptions import model_text
+from ballscrew.evidence.moving_logs.motion_fit import LINEAR, POWER, SCREW, MotionFit
+from ballscrew.files.torque_logs.motion import Floats
+from ballscrew.questions.fit_motion import text
+from ballscrew.questions.shared import chart_style as style
 
 #: Colours of the models.
 COLOURS = {LINEAR: style.ORANGE, POWER: style.GREEN, SCREW: style.BLUE}

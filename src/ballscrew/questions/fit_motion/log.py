@@ -9,11 +9,11 @@ import dataclasses
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from ballscrew.cases.case import Case
-from ballscrew.moving_logs import reading
-from ballscrew.moving_logs.moving_log import GAIN as GAIN
-from ballscrew.moving_logs.moving_log import MovingLog
-from ballscrew.quantities import Info, Quantity
+from ballscrew.basis.quantities import Info, Quantity
+from ballscrew.cases.case_files.case import Case
+from ballscrew.evidence.moving_logs import reading
+from ballscrew.evidence.moving_logs.moving_log import GAIN as GAIN
+from ballscrew.evidence.moving_logs.moving_log import MovingLog
 
 CARRIED_MASS = Quantity("carried_mass", "kg", Info("m", "mass whose force passes the nut", at_least=0))
 
@@ -43,7 +43,7 @@ def is_moving(path: Path, columns: Sequence[str]) -> bool:
 def moving_log(case: Case, path: Path, options: MovingOptions, usual_gain: float | None = None) -> MovingLog:
     """The log of a file; ``usual_gain`` (N/V) holds where neither the file nor the options give one.
 
-    Raises :class:`~ballscrew.errors.InputError` for a log that cannot be used.
+    Raises :class:`~ballscrew.basis.errors.InputError` for a log that cannot be used.
     """
     return reading.read_moving(
         path, options.columns, lead=float(case.screw.lead), torque_constant=options.torque_constant,

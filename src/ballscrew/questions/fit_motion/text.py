@@ -5,13 +5,12 @@ from __future__ import annotations
 from rich.console import Console
 from rich.table import Table
 
-from ballscrew import units
-from ballscrew.cases.case import Case
-from ballscrew.cases.descriptions import design, model_text
-from ballscrew.moving_logs.linear_model import NAMES
-from ballscrew.moving_logs.motion_fit import LINEAR, POWER, QUANTITIES, SCREW, MotionEstimate, MotionFit
-from ballscrew.text.fit import spoken
-from ballscrew.text.tables import table_of
+from ballscrew.basis import units
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.descriptions import design, model_text
+from ballscrew.evidence.moving_logs.linear_model import NAMES
+from ballscrew.evidence.moving_logs.motion_fit import LINEAR, POWER, QUANTITIES, SCREW, MotionEstimate, MotionFit
+from ballscrew.questions.shared.text_tables import spoken, table_of
 
 #: The models as they are printed.
 SPOKEN = {LINEAR: "constant + viscous", POWER: "power of speed", SCREW: "screw model"}

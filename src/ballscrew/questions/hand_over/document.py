@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from pathlib import PurePath
 from typing import Any
 
-from ballscrew import units
-from ballscrew.cases import case_file
-from ballscrew.cases.case import Case
+from ballscrew.basis import units
+from ballscrew.basis.records import documents
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.case import Case
 from ballscrew.exports.export import Export
 from ballscrew.exports.targets import TARGETS, Option, options_of
-from ballscrew.records import documents
 
 
 def document(export: Export, case: Case, written: Sequence[PurePath]) -> dict[str, Any]:

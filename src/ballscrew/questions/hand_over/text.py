@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from ballscrew import units
+from ballscrew.basis import units
+from ballscrew.basis.output.wrapping import wrapped
+from ballscrew.basis.quantities import Quantity
 from ballscrew.exports.export import Export
 from ballscrew.exports.worst_error import WorstError
-from ballscrew.output.wrapping import wrapped
-from ballscrew.quantities import Quantity
 
 
 def text(export: Export, written: Sequence[Path]) -> str:

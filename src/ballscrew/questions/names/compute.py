@@ -6,16 +6,16 @@ import inspect
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
-from ballscrew.case_schema.schema import LAWS, MODELS, coefficients_of
-from ballscrew.cases.case import Case
-from ballscrew.components.materials import Lubricant, grades
-from ballscrew.components.nut import DoubleNut
-from ballscrew.errors import Fault, InputError, nearest
-from ballscrew.evaluation.outputs import inputs_of, known_outputs
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.friction.model import FrictionModel
-from ballscrew.quantities import Quantity
-from ballscrew.sizing.catalogue import catalogue
+from ballscrew.basis.errors import Fault, InputError, nearest
+from ballscrew.basis.quantities import Quantity
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.schema.schema import LAWS, MODELS, coefficients_of
+from ballscrew.engine.evaluation.outputs import inputs_of, known_outputs
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.physics.components.materials import Lubricant, grades
+from ballscrew.physics.components.nut import DoubleNut
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.sizing.catalogue import catalogue
 
 
 class Name(NamedTuple):
@@ -30,7 +30,7 @@ class Name(NamedTuple):
 def names(kind: str, case: Case | None = None) -> list[Name]:
     """The names of a kind; inputs and outputs are those of a case, or of the reference model with a double nut.
 
-    Raises :class:`~ballscrew.errors.InputError` for an unknown kind.
+    Raises :class:`~ballscrew.basis.errors.InputError` for an unknown kind.
     """
     if kind not in KINDS:
         raise InputError(Fault("list", "unknown kind of names", kind, nearest(kind, KINDS)))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from ballscrew.studies.names import Name
+from ballscrew.questions.names.compute import Name
 
 
 def document(kind: str, found: Sequence[Name]) -> dict[str, Any]:

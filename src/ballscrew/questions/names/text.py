@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import groupby
 
-from ballscrew.studies.names import Name
+from ballscrew.questions.names.compute import Name
 
 
 def text(found: Sequence[Name]) -> str:

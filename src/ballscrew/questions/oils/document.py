@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from ballscrew._version import __version__
-from ballscrew.cases.oils import TEXTS
-from ballscrew.components.data_sheet import DataSheet
-from ballscrew.quantities import fields_of
+from ballscrew.basis.quantities import fields_of
+from ballscrew.basis.version import __version__
+from ballscrew.cases.case_files.oils import TEXTS
+from ballscrew.physics.components.data_sheet import DataSheet
 
 _FIELDS = fields_of(DataSheet)
 

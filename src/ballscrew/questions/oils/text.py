@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ballscrew import units
-from ballscrew.components.data_sheet import DataSheet
-from ballscrew.components.materials import Lubricant
-from ballscrew.output.wrapping import aligned
-from ballscrew.quantities import fields_of
+from ballscrew.basis import units
+from ballscrew.basis.output.wrapping import aligned
+from ballscrew.basis.quantities import fields_of
+from ballscrew.physics.components.data_sheet import DataSheet
+from ballscrew.physics.components.materials import Lubricant
 
 _FIELDS = fields_of(DataSheet)
 _COLUMNS = ("name", "40 °C [cSt]", "100 °C [cSt]", "VI", "15 °C [kg/m³]", "from [°C]", "to [°C]", "thickener", "source")

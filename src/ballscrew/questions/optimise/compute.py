@@ -9,25 +9,25 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.cases import case_file
-from ballscrew.cases.case import Case
-from ballscrew.components.nut import Bodies
-from ballscrew.errors import Fault, InputError
-from ballscrew.evaluation.engines import Engine
-from ballscrew.optimisation.design_model import DesignModel
-from ballscrew.optimisation.design_space import DesignSpace, design_space
-from ballscrew.optimisation.search import Found, search, spread
-from ballscrew.quantities import fields_of
-from ballscrew.selection import requirement_checks
-from ballscrew.selection.candidates import objectives as objectives_of
-from ballscrew.selection.need import Need, need_of
-from ballscrew.selection.objectives import OBJECTIVES, USUAL_LENGTH, shaft_length
-from ballscrew.selection.pareto import front
-from ballscrew.sizing.catalogue import CatalogueRow
-from ballscrew.sizing.checks import Check
-from ballscrew.sizing.listed_nut import PRELOADED
-from ballscrew.studies.check import Checked, checked
-from ballscrew.studies.every_row import copied
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.quantities import fields_of
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.case import Case
+from ballscrew.engine.evaluation.engines import Engine
+from ballscrew.physics.components.nut import Bodies
+from ballscrew.physics.sizing.catalogue import CatalogueRow
+from ballscrew.physics.sizing.checks import Check
+from ballscrew.physics.sizing.listed_nut import PRELOADED
+from ballscrew.questions.check.compute import Checked, checked
+from ballscrew.questions.optimise.design_model import DesignModel
+from ballscrew.questions.optimise.design_space import DesignSpace, design_space
+from ballscrew.questions.optimise.search import Found, search, spread
+from ballscrew.questions.select import requirement_checks
+from ballscrew.questions.select.candidates import objectives as objectives_of
+from ballscrew.questions.select.need import Need, need_of
+from ballscrew.questions.select.objectives import OBJECTIVES, USUAL_LENGTH, shaft_length
+from ballscrew.questions.select.pareto import front
+from ballscrew.questions.shared.every_row import copied
 
 #: Told how many designs of how many are evaluated: those of the search, and members in full.
 Done = Callable[[int, int], None]
@@ -92,14 +92,19 @@ class Member:
 class Optimisation:
     """The front of a need."""
 
+    #: The need as it was read.
     need: Need
+    #: Free variables with their bounds, objectives and options of the search.
     space: DesignSpace
+    #: Designs of the front, evaluated by the full model.
     members: Sequence[Member]
     #: Designs that the search evaluated, and members of its own front, of which :attr:`members` are a choice.
     evaluations: int
+    #: The outcome of the search.
     front: Found
     #: The engine of the search, and why it is that one.
     engine: tuple[str, str]
+    #: What was assumed.
     notes: Sequence[str] = ()
 
     @property
@@ -136,20 +141,27 @@ def optimise(
     engine: Engine | None = None,
     done: Done | None = None,
 ) -> Optimisation:
-    """The Pareto front of free geometries for a need, each member evaluated by the full model.
+    """The Pareto front of free geometries for a need, an :class:`Optimisation`: each member by the full model.
+
+    ``need`` is a file, its tables, or a need that was read (:func:`~ballscrew.questions.select.need.need_of`);
+    ``settings`` of the form ``section.field=value`` win over file and tables. ``model`` names the model of friction and
+    ``calibration`` a named one in place of those of the need, and with ``allow_code`` laws of files of the user's own
+    are imported. ``objectives`` names what is optimised. ``population`` designs are in each of ``generations``
+    generations, ``members`` of the front are evaluated in full, and ``seed`` is that of the random numbers; without
+    them those of the table ``[optimise]`` count, or usual ones.
 
     Free are pitch circle, lead, ball diameter, turns and preload within ``[optimise.bounds]``, by default the span of
     the catalogue, and ratios of sizes that the catalogue keeps
-    (:func:`~ballscrew.optimisation.design_space.design_space`). NSGA-II of pymoo searches on the recorded model, first
-    with rigid bodies and then, some generations more, with the elastic ones of a run; constraints are all checks of
-    ``ballscrew check`` and the requirements of the need, less a ``margin``. With a ``quantile`` the objectives are that
-    quantile over the uncertain inputs, in place of their values at the central ones; constraints stay at these.
+    (:func:`~ballscrew.questions.optimise.design_space.design_space`). NSGA-II of pymoo searches on the recorded model,
+    first with rigid bodies and then, some generations more, with the elastic ones of a run; constraints are all checks
+    of ``ballscrew check`` and the requirements of the need, less a ``margin``. With a ``quantile`` the objectives are
+    that quantile over the uncertain inputs, in place of their values at the central ones; constraints stay at these.
     Members of the front are then evaluated one by one as ``ballscrew check`` does; one that fails there is kept, and
-    says so. ``engine`` is that of :func:`~ballscrew.evaluation.evaluator.evaluator`. ``done(finished, total)`` is told
-    the designs evaluated, generation by generation, and then the members; fewer than planned lower the total.
+    says so. ``engine`` is that of :func:`~ballscrew.engine.evaluation.evaluator.evaluator`. ``done(finished, total)``
+    is told the designs evaluated, generation by generation, and then the members; fewer than planned lower the total.
 
-    Raises :class:`~ballscrew.errors.InputError` for faults of the need, for one with a motion, and where pymoo (the
-    extra ``optimise``) is not installed.
+    Raises :class:`~ballscrew.basis.errors.InputError` for faults of the need, for one with a motion, and where pymoo
+    (the extra ``optimise``) is not installed.
     """
     chosen = {
         "population": population, "generations": generations, "members": members, "seed": seed, "quantile": quantile,
@@ -202,7 +214,7 @@ def plan(
 ) -> Plan:
     """How many designs :func:`optimise` would evaluate, and in about what time.
 
-    Raises :class:`~ballscrew.errors.InputError` as :func:`optimise` does for faults of the need.
+    Raises :class:`~ballscrew.basis.errors.InputError` as :func:`optimise` does for faults of the need.
     """
     chosen = {"population": population, "generations": generations, "members": members, "quantile": quantile}
     options = {"model": model, "calibration": calibration, "allow_code": allow_code}

@@ -9,20 +9,20 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.cases.case import Case
-from ballscrew.cases.uncertain_inputs import all_of, joint_of
-from ballscrew.evaluation.engines import Engine
-from ballscrew.evaluation.evaluator import Evaluator, evaluator
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.optimisation.design_space import RATIOS, DesignSpace
-from ballscrew.optimisation.designs import Designs, Numbers
-from ballscrew.selection.need import Need
-from ballscrew.selection.objectives import OBJECTIVES, reflected_mass, shaft_inertia, shaft_length
-from ballscrew.selection.requirement_checks import preload_used
-from ballscrew.selection.requirements import ALLOWED, FORBIDDEN, Requirements
-from ballscrew.sizing.installation import Installation
-from ballscrew.sizing.listed_nut import PRELOADED
-from ballscrew.uncertainty.sampling import Sampler, sobol_sequence
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.uncertain_inputs import all_of, joint_of
+from ballscrew.engine.evaluation.engines import Engine
+from ballscrew.engine.evaluation.evaluator import Evaluator, evaluator
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.uncertainty.sampling import Sampler, sobol_sequence
+from ballscrew.physics.sizing.installation import Installation
+from ballscrew.physics.sizing.listed_nut import PRELOADED
+from ballscrew.questions.optimise.design_space import RATIOS, DesignSpace
+from ballscrew.questions.optimise.designs import Designs, Numbers
+from ballscrew.questions.select.need import Need
+from ballscrew.questions.select.objectives import OBJECTIVES, reflected_mass, shaft_inertia, shaft_length
+from ballscrew.questions.select.requirement_checks import preload_used
+from ballscrew.questions.select.requirements import ALLOWED, FORBIDDEN, Requirements
 
 #: Inputs of the evaluator besides those that are uncertain.
 _SIZES = ("pitch_circle_diameter", "lead", "ball_diameter", "loaded_balls")

@@ -10,17 +10,17 @@ from typing import Annotated, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew import units
-from ballscrew._arrays import ByValue
-from ballscrew.case_schema.fields import section_of
-from ballscrew.case_schema.schema import read_table
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import Fault, InputError, faults_of, nearest, raise_if_any
-from ballscrew.quantities import Count, Info, Quantity, Ratio, fields_of
-from ballscrew.selection.need import Need
-from ballscrew.selection.objectives import objectives_named
-from ballscrew.sizing.catalogue import CatalogueRow, catalogue
-from ballscrew.sizing.listed_nut import NUTS, PRELOADED
+from ballscrew.basis import units
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import Fault, InputError, faults_of, nearest, raise_if_any
+from ballscrew.basis.quantities import Count, Info, Quantity, Ratio, fields_of
+from ballscrew.cases.schema.fields import section_of
+from ballscrew.cases.schema.schema import read_table
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.sizing.catalogue import CatalogueRow, catalogue
+from ballscrew.physics.sizing.listed_nut import NUTS, PRELOADED
+from ballscrew.questions.select.need import Need
+from ballscrew.questions.select.objectives import objectives_named
 
 #: The objectives of a search; there is no price of what nobody makes.
 SEARCHED = ("loss", "inertia", "reflected_mass", "life", "rigidity", "drive_torque", "preload_torque")
@@ -48,7 +48,7 @@ Span = tuple[float, float]
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class SearchOptions(ByValue):
-    """Options of a search. Raises :class:`~ballscrew.errors.InputError` for values out of bounds."""
+    """Options of a search. Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds."""
 
     population: Annotated[
         Count, Info("n", "designs of a generation", at_least=8, at_most=100_000, whole=True, hint="100 to 1000")
@@ -147,7 +147,7 @@ def design_space(need: Need, objectives: Sequence[str] | None = None, **options:
 
     ``[optimise.bounds]`` has pairs for the names of :data:`VARIABLES`; what it leaves out lies between the least and
     the greatest of the rows of the catalogue, a preload between the shares that vendors give. Raises
-    :class:`~ballscrew.errors.InputError` with all faults.
+    :class:`~ballscrew.basis.errors.InputError` with all faults.
     """
     table, faults, notes = dict(need.optimise), list[Fault](), list[str]()
     given, named = table.pop("bounds", {}), table.pop("objectives", list(USUAL_OBJECTIVES))

@@ -1,4 +1,6 @@
-"""Many designs at once: their balls, ratings, and every check of :func:`ballscrew.sizing.checks.checks`, on arrays."""
+"""Many designs at once: their balls, ratings, and every check of :func:`ballscrew.physics.sizing.checks.checks`, on
+arrays.
+"""
 
 from __future__ import annotations
 
@@ -9,12 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.components.screw import BallScrew
-from ballscrew.equations import geometry, life, rating, shaft
-from ballscrew.friction.validity import LARGEST_PRESSURE
-from ballscrew.sizing.installation import Installation, Limits
-from ballscrew.sizing.ratings import RATING_CONFORMITY
-from ballscrew.sizing.speed_limits import GENERAL
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.equations import geometry, life, rating, shaft
+from ballscrew.physics.friction.validity import LARGEST_PRESSURE
+from ballscrew.physics.sizing.dn_limits import GENERAL
+from ballscrew.physics.sizing.installation import Installation, Limits
+from ballscrew.physics.sizing.ratings import RATING_CONFORMITY
 
 Numbers = NDArray[np.float64]
 
@@ -38,8 +40,8 @@ class Designs:
     def of(cls, columns: Mapping[str, Numbers], screw: BallScrew) -> Designs:
         """The designs of free variables; contact angle and conformity are those of a screw.
 
-        Balls are counted and rated as :class:`~ballscrew.sizing.catalogue.CatalogueRow` does. Where none finds room,
-        the ratings are NaN.
+        Balls are counted and rated as :class:`~ballscrew.physics.sizing.catalogue.CatalogueRow` does. Where none finds
+        room, the ratings are NaN.
         """
         d_m, P_h, d_w = (columns[name] for name in ("pitch_circle_diameter", "lead", "ball_diameter"))
         alpha, phi = screw.contact_angle, geometry.lead_angle(P_h, d_m)

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
-from ballscrew.documents import check as check_documents
-from ballscrew.documents.selection import need_document, objectives_document
-from ballscrew.optimisation.design_space import VARIABLES
-from ballscrew.optimisation.optimisation import Member, Optimisation
-from ballscrew.quantities import fields_of
-from ballscrew.records import documents
-from ballscrew.selection.candidates import Starved
-from ballscrew.selection.objectives import OBJECTIVES
-from ballscrew.sizing.checks import judged
+from ballscrew.basis.quantities import fields_of
+from ballscrew.basis.records import documents
+from ballscrew.physics.sizing.checks import judged
+from ballscrew.questions.check import document as check_documents
+from ballscrew.questions.optimise.compute import Member, Optimisation
+from ballscrew.questions.optimise.design_space import VARIABLES
+from ballscrew.questions.select.candidates import Starved
+from ballscrew.questions.select.document import need_document, objectives_document
+from ballscrew.questions.select.objectives import OBJECTIVES
 
 #: What is the same for all members, or too long for a list.
 _LEFT_OUT = ("units", "provenance", "loads", "name", "nut", "results", "checks", "judged", "holds", "verdict")

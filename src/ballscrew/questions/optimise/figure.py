@@ -10,14 +10,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew import units
-from ballscrew.figures import style
-from ballscrew.figures.selection import label_of
-from ballscrew.optimisation.design_space import VARIABLES
-from ballscrew.optimisation.optimisation import Member, Optimisation
-from ballscrew.selection.objectives import OBJECTIVES
-from ballscrew.text import optimisation as text
-from ballscrew.text.selection import asked
+from ballscrew.basis import units
+from ballscrew.questions.optimise import text
+from ballscrew.questions.optimise.compute import Member, Optimisation
+from ballscrew.questions.optimise.design_space import VARIABLES
+from ballscrew.questions.select.figure import label_of
+from ballscrew.questions.select.objectives import OBJECTIVES
+from ballscrew.questions.select.text import asked
+from ballscrew.questions.shared import chart_style as style
 
 _LABEL_SIZE = 7.5
 

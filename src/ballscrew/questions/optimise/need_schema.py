@@ -5,15 +5,15 @@ from __future__ import annotations
 import copy
 from typing import Any
 
-from ballscrew.case_schema.fields import section_of
-from ballscrew.case_schema.schema import json_schema as case_schema
-from ballscrew.case_schema.schema import without_null
-from ballscrew.optimisation.design_space import SEARCHED, VARIABLES, SearchOptions
-from ballscrew.quantities import fields_of
-from ballscrew.screw_tables.nut_kinds import NUTS
-from ballscrew.selection.need import SHORT_NAMES, need_section
-from ballscrew.selection.objectives import OBJECTIVES
-from ballscrew.selection.requirements import Requirements
+from ballscrew.basis.quantities import fields_of
+from ballscrew.cases.schema.fields import section_of
+from ballscrew.cases.schema.schema import json_schema as case_schema
+from ballscrew.cases.schema.schema import without_null
+from ballscrew.cases.screw_tables.nut_kinds import NUTS
+from ballscrew.questions.optimise.design_space import SEARCHED, VARIABLES, SearchOptions
+from ballscrew.questions.select.need import SHORT_NAMES, need_section
+from ballscrew.questions.select.objectives import OBJECTIVES
+from ballscrew.questions.select.requirements import Requirements
 
 #: Fields of a case that may be lists of choices.
 _CHOICES = {"Nut": ("type", "preload"), "Lubricant": ("grade", "oil")}

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.errors import Fault, InputError
+from ballscrew.basis.errors import Fault, InputError
 
 Numbers = NDArray[np.float64]
 #: Costs, all to be small, and constraints, at most zero where they hold, of designs: one row each.
@@ -46,7 +46,7 @@ def search(
     constraints are no numbers counts as one that does not hold. ``done`` is told the designs that were evaluated, after
     each generation.
 
-    Raises :class:`~ballscrew.errors.InputError` where pymoo is not installed.
+    Raises :class:`~ballscrew.basis.errors.InputError` where pymoo is not installed.
     """
     pymoo = _pymoo()
     costs, constraints = _sound(*evaluate((lower + upper)[np.newaxis] / 2))

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ballscrew import units
-from ballscrew.optimisation.design_model import OF_MODEL
-from ballscrew.optimisation.design_space import VARIABLES, DesignSpace
-from ballscrew.optimisation.optimisation import Member, Optimisation, Plan
-from ballscrew.output.wrapping import beside, wrapped
-from ballscrew.text import selection
-from ballscrew.text.selection import LABELS
+from ballscrew.basis import units
+from ballscrew.basis.output.wrapping import beside, wrapped
+from ballscrew.questions.optimise.compute import Member, Optimisation, Plan
+from ballscrew.questions.optimise.design_model import OF_MODEL
+from ballscrew.questions.optimise.design_space import VARIABLES, DesignSpace
+from ballscrew.questions.select import text as selection
+from ballscrew.questions.select.text import LABELS
 
 _HEADINGS = {
     "pitch_circle_diameter": "pitch circle", "lead": "lead", "ball_diameter": "ball", "loaded_turns": "turns",

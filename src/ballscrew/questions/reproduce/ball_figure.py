@@ -15,11 +15,11 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Ellipse, FancyArrowPatch, Rectangle
 from matplotlib.ticker import MaxNLocator
 
-from ballscrew.equations import kinematics
-from ballscrew.figures import style
-from ballscrew.figures.style import Columns, Plot
-from ballscrew.friction.result import FrictionResult
-from ballscrew.papers.olaru2005 import case
+from ballscrew.evidence.papers.olaru2005 import case
+from ballscrew.physics.equations import kinematics
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared.chart_style import Columns, Plot
 
 Results = Mapping[str, FrictionResult]
 

@@ -11,10 +11,10 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew.figures import style
-from ballscrew.figures.style import Columns, Plot
-from ballscrew.friction.result import MECHANISMS
-from ballscrew.papers.olaru2005 import case
+from ballscrew.evidence.papers.olaru2005 import case
+from ballscrew.physics.friction.result import MECHANISMS
+from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared.chart_style import Columns, Plot
 
 #: What stands above the panels.
 TITLES: Mapping[str, str] = {"olaru2005": "as printed", "corrected": "corrected"}

@@ -12,23 +12,23 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew import units
-from ballscrew.cases.case import Case
-from ballscrew.cases.nut_tables import dynamic_rating
-from ballscrew.components.contact import RaceState
-from ballscrew.components.nut import Nut
-from ballscrew.components.screw import BallScrew
-from ballscrew.components.traits import traits_of
-from ballscrew.errors import InputError
-from ballscrew.friction import starvation
-from ballscrew.friction.result import QUADRANTS, FrictionResult, Quadrant
-from ballscrew.overflow import overflow_as_input_error
-from ballscrew.quantities import Quantity, quantities_of
-from ballscrew.records import Measured, Message, Record
-from ballscrew.screw_tables.nut_kinds import LISTED, NUT_FIELDS
-from ballscrew.sizing.rigidity import AxialRigidity, rigidity_iso3408
-from ballscrew.solvers.load_distribution import BallLoads, preload_of
-from ballscrew.studies.nut_state import Flank, NutState, Touching
+from ballscrew.basis import units
+from ballscrew.basis.errors import InputError
+from ballscrew.basis.overflow import overflow_as_input_error
+from ballscrew.basis.quantities import Quantity, quantities_of
+from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.nut_tables import dynamic_rating
+from ballscrew.cases.screw_tables.nut_kinds import LISTED, NUT_FIELDS
+from ballscrew.physics.components.contact import RaceState
+from ballscrew.physics.components.nut import Nut
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.components.traits import traits_of
+from ballscrew.physics.friction import starvation
+from ballscrew.physics.friction.result import QUADRANTS, FrictionResult, Quadrant
+from ballscrew.physics.sizing.rigidity import AxialRigidity, rigidity_iso3408
+from ballscrew.physics.solvers.load_distribution import BallLoads, preload_of
+from ballscrew.questions.run.nut_state import Flank, NutState, Touching
 
 _KNOWN = quantities_of(FrictionResult)
 _TORQUE, _DRIVE, _SHARE = (_KNOWN[name] for name in ("holding_torque", "drive_torque", "rolling_share"))
@@ -105,7 +105,7 @@ class Run:
         """Starvation; the quadrant, if not the usual one; whether the load drives; skidding; loss of the preload."""
         starved = units.in_display_units_of(self.friction.starvation)
         if float(self.friction.axial_load) == 0:
-            none = Message("no load: nothing to hold")
+            none = Message("no axial load")
             found = [units.record(none, id="verdict.no_load", subject="axial_load", value=0.0, unit="N")]
             return [*starved, *found, *self._lost()]
         moving = bool(self.friction.screw_speed)
@@ -183,7 +183,7 @@ class Run:
             return []
         limit = float(self.nut.loads.lift_off_load)
         message = Message(
-            "preload lost: the balls lift off the other flank at a load of about {load}",
+            "preload lost: the balls lift off the other flank; between rigid bodies they do above {load}",
             {"load": Measured(limit, _LIFT_OFF)},
         )
         return [

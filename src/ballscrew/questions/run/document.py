@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ballscrew.cases import case_file, provenance
-from ballscrew.cases.named_calibration import vendor_rows_like
-from ballscrew.components.contact import RaceState
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.friction.result import QUADRANTS, FrictionResult
-from ballscrew.quantities import Quantity, fields_of, quantities_of
-from ballscrew.records import documents
-from ballscrew.sizing.rigidity import AxialRigidity
-from ballscrew.solvers.load_distribution import BallLoads
-from ballscrew.studies.run import Flank, NutState, Run
+from ballscrew.basis.quantities import Quantity, fields_of, quantities_of
+from ballscrew.basis.records import documents
+from ballscrew.cases.case_files import case_file, provenance
+from ballscrew.cases.case_files.named_calibration import vendor_rows_like
+from ballscrew.physics.components.contact import RaceState
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.friction.result import QUADRANTS, FrictionResult
+from ballscrew.physics.sizing.rigidity import AxialRigidity
+from ballscrew.physics.solvers.load_distribution import BallLoads
+from ballscrew.questions.run.compute import Flank, NutState, Run
 
 #: Fields of each ball; the other fields of the loads are of all balls together.
 _OF_BALLS = ("forward_load", "backward_load", "forward_angle", "backward_angle")

@@ -6,9 +6,9 @@ import dataclasses
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from ballscrew.components.nut import Nut
-from ballscrew.sizing.rigidity import AxialRigidity
-from ballscrew.solvers.load_distribution import BallLoads
+from ballscrew.physics.components.nut import Nut
+from ballscrew.physics.sizing.rigidity import AxialRigidity
+from ballscrew.physics.solvers.load_distribution import BallLoads
 
 
 class Touching(NamedTuple):

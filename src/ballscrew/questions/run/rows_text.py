@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ballscrew import units
-from ballscrew.friction.result import FrictionResult
-from ballscrew.output.wrapping import aligned
-from ballscrew.quantities import quantities_of
-from ballscrew.screw_tables.nut_kinds import NUT_FIELDS, kind_of
-from ballscrew.studies.run import Run
-from ballscrew.text.tables import shown_or_dash
+from ballscrew.basis import units
+from ballscrew.basis.output.wrapping import aligned
+from ballscrew.basis.quantities import quantities_of
+from ballscrew.cases.screw_tables.nut_kinds import NUT_FIELDS, kind_of
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.questions.run.compute import Run
+from ballscrew.questions.shared.text_tables import shown_or_dash
 
 _HEADINGS = ("name", "nut", "preload", "friction torque", "without load", "drive torque", "eff.", "eff. back")
 _RESULT = quantities_of(FrictionResult)

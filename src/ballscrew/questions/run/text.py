@@ -9,16 +9,16 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from ballscrew import units
-from ballscrew.cases import descriptions
-from ballscrew.components.contact import RaceState
-from ballscrew.friction.result import MECHANISMS, FrictionResult, Quadrant
-from ballscrew.quantities import quantities_of
-from ballscrew.records import Record
-from ballscrew.sizing.rigidity import RECALLED_ACCURACY_FACTORS, AxialRigidity
-from ballscrew.solvers.load_distribution import BallLoads
-from ballscrew.studies.run import NutState, Run
-from ballscrew.text.tables import shown_or_dash, table_of
+from ballscrew.basis import units
+from ballscrew.basis.quantities import quantities_of
+from ballscrew.basis.records import Record
+from ballscrew.cases.case_files import descriptions
+from ballscrew.physics.components.contact import RaceState
+from ballscrew.physics.friction.result import MECHANISMS, FrictionResult, Quadrant
+from ballscrew.physics.sizing.rigidity import RECALLED_ACCURACY_FACTORS, AxialRigidity
+from ballscrew.physics.solvers.load_distribution import BallLoads
+from ballscrew.questions.run.compute import NutState, Run
+from ballscrew.questions.shared.text_tables import shown_or_dash, table_of
 
 #: The first results, in this order; a nut has no contact load and entrainment speed of all its balls.
 SHOWN = (

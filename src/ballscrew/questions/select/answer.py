@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from ballscrew.api_answers.parts import Closed, Number, Numbers, Open, Provenance, Record, Tables, field
+from ballscrew.questions.shared.answer_parts import Closed, Number, Numbers, Open, Provenance, Record, Tables, field
 
 
 class Failing(Closed):
@@ -38,8 +38,8 @@ class Candidate(Open):
     )
     valid: bool
     pareto: bool = Field(description="true where no other candidate that fits is better in all objectives")
-    preload_lost_above: Number = field(
-        "load above which the nut has no preload left, SI; null where no load of the need reaches it", "N"
+    rigid_lift_off_load: Number = field(
+        "load above which rigid bodies lose the preload, SI, of a nut that has none left; null where some is left", "N"
     )
     worst: Number = Field(description="largest utilisation")
     fails: list[Failing]

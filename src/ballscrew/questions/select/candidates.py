@@ -10,32 +10,32 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ballscrew import units
-from ballscrew.axis_studies import duty as duties
-from ballscrew.axis_studies import duty_records
-from ballscrew.axis_studies.duty import DutyReport
-from ballscrew.cases import case_file
-from ballscrew.cases.case import Case
-from ballscrew.errors import Fault, InputError
-from ballscrew.friction import starvation
-from ballscrew.friction.loaded_balls import loads_of
-from ballscrew.friction.starvation import BothTorques
-from ballscrew.quantities import Duration, Force, Length, fields_of
-from ballscrew.records import Message, Record
-from ballscrew.screw_tables.catalogue import assumed, case_text
-from ballscrew.selection import requirement_checks
-from ballscrew.selection.need import Need
-from ballscrew.selection.objectives import OBJECTIVES, USUAL_LENGTH, reflected_mass, shaft_inertia, shaft_length
-from ballscrew.selection.requirements import Requirements
-from ballscrew.sizing.catalogue import CatalogueRow
-from ballscrew.sizing.checks import Check
-from ballscrew.sizing.installation import Installation
-from ballscrew.sizing.listed_nut import NUTS, PRELOADED, lists_preload
-from ballscrew.solvers.load_distribution import BallLoads, preload_of
-from ballscrew.studies.check import Checked, checked, checks_by_loads
-from ballscrew.studies.every_row import copied
-from ballscrew.studies.own_screws import tables_of_row
-from ballscrew.thermal.network import nut_length
+from ballscrew.axis.thermal.network import nut_length
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.quantities import Duration, Force, Length, fields_of
+from ballscrew.basis.records import Message, Record
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.screw_tables.catalogue import assumed, case_text
+from ballscrew.physics.friction import starvation
+from ballscrew.physics.friction.loaded_balls import loads_of
+from ballscrew.physics.friction.starvation import BothTorques
+from ballscrew.physics.sizing.catalogue import CatalogueRow
+from ballscrew.physics.sizing.checks import Check
+from ballscrew.physics.sizing.installation import Installation
+from ballscrew.physics.sizing.listed_nut import NUTS, PRELOADED, lists_preload
+from ballscrew.physics.solvers.load_distribution import BallLoads, preload_of
+from ballscrew.questions.check.compute import Checked, checked, checks_by_loads
+from ballscrew.questions.duty import compute as duties
+from ballscrew.questions.duty import records as duty_records
+from ballscrew.questions.duty.compute import DutyReport
+from ballscrew.questions.select import requirement_checks
+from ballscrew.questions.select.need import Need
+from ballscrew.questions.select.objectives import OBJECTIVES, USUAL_LENGTH, reflected_mass, shaft_inertia, shaft_length
+from ballscrew.questions.select.requirements import Requirements
+from ballscrew.questions.shared.every_row import copied
+from ballscrew.questions.shared.own_screws import tables_of_row
 
 #: Preloads where neither need nor row says one: the ends of what vendors give (Rexroth2006: 2 to 10 %), and between.
 USUAL_PRELOADS = ("2 %", "5 %", "10 %")
@@ -91,7 +91,7 @@ class Candidate:
     case: Case
     #: All checks: those of ``ballscrew check`` or ``ballscrew duty``, then those of the need.
     checks: Sequence[Check]
-    #: The numbers compared, by the names of :data:`~ballscrew.selection.objectives.OBJECTIVES`, in SI.
+    #: The numbers compared, by the names of :data:`~ballscrew.questions.select.objectives.OBJECTIVES`, in SI.
     objectives: Mapping[str, float]
     #: Preload of the nut, N.
     preload: Force
@@ -141,8 +141,11 @@ class Candidate:
         return self.run is None or bool(self.run.run.friction.valid)
 
     @property
-    def preload_lost_above(self) -> Force | None:
-        """The load above which the nut has no preload left, N; None where no load of the need takes it away."""
+    def rigid_lift_off_load(self) -> Force | None:
+        """The load above which rigid bodies lose the preload, N, of a nut that has none left; None where some is.
+
+        Elastic bodies may lose it at a smaller load.
+        """
         lost = self.preload > 0 and float(self.balls.remaining_preload) <= 0
         return float(self.balls.lift_off_load) if lost else None
 
@@ -261,7 +264,7 @@ def _nut(table: Mapping[str, Any], variant: Variant) -> dict[str, Any]:
 
 
 def case_of(need: Need, variant: Variant, *, model: str | None, calibration: str | None, allow_code: bool) -> Case:
-    """The case of a variant. Raises :class:`~ballscrew.errors.InputError` with all faults in it."""
+    """The case of a variant. Raises :class:`~ballscrew.basis.errors.InputError` with all faults in it."""
     return case_file.build(
         tables_of(need, variant), model, need.folder, {variant.row.name: variant.row},
         calibration=calibration, allow_code=allow_code, moves=need.moves,
@@ -274,7 +277,7 @@ def by_loads(need: Need, variant: Variant, case: Case) -> Candidate:
     if need.moves:
         report = duties.planned(case)
         balls, own = report.balls_under_largest_load, report.checks_by_loads
-        time, load = float(report.life_time), report.largest_load
+        time, load = float(duties.CycleNumbers(report).life_time), report.largest_load
     else:
         load = float(case.operation.axial_load)
         balls = loads_of(case.screw, load)

@@ -5,17 +5,18 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections import Counter
-from collections.abc import Callable, Mapping, MutableMapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.cases.case import Case
-from ballscrew.errors import Fault, InputError
-from ballscrew.kernels import kernel as kernels
-from ballscrew.screw_tables import catalogue
-from ballscrew.selection.candidates import (
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.screw_tables import catalogue
+from ballscrew.compiler.kernels import kernel as kernels
+from ballscrew.physics.sizing.listed_nut import NUTS
+from ballscrew.questions.select.candidates import (
     LENGTH_OF_STROKE,
     USUAL_LIFE,
     USUAL_PRELOADS,
@@ -27,11 +28,10 @@ from ballscrew.selection.candidates import (
     judged,
     variants,
 )
-from ballscrew.selection.need import Need, need_of
-from ballscrew.selection.objectives import OBJECTIVES, USUAL_OBJECTIVES, objectives_named
-from ballscrew.selection.pareto import front
-from ballscrew.sizing.listed_nut import NUTS
-from ballscrew.studies.every_row import Done, each
+from ballscrew.questions.select.need import Need, need_of
+from ballscrew.questions.select.objectives import OBJECTIVES, USUAL_OBJECTIVES, objectives_named
+from ballscrew.questions.select.pareto import front
+from ballscrew.questions.shared.every_row import Done, each
 
 #: Variants at most: more take hours.
 MOST_VARIANTS = 20_000
@@ -83,12 +83,15 @@ class Ranked:
 class Selection:
     """The candidates of a need, the best first."""
 
+    #: The need as it was read.
     need: Need
     #: The objectives of the Pareto mark; the first ranks.
     objectives: Sequence[str]
+    #: The candidates with their ranks.
     ranked: Sequence[Ranked]
     #: What was left out, and why.
     notes: Sequence[str] = ()
+    #: Ctrl-C came before all candidates were judged.
     interrupted: bool = False
 
     @property
@@ -117,43 +120,45 @@ def select(
     complete: bool = False,
     done: Done | None = None,
     found_one: Callable[[Candidate], None] | None = None,
-    known: MutableMapping[str, Candidate] | None = None,
 ) -> Selection:
-    """Every row of the catalogue with every nut, preload and oil of a need, judged and ranked.
+    """Every row of the catalogue with every nut, preload and oil of a need, judged and ranked: a :class:`Selection`.
+
+    ``need`` is a file, its tables, or a need that was read (:func:`~ballscrew.questions.select.need.need_of`);
+    ``settings`` of the form ``section.field=value`` win over file and tables. ``model`` names the model of friction and
+    ``calibration`` a named one in place of those of the need, and with ``allow_code`` laws of files of the user's own
+    are imported.
 
     Each candidate is the case that ``ballscrew check`` would take, of a need with a motion that of ``ballscrew duty``:
     nothing is estimated. What follows from loads and sizes alone is judged first; of those that it rules out by more
-    than :data:`~ballscrew.selection.candidates.NEARLY` the friction is asked for only if the list is to be
+    than :data:`~ballscrew.questions.select.candidates.NEARLY` the friction is asked for only if the list is to be
     ``complete``, which changes no rank.
 
     First come those of which no check fails, within the validity of the model before those outside, members of the
     Pareto front before others, then by the first of the ``objectives``. Those that fail follow by their largest
-    utilisation, and last those that their loads rule out. Where a need asks for no life, those of less than
-    :data:`~ballscrew.selection.candidates.USUAL_LIFE` are ranked as if they failed it by as much. ``rows`` is a table
-    of one's own in place of the catalogue, ``words`` what rows must have in name, source or kind of nut. ``found_one``
-    gets each candidate as it comes. ``known`` are candidates by their labels that a call with the same arguments found
-    before it was stopped; those found now are put in.
+    utilisation, then the first objective, and last those that their loads rule out, by the largest utilisation that
+    loads decide; of equal ones the label is next. Where a need asks for no life, those of less than
+    :data:`~ballscrew.questions.select.candidates.USUAL_LIFE` are ranked as if they failed it by as much. ``rows`` is a
+    table of one's own in place of the catalogue, ``words`` what rows must have in name, source or kind of nut.
+    ``found_one`` gets each candidate as it comes, and ``done(finished, total)`` is told their number.
 
-    Raises :class:`~ballscrew.errors.InputError` for faults of the need, and of rows; with ``keep_going`` rows at fault
-    are left out, with a note, if any other is good.
+    Raises :class:`~ballscrew.basis.errors.InputError` for faults of the need, and of rows; with ``keep_going`` rows at
+    fault are left out, with a note, if any other is good.
     """
     ready = _prepared(need, rows, words, objectives, settings, keep_going=keep_going)
     asked, every, table = ready.need, ready.variants, ready.table
     if "running_time" not in asked.tables.get("limits", {}):
         hours = f"{USUAL_LIFE / 3600:,.0f} h"
         asked = asked.with_note(f"no life was asked for: what lives less than {hours} is ranked after the others")
-    before = {} if known is None else known
     recorded = _worth_recording(asked, every)
 
     def work(variant: Variant) -> Candidate:
-        if variant.label not in before:
-            case: Case = case_of(asked, variant, model=model, calibration=calibration, allow_code=allow_code)
-            first = by_loads(asked, variant, case)
-            rest = first.cannot_hold and not complete
-            before[variant.label] = first if rest else judged(asked, variant, case, recorded=variant.nut in recorded)
+        case: Case = case_of(asked, variant, model=model, calibration=calibration, allow_code=allow_code)
+        by_its_loads = by_loads(asked, variant, case)
+        rest = by_its_loads.cannot_hold and not complete
+        candidate = by_its_loads if rest else judged(asked, variant, case, recorded=variant.nut in recorded)
         if found_one is not None:
-            found_one(before[variant.label])
-        return before[variant.label]
+            found_one(candidate)
+        return candidate
 
     # a variant that no maker could build, such as a preload beyond its rating, is left out of the shipped rows, too
     found = each({one.label: one for one in every}, work, keep_going=keep_going or table is None, done=done)
@@ -175,7 +180,7 @@ def plan(
 ) -> Plan:
     """How many candidates :func:`select` would judge, in about what time, and what of them it could not judge.
 
-    Raises :class:`~ballscrew.errors.InputError` as :func:`select` does for faults of the need and of the table.
+    Raises :class:`~ballscrew.basis.errors.InputError` as :func:`select` does for faults of the need and of the table.
     """
     ready = _prepared(need, rows, words, None, settings, keep_going=keep_going)
     asked, every = ready.need, ready.variants

@@ -6,22 +6,22 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from ballscrew import units
-from ballscrew.axis.brake import Brake
-from ballscrew.axis_studies.duty import NUMBERS, OF_BATH
-from ballscrew.cases import provenance
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.documents import check as check_documents
-from ballscrew.friction.starvation import STARVED
-from ballscrew.quantities import fields_of, quantities_of
-from ballscrew.records import Message, documents
-from ballscrew.selection.candidates import Candidate, case_tables
-from ballscrew.selection.need import Need
-from ballscrew.selection.objectives import OBJECTIVES
-from ballscrew.selection.requirements import Requirements
-from ballscrew.selection.selection import Plan, Ranked, Selection
-from ballscrew.sizing.checks import failing, judged, verdict_of
-from ballscrew.solvers.load_distribution import BallLoads
+from ballscrew.axis.duty_cycle.brake import Brake
+from ballscrew.basis import units
+from ballscrew.basis.quantities import fields_of, quantities_of
+from ballscrew.basis.records import Message, documents
+from ballscrew.cases.case_files import provenance
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.friction.starvation import STARVED
+from ballscrew.physics.sizing.checks import failing, judged, verdict_of
+from ballscrew.physics.solvers.load_distribution import BallLoads
+from ballscrew.questions.check import document as check_documents
+from ballscrew.questions.duty.compute import NUMBERS, OF_BATH
+from ballscrew.questions.select.candidates import Candidate, case_tables
+from ballscrew.questions.select.compute import Plan, Ranked, Selection
+from ballscrew.questions.select.need import Need
+from ballscrew.questions.select.objectives import OBJECTIVES
+from ballscrew.questions.select.requirements import Requirements
 
 _LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
 #: Numbers of the brake, with their units.
@@ -153,7 +153,7 @@ def candidate_document(ranked: Ranked, need: Need) -> dict[str, Any]:
         "complete": found.complete,
         "valid": found.valid,
         "pareto": ranked.pareto,
-        "preload_lost_above": found.preload_lost_above,
+        "rigid_lift_off_load": found.rigid_lift_off_load,
         "worst": found.worst if math.isfinite(found.worst) else None,
         "fails": [{"name": c.name, "utilisation": c.utilisation} for c in found.failed],
         "verdict": verdict(found),
@@ -188,7 +188,7 @@ def verdict(found: Candidate) -> str:
     else:
         said = Message("cannot hold: {names}", {"names": [failing(check) for check in found.failed]})
     text = units.filled(said)
-    limit = found.preload_lost_above
+    limit = found.rigid_lift_off_load
     if limit is not None:
-        text += f"; preload lost above {units.shown(limit, _LIFT_OFF)}"
+        text += f"; preload lost (rigid bodies: above {units.shown(limit, _LIFT_OFF)})"
     return text if found.valid else f"{text}; outside the model's validity"

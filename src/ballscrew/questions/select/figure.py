@@ -10,12 +10,12 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew import units
-from ballscrew.figures import style
-from ballscrew.quantities import Quantity
-from ballscrew.selection.objectives import OBJECTIVES
-from ballscrew.selection.selection import Ranked, Selection
-from ballscrew.text import selection as text
+from ballscrew.basis import units
+from ballscrew.basis.quantities import Quantity
+from ballscrew.questions.select import text
+from ballscrew.questions.select.compute import Ranked, Selection
+from ballscrew.questions.select.objectives import OBJECTIVES
+from ballscrew.questions.shared import chart_style as style
 
 _LABEL_SIZE, _NAMED = 7.5, 6
 #: Spans of an axis beyond which it is logarithmic.
@@ -49,15 +49,7 @@ def caption(found: Selection) -> str:
 
 
 def _panel(panel: Axes, ranked: Sequence[Ranked], x: str, y: str) -> None:
-    groups: tuple[tuple[str, list[Ranked], dict[str, Any]], ...] = (
-        ("fails", [each for each in ranked if not each.candidate.fits], {"marker": "x", "color": style.SHADE}),
-        (
-            "no check fails", [each for each in ranked if each.candidate.fits and not each.pareto],
-            {"marker": "o", "facecolors": "white", "edgecolors": style.GREY},
-        ),
-        ("Pareto front", [each for each in ranked if each.pareto], {"marker": "o", "color": style.RED}),
-    )  # fmt: skip
-    for label, members, look in groups:
+    for label, members, look in _groups(ranked):
         points = [(_shown(x, each), _shown(y, each)) for each in members]
         panel.scatter([p[0] for p in points], [p[1] for p in points], s=22, label=label, **look)
     for each in [each for each in ranked if each.pareto][:_NAMED]:
@@ -65,11 +57,27 @@ def _panel(panel: Axes, ranked: Sequence[Ranked], x: str, y: str) -> None:
         if all(map(math.isfinite, point)):
             panel.annotate(str(each.rank), point, xytext=(4, 3), textcoords="offset points", fontsize=_LABEL_SIZE)
     for name, axis, scale in ((x, panel.set_xlabel, panel.set_xscale), (y, panel.set_ylabel, panel.set_yscale)):
-        quantity = OBJECTIVES[name].quantity
-        axis(label_of(quantity))
-        numbers = [value for each in ranked if math.isfinite(value := _shown(name, each)) and value > 0]
-        if numbers and max(numbers) > _DECADE * min(numbers):
+        axis(label_of(OBJECTIVES[name].quantity))
+        if _spans_decades(ranked, name):
             scale("log")
+
+
+def _groups(ranked: Sequence[Ranked]) -> list[tuple[str, list[Ranked], dict[str, Any]]]:
+    """The candidates that look alike: their label, and their marks."""
+    return [
+        ("fails", [each for each in ranked if not each.candidate.fits], {"marker": "x", "color": style.SHADE}),
+        (
+            "no check fails", [each for each in ranked if each.candidate.fits and not each.pareto],
+            {"marker": "o", "facecolors": "white", "edgecolors": style.GREY},
+        ),
+        ("Pareto front", [each for each in ranked if each.pareto], {"marker": "o", "color": style.RED}),
+    ]  # fmt: skip
+
+
+def _spans_decades(ranked: Sequence[Ranked], name: str) -> bool:
+    """Test whether an objective is read best on a logarithmic axis."""
+    numbers = [value for each in ranked if math.isfinite(value := _shown(name, each)) and value > 0]
+    return bool(numbers) and max(numbers) > _DECADE * min(numbers)
 
 
 def label_of(quantity: Quantity) -> str:

@@ -11,17 +11,17 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from ballscrew import units
-from ballscrew.case_schema.fields import section_of
-from ballscrew.case_schema.schema import read_table, sections
-from ballscrew.cases import case_file
-from ballscrew.components.materials import grades
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.errors import MISSING, Fault, InputError, closest, nearest, raise_if_any
-from ballscrew.quantities import Quantity, fields_of
-from ballscrew.selection.need_motion import OF_MOTION, with_motion
-from ballscrew.selection.objectives import USUAL_LENGTH, USUAL_OBJECTIVES, objectives_named
-from ballscrew.selection.requirements import ALLOWED, FORBIDDEN, NEEDED, Requirements
+from ballscrew.basis import units
+from ballscrew.basis.errors import MISSING, Fault, InputError, closest, nearest, raise_if_any
+from ballscrew.basis.quantities import Quantity, fields_of
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.schema.fields import section_of
+from ballscrew.cases.schema.schema import read_table, sections
+from ballscrew.physics.components.materials import grades
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.questions.select.need_motion import OF_MOTION, with_motion
+from ballscrew.questions.select.objectives import USUAL_LENGTH, USUAL_OBJECTIVES, objectives_named
+from ballscrew.questions.select.requirements import ALLOWED, FORBIDDEN, NEEDED, Requirements
 
 #: The oil where a need names none: that of ``ballscrew check``.
 GRADE, TEMPERATURE = "ISO VG 100", "40 degC"
@@ -112,10 +112,10 @@ def need_of(need: str | Path | Mapping[str, Any] | Need, settings: Sequence[str]
 
     It is written like a case file without ``[screw]``; a case file with one is a need, too, whose sizes are left
     aside. Lists stand for choices: ``nut.type``, ``nut.preload``, ``lubricant.grade`` and ``lubricant.oil``. The table
-    ``[need]`` has the fields of :class:`~ballscrew.selection.requirements.Requirements`, ``rows`` (words that rows
-    must have), ``objectives`` and ``price_index``; the names of :data:`SHORT_NAMES` may stand there or at the top.
+    ``[need]`` has the fields of :class:`~ballscrew.questions.select.requirements.Requirements`, ``rows`` (words that
+    rows must have), ``objectives`` and ``price_index``; the names of :data:`SHORT_NAMES` may stand there or at the top.
 
-    Raises :class:`~ballscrew.errors.InputError` with all faults of the file.
+    Raises :class:`~ballscrew.basis.errors.InputError` with all faults of the file.
     """
     if isinstance(need, Need):
         return need

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ballscrew.errors import MISSING, Fault
+from ballscrew.basis.errors import MISSING, Fault
 
 #: Short names of an axis and its motion, and the places they stand for.
 OF_MOTION: Mapping[str, str] = {

@@ -6,10 +6,10 @@ import dataclasses
 import math
 from collections.abc import Mapping, Sequence
 
-from ballscrew.errors import Fault, nearest, raise_if_any
-from ballscrew.quantities import Density, Info, Length, Mass, MomentOfInertia, Quantity
-from ballscrew.selection.requirements import Requirements
-from ballscrew.sizing.installation import Installation
+from ballscrew.basis.errors import Fault, nearest, raise_if_any
+from ballscrew.basis.quantities import Density, Info, Length, Mass, MomentOfInertia, Quantity
+from ballscrew.physics.sizing.installation import Installation
+from ballscrew.questions.select.requirements import Requirements
 
 #: The length of shaft whose inertia counts where a need gives neither a length nor a stroke, m.
 USUAL_LENGTH = 1.0
@@ -41,7 +41,7 @@ OBJECTIVES: Mapping[str, Objective] = {
         _objective("loss", "W", "P_f", "power lost to friction, of a cycle its mean"),
         _objective("inertia", "kg m^2", "J", "moment of inertia of the shaft", "kg cm^2"),
         _objective("reflected_mass", "kg", "m_J", "mass that the shaft adds to what moves"),
-        _objective("life", "s", "L_h", "time that nine of ten outlive", "h", larger=True),
+        _objective("life", "s", "L_h", "basic rating life L10h", "h", larger=True),
         _objective("rigidity", "N/m", "R", "rigidity of the nut under the load", "N/um", larger=True),
         _objective("drive_torque", "N m", "M", "torque on the shaft, of a cycle the largest"),
         _objective("preload_torque", "N m", "M_p", "torque of the nut without load"),
@@ -53,7 +53,9 @@ USUAL_OBJECTIVES = ("loss", "inertia", "life", "rigidity")
 
 
 def objectives_named(names: Sequence[str], where: str, known: Sequence[str] = tuple(OBJECTIVES)) -> tuple[str, ...]:
-    """Names of objectives, each once. Raises :class:`~ballscrew.errors.InputError` for unknown ones, and for none."""
+    """Names of objectives, each once. Raises :class:`~ballscrew.basis.errors.InputError` for unknown ones, and for
+    none.
+    """
     faults = [Fault(where, "unknown objective", str(n), nearest(str(n), known)) for n in names if n not in known]
     faults += [] if names else [Fault(where, "is empty", "", f"name some of {', '.join(known)}")]
     raise_if_any(faults)

@@ -7,16 +7,16 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ballscrew.axis_studies.duty import DutyReport
-from ballscrew.cases.case import Case
-from ballscrew.friction import directions
-from ballscrew.quantities import Force, Ratio, quantities_of
-from ballscrew.records import Measured, Message
-from ballscrew.selection.objectives import shaft_length
-from ballscrew.selection.requirements import ALLOWED, FORBIDDEN, Requirements
-from ballscrew.sizing.checks import Check
-from ballscrew.solvers.load_distribution import BallLoads
-from ballscrew.studies.check import Checked
+from ballscrew.basis.quantities import Force, Ratio, quantities_of
+from ballscrew.basis.records import Measured, Message
+from ballscrew.cases.case_files.case import Case
+from ballscrew.physics.friction import directions
+from ballscrew.physics.sizing.checks import Check
+from ballscrew.physics.solvers.load_distribution import BallLoads
+from ballscrew.questions.check.compute import Checked
+from ballscrew.questions.duty.compute import DutyReport
+from ballscrew.questions.select.objectives import shaft_length
+from ballscrew.questions.select.requirements import ALLOWED, FORBIDDEN, Requirements
 
 #: The checks of :func:`by_loads`.
 BY_LOADS = ("preload", "remaining_preload", "inertia", "step")

@@ -5,9 +5,9 @@ from __future__ import annotations
 import dataclasses
 from typing import Annotated
 
-from ballscrew._arrays import ByValue
-from ballscrew.errors import Fault, faults_of, nearest, raise_if_any
-from ballscrew.quantities import Count, Force, Info, Length, MomentOfInertia, Speed, Stiffness, Torque, fields_of
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import Fault, faults_of, nearest, raise_if_any
+from ballscrew.basis.quantities import Count, Force, Info, Length, MomentOfInertia, Speed, Stiffness, Torque, fields_of
 
 #: What the load may do with the screw: drive it or not, must drive it, must not.
 ALLOWED, NEEDED, FORBIDDEN = "allowed", "needed", "forbidden"
@@ -18,7 +18,7 @@ BACK_DRIVING = (ALLOWED, NEEDED, FORBIDDEN)
 class Requirements(ByValue):
     """Requirements of a need. What is None is not asked for.
 
-    Raises :class:`~ballscrew.errors.InputError` for values out of bounds.
+    Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
     """
 
     feed: Annotated[

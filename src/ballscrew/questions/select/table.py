@@ -1,16 +1,15 @@
-"""A selection, and the front of an optimisation, as tables: numbers in the units of their headings."""
+"""A selection as a table: a row for each candidate, numbers in the units of their headings."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ballscrew.axis_studies.duty import NUMBERS
-from ballscrew.documents.selection import BRAKE, verdict
-from ballscrew.optimisation.design_space import VARIABLES
-from ballscrew.optimisation.optimisation import Member
-from ballscrew.selection.objectives import OBJECTIVES
-from ballscrew.selection.selection import Ranked
-from ballscrew.table_files.row_tables import RowTable, of_cells, of_checks, put
+from ballscrew.questions.check.table import of_checks
+from ballscrew.questions.duty.compute import NUMBERS
+from ballscrew.questions.select.compute import Ranked
+from ballscrew.questions.select.document import BRAKE, verdict
+from ballscrew.questions.select.objectives import OBJECTIVES
+from ballscrew.questions.shared.row_tables import RowTable, of_cells, put
 
 
 def of_selection(ranked: Sequence[Ranked]) -> RowTable:
@@ -44,25 +43,3 @@ def of_selection(ranked: Sequence[Ranked]) -> RowTable:
             cells |= {table.headings[place]: row[place] for place in kept}
         rows.append(cells)
     return of_cells(rows)
-
-
-def of_optimisation(members: Sequence[Member]) -> RowTable:
-    """The free variables and the objectives of each member, and what ``ballscrew check --to`` writes of a screw."""
-    checked = of_checks([each.checked for each in members])
-    headings: list[str] = []
-    rows: list[list[object]] = []
-    for each, of_check in zip(members, checked.rows, strict=True):
-        cells: dict[str, object] = {"holds": int(each.holds), "pareto": int(each.pareto)}
-        for name, value in each.variables.items():
-            if name == "preload":
-                cells["preload share [%]"] = 100 * value
-            else:
-                put(cells, VARIABLES[name], value)
-        for name, objective in OBJECTIVES.items():
-            if name != "price_index":
-                put(cells, objective.quantity, each.objectives[name])
-        for check in each.checks:
-            cells[f"{check.name.replace('_', ' ')} utilisation"] = check.utilisation
-        headings = headings or [*cells, *checked.headings]
-        rows.append([*cells.values(), *of_check])
-    return RowTable(headings, rows)

@@ -5,16 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 
-from ballscrew import units
-from ballscrew.axis_studies.duty import NUMBERS, DutyReport
-from ballscrew.documents.selection import verdict
-from ballscrew.output.wrapping import beside, wrapped
-from ballscrew.quantities import fields_of
-from ballscrew.selection.candidates import Candidate
-from ballscrew.selection.need import Need
-from ballscrew.selection.objectives import OBJECTIVES
-from ballscrew.selection.requirements import ALLOWED, Requirements
-from ballscrew.selection.selection import Plan, Ranked, Selection
+from ballscrew.basis import units
+from ballscrew.basis.output.wrapping import beside, wrapped
+from ballscrew.basis.quantities import fields_of
+from ballscrew.questions.duty.compute import NUMBERS, DutyReport
+from ballscrew.questions.select.candidates import Candidate
+from ballscrew.questions.select.compute import Plan, Ranked, Selection
+from ballscrew.questions.select.document import verdict
+from ballscrew.questions.select.need import Need
+from ballscrew.questions.select.objectives import OBJECTIVES
+from ballscrew.questions.select.requirements import ALLOWED, Requirements
 
 #: Lines shown where nothing else is said.
 USUAL_LINES = 20

@@ -6,14 +6,14 @@ import dataclasses
 from collections.abc import Callable, Mapping
 from typing import NamedTuple, cast
 
-from ballscrew.cases import case_file
-from ballscrew.cases.uncertain_inputs import NOTHING_GIVEN, Uncertain, all_of
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.errors import Fault, InputError
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.quantities import Quantity, fields_of
-from ballscrew.uncertainty import sensitivity as analysis
-from ballscrew.uncertainty.sensitivity import ANOTHER_METHOD, Method, Sensitivity
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.quantities import Quantity, fields_of
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.uncertain_inputs import NOTHING_GIVEN, Uncertain, all_of
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.uncertainty import sensitivity as analysis
+from ballscrew.engine.uncertainty.sensitivity import ANOTHER_METHOD, Method, Sensitivity
+from ballscrew.physics.components.materials import TEMPERATURE
 
 
 class Options(NamedTuple):

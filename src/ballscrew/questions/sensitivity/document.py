@@ -5,11 +5,11 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
-from ballscrew._version import __version__
-from ballscrew.cases import case_file
-from ballscrew.records import Record, documents
-from ballscrew.studies.sensitivity import SensitivityReport
-from ballscrew.uncertainty.sensitivity import HALF
+from ballscrew.basis.records import Record, documents
+from ballscrew.basis.version import __version__
+from ballscrew.cases.case_files import case_file
+from ballscrew.engine.uncertainty.sensitivity import HALF
+from ballscrew.questions.sensitivity.compute import SensitivityReport
 
 CORRELATED = "the numbers of the calibration vary one by one, too, though the fit left them correlated"
 

@@ -9,13 +9,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew import units
-from ballscrew.cases.case_file import Case
-from ballscrew.figures import style
-from ballscrew.studies.sensitivity import SensitivityReport
-from ballscrew.text import sensitivity as text
-from ballscrew.uncertainty.sensitivity import HALF, Sensitivity
-from ballscrew.uncertainty.sobol import Estimate
+from ballscrew.basis import units
+from ballscrew.cases.case_files.case_file import Case
+from ballscrew.engine.uncertainty.sensitivity import HALF, Sensitivity
+from ballscrew.engine.uncertainty.sobol import Estimate
+from ballscrew.questions.sensitivity import text
+from ballscrew.questions.sensitivity.compute import SensitivityReport
+from ballscrew.questions.shared import chart_style as style
 
 #: Inches of a row, and of what stands above and below all rows.
 _ROW, _FRAME = 0.36, 1.5

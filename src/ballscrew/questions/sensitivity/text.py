@@ -7,17 +7,17 @@ from collections.abc import Mapping
 
 from rich.console import Console
 
-from ballscrew import units
-from ballscrew.cases import case_file, descriptions
-from ballscrew.cases.spelling import THOUSANDS
-from ballscrew.cases.uncertain_inputs import Uncertain
-from ballscrew.documents.sensitivity import verdicts, warnings
-from ballscrew.friction.plausibility import IMPLAUSIBLE
-from ballscrew.output.wrapping import aligned, wrapped
-from ballscrew.quantities import Quantity
-from ballscrew.studies.sensitivity import SensitivityReport
-from ballscrew.uncertainty.sensitivity import MEASURES, Method, Sensitivity
-from ballscrew.uncertainty.sobol import Estimate
+from ballscrew.basis import units
+from ballscrew.basis.output.wrapping import aligned, wrapped
+from ballscrew.basis.quantities import Quantity
+from ballscrew.cases.case_files import case_file, descriptions
+from ballscrew.cases.case_files.spelling import THOUSANDS
+from ballscrew.cases.case_files.uncertain_inputs import Uncertain
+from ballscrew.engine.uncertainty.sensitivity import MEASURES, Method, Sensitivity
+from ballscrew.engine.uncertainty.sobol import Estimate
+from ballscrew.physics.friction.plausibility import IMPLAUSIBLE
+from ballscrew.questions.sensitivity.compute import SensitivityReport
+from ballscrew.questions.sensitivity.document import verdicts, warnings
 
 #: Headings of what a method says of an input, and what they mean.
 HEADINGS: Mapping[str, str] = {

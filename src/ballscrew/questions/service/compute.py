@@ -6,24 +6,24 @@ import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from ballscrew import units
-from ballscrew.cases.case import Case
-from ballscrew.cases.uncertain_inputs import all_of, joint_of
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.errors import Fault, InputError
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.friction.result import FrictionResult
-from ballscrew.quantities import Quantity, quantities_of
-from ballscrew.records import Message, Record
-from ballscrew.service.estimate import PreloadEstimate
-from ballscrew.service.posterior import PRELOAD
-from ballscrew.service.preload_change import PreloadChange, preload_change
-from ballscrew.service.preload_of_torque import preload_of_torque
-from ballscrew.studies.fit import Options as FitOptions
-from ballscrew.torque_logs import reading
-from ballscrew.torque_logs.torque_log import TorqueLog
-from ballscrew.uncertainty.default_uncertainties import default_distributions
-from ballscrew.uncertainty.distributions import Distribution
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.quantities import Quantity, quantities_of
+from ballscrew.basis.records import Message, Record
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.uncertain_inputs import all_of, joint_of
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.uncertainty.default_uncertainties import default_distributions
+from ballscrew.engine.uncertainty.distributions import Distribution
+from ballscrew.evidence.service.posterior import PRELOAD
+from ballscrew.evidence.service.preload_change import PreloadChange, preload_change
+from ballscrew.evidence.service.preload_estimate import PreloadEstimate
+from ballscrew.evidence.service.preload_of_torque import preload_of_torque
+from ballscrew.files.torque_logs import reading
+from ballscrew.files.torque_logs.torque_log import TorqueLog
+from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.questions.fit.compute import Options as FitOptions
 
 TORQUE: Quantity = quantities_of(FrictionResult)["screw_torque"]
 _OF_PRELOAD = Message("so with the preload found; in a full bath the same torque asks for a smaller one")

@@ -5,19 +5,19 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from ballscrew import units
-from ballscrew.cases import case_file
-from ballscrew.cases.case import Case
-from ballscrew.cases.provenance import of_case
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.evaluation.outputs import inputs_of
-from ballscrew.quantities import Quantity
-from ballscrew.records import Record, documents
-from ballscrew.service.alternatives import Alternative
-from ballscrew.service.estimate import PreloadEstimate
-from ballscrew.service.posterior import PRELOAD
-from ballscrew.service.preload_change import PreloadChange
-from ballscrew.studies.service import TORQUE, ServiceReport
+from ballscrew.basis import units
+from ballscrew.basis.quantities import Quantity
+from ballscrew.basis.records import Record, documents
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.provenance import of_case
+from ballscrew.engine.evaluation.outputs import inputs_of
+from ballscrew.evidence.service.alternatives import Alternative
+from ballscrew.evidence.service.posterior import PRELOAD
+from ballscrew.evidence.service.preload_change import PreloadChange
+from ballscrew.evidence.service.preload_estimate import PreloadEstimate
+from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.questions.service.compute import TORQUE, ServiceReport
 
 #: Three words for what became of the preload.
 VERDICTS = {"lost": "preload lost", "kept": "preload kept", "open": "lost or kept cannot be told"}

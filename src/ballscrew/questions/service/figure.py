@@ -8,17 +8,17 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew import units
-from ballscrew.cases.case import Case
-from ballscrew.cases.descriptions import model_text, nut_text
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.documents.log_pictures import curves
-from ballscrew.documents.service import preload_quantity
-from ballscrew.figures import style
-from ballscrew.quantities import Quantity, fields_of
-from ballscrew.service.estimate import PreloadEstimate
-from ballscrew.studies.service import ServiceReport
-from ballscrew.text import service as text
+from ballscrew.basis import units
+from ballscrew.basis.quantities import Quantity, fields_of
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.descriptions import model_text, nut_text
+from ballscrew.evidence.service.preload_estimate import PreloadEstimate
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.questions.service import text
+from ballscrew.questions.service.compute import ServiceReport
+from ballscrew.questions.service.document import preload_quantity
+from ballscrew.questions.service.points import curves
+from ballscrew.questions.shared import chart_style as style
 
 #: More points than this are a blot.
 MOST_POINTS = 3000

@@ -5,24 +5,24 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from ballscrew import units
-from ballscrew.cases.case import Case
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.errors import Fault, raise_if_any
-from ballscrew.quantities import Quantity, fields_of
-from ballscrew.service.posterior import PRELOAD
-from ballscrew.studies.fit import Options
-from ballscrew.studies.fit_options import options
-from ballscrew.studies.service import TORQUE, Reading
-from ballscrew.uncertainty.distributions import Normal
-from ballscrew.uncertainty.uncertain_value import parse_uncertain
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, raise_if_any
+from ballscrew.basis.quantities import Quantity, fields_of
+from ballscrew.cases.case_files.case import Case
+from ballscrew.engine.uncertainty.distributions import Normal
+from ballscrew.engine.uncertainty.uncertain_value import parse_uncertain
+from ballscrew.evidence.service.posterior import PRELOAD
+from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.questions.fit.compute import Options
+from ballscrew.questions.fit.options import options
+from ballscrew.questions.service.compute import TORQUE, Reading
 
 
 def check_question(
     logs: Sequence[Path], case: Path | None, torque: str | None, speed: str | None, temperature: str | None
 ) -> Path:
-    """The case file. Raises :class:`~ballscrew.errors.InputError` for a question that is none, or two."""
+    """The case file. Raises :class:`~ballscrew.basis.errors.InputError` for a question that is none, or two."""
     faults: list[Fault] = []
     if case is None:
         faults.append(Fault("--case", "missing", "", "give the case file of the screw: --case FILE"))
@@ -65,7 +65,7 @@ def fit_options(
 
 
 def reading(torque: str, speed: str, temperature: str | None) -> Reading:
-    """A torque without load. Raises :class:`~ballscrew.errors.InputError` with all faults in the three texts."""
+    """A torque without load. Raises :class:`~ballscrew.basis.errors.InputError` with all faults in the three texts."""
     faults: list[Fault] = []
 
     def number(option: str, text: str, quantity: Quantity) -> float:

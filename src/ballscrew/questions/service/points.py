@@ -1,4 +1,4 @@
-"""Points of the pictures of a fit and of a service, as the figures and the page draw them; SI."""
+"""Points of the picture of a service, as the figure and the page draw them; SI."""
 
 from __future__ import annotations
 
@@ -6,54 +6,16 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ballscrew.calibration.calibrated_model import CalibratedModel
-from ballscrew.calibration.fit import points_of
-from ballscrew.calibration.fit_result import Rows
-from ballscrew.calibration.oil_temperature import torque_of_model
-from ballscrew.service.estimate import PreloadEstimate
-from ballscrew.studies.service import ServiceReport
+from ballscrew.evidence.calibration.fit import points_of
+from ballscrew.evidence.calibration.fit_result import Rows
+from ballscrew.evidence.calibration.oil_temperature import torque_of_model
+from ballscrew.evidence.service.preload_estimate import PreloadEstimate
+from ballscrew.questions.service.compute import ServiceReport
+from ballscrew.questions.shared.log_points import MOST_POINTS, Numbers, short, some
 
-Numbers = NDArray[np.float64]
-#: Points of a log in a document, points of a curve, and digits of each.
-MOST_POINTS, CURVE_POINTS, DIGITS = 1500, 80, 5
-#: Kinds of rows of a fit.
-KINDS = ("fitted", "held_out", "outlier")
-
-
-def some(places: NDArray[np.int64], most: int) -> NDArray[np.int64]:
-    """At most so many of some rows, the same each time."""
-    return places if places.size <= most else np.random.default_rng(0).choice(places, most, replace=False)
-
-
-def measured_and_predicted(model: CalibratedModel) -> tuple[Numbers, Numbers]:
-    """The friction torque of each row as it was measured, and by the calibrated model, N m."""
-    rows = model.rows
-    predicted = rows.friction + model.constant_torque
-    return predicted - rows.residuals * rows.direction, predicted
-
-
-def of_fit(model: CalibratedModel) -> dict[str, Any]:
-    """The rows of a fit to draw: kind, measured and predicted friction torque, and where they were measured."""
-    rows = model.rows
-    places = some(np.arange(len(rows.log)), MOST_POINTS)
-    measured, predicted = measured_and_predicted(model)
-    kinds = np.where(rows.outlying, 2, np.where(rows.held_out, 1, 0))
-    columns = {
-        "measured": measured,
-        "predicted": predicted,
-        "residual": predicted - measured,
-        "screw_speed": np.abs(rows.log.screw_speed),
-        "axial_load": np.abs(rows.log.axial_load),
-        "temperature": rows.log.temperature,
-        "time": rows.log.time,
-    }
-    return {
-        "rows": len(rows.log),
-        "kinds": [KINDS[kind] for kind in kinds[places]],
-        **{name: short(values[places]) for name, values in columns.items() if values is not None},
-    }
+#: Points of a curve.
+CURVE_POINTS = 80
 
 
 class Curve(NamedTuple):
@@ -92,11 +54,6 @@ def of_service(report: ServiceReport) -> dict[str, Any]:
         label: {name: short(values) for name, values in one._asdict().items()}
         for label, one in curves(report, MOST_POINTS).items()
     }
-
-
-def short(values: Numbers) -> list[float]:
-    """Numbers with as many digits as a picture shows."""
-    return [float(f"{value:.{DIGITS}g}") for value in values]
 
 
 def _usual(rows: Rows) -> dict[str, Any]:

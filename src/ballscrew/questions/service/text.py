@@ -7,15 +7,14 @@ import math
 from rich.console import Console
 from rich.table import Table
 
-from ballscrew import units
-from ballscrew.cases.case import Case
-from ballscrew.cases.descriptions import design, model_text, nut_text
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.documents.service import preload_quantity, verdicts
-from ballscrew.service.estimate import PreloadEstimate
-from ballscrew.studies.service import TORQUE, ServiceReport
-from ballscrew.text.fit import spoken
-from ballscrew.text.tables import table_of
+from ballscrew.basis import units
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.descriptions import design, model_text, nut_text
+from ballscrew.evidence.service.preload_estimate import PreloadEstimate
+from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.questions.service.compute import TORQUE, ServiceReport
+from ballscrew.questions.service.document import preload_quantity, verdicts
+from ballscrew.questions.shared.text_tables import spoken, table_of
 
 #: Causes of an interval that are named.
 _MOST_CAUSES = 3

@@ -7,8 +7,8 @@ from typing import Any, Literal, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field, create_model
 
-from ballscrew.errors import LINES_AT_MOST
-from ballscrew.quantities import Quantity
+from ballscrew.basis.errors import LINES_AT_MOST
+from ballscrew.basis.quantities import Quantity
 
 #: A number; null where it is not finite.
 Number: TypeAlias = float | None
@@ -50,7 +50,7 @@ def quantities(quantities: Mapping[str, Quantity], *, optional: bool = False) ->
     }
 
 
-def model(name: str, meaning: str, base: type[BaseModel] = Closed, **fields: Any) -> type[BaseModel]:
+def model(name: str, meaning: str, base: type[BaseModel] = Closed, /, **fields: Any) -> type[BaseModel]:
     """A model whose fields are known from annotations elsewhere."""
     create: Any = create_model
     return create(name, __doc__=meaning, __base__=base, **fields)

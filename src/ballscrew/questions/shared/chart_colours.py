@@ -27,7 +27,7 @@ MECHANISM_COLOURS: Mapping[str, str] = {
     "ball_to_ball": PURPLE,
     "chain_braking": YELLOW,
 }
-#: The same for a cause of the torque of a motor, as :data:`ballscrew.axis_studies.duty.CAUSES` names them.
+#: The same for a cause of the torque of a motor, as :data:`ballscrew.questions.duty.compute.CAUSES` names them.
 CAUSE_COLOURS: Mapping[str, str] = {
     "acceleration": BLUE,
     "gravity": GREEN,

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ballscrew.errors import Fault, InputError
-from ballscrew.files import atomic_write, check_writable
+from ballscrew.basis.atomic_files import atomic_write, check_writable
+from ballscrew.basis.errors import Fault, InputError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -17,7 +17,7 @@ SUFFIXES = (".png", ".svg", ".pdf")
 
 
 def check_picture(to: Path, option: str = "--to") -> None:
-    """Raise :class:`~ballscrew.errors.InputError` if no picture can be written there."""
+    """Raise :class:`~ballscrew.basis.errors.InputError` if no picture can be written there."""
     if to.suffix.lower() not in SUFFIXES:
         raise InputError(Fault(option, "unknown kind of file", str(to), "end it in .png, .svg or .pdf"))
     check_writable(option, to)
@@ -25,7 +25,9 @@ def check_picture(to: Path, option: str = "--to") -> None:
 
 def draw(figure: Callable[[], Figure], to: Path, option: str = "--to") -> None:
     """Draw a figure in the house style and write it, whole or not at all."""
-    from ballscrew.figures import style  # matplotlib is slow to import: only where a picture is drawn
+    from ballscrew.questions.shared import (
+        chart_style as style,  # matplotlib is slow to import: only where a picture is drawn
+    )
 
     buffer = io.BytesIO()
     with style.house_style():

@@ -17,19 +17,19 @@ import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew.figures.colours import BLUE as BLUE
-from ballscrew.figures.colours import GREEN as GREEN
-from ballscrew.figures.colours import GREY as GREY
-from ballscrew.figures.colours import GROWING as GROWING
-from ballscrew.figures.colours import INK as INK
-from ballscrew.figures.colours import LIGHT_SHADE as LIGHT_SHADE
-from ballscrew.figures.colours import MECHANISM_COLOURS as MECHANISM_COLOURS
-from ballscrew.figures.colours import ORANGE as ORANGE
-from ballscrew.figures.colours import PURPLE as PURPLE
-from ballscrew.figures.colours import RED as RED
-from ballscrew.figures.colours import SHADE as SHADE
-from ballscrew.figures.colours import SKY as SKY
-from ballscrew.figures.colours import YELLOW as YELLOW
+from ballscrew.questions.shared.chart_colours import BLUE as BLUE
+from ballscrew.questions.shared.chart_colours import GREEN as GREEN
+from ballscrew.questions.shared.chart_colours import GREY as GREY
+from ballscrew.questions.shared.chart_colours import GROWING as GROWING
+from ballscrew.questions.shared.chart_colours import INK as INK
+from ballscrew.questions.shared.chart_colours import LIGHT_SHADE as LIGHT_SHADE
+from ballscrew.questions.shared.chart_colours import MECHANISM_COLOURS as MECHANISM_COLOURS
+from ballscrew.questions.shared.chart_colours import ORANGE as ORANGE
+from ballscrew.questions.shared.chart_colours import PURPLE as PURPLE
+from ballscrew.questions.shared.chart_colours import RED as RED
+from ballscrew.questions.shared.chart_colours import SHADE as SHADE
+from ballscrew.questions.shared.chart_colours import SKY as SKY
+from ballscrew.questions.shared.chart_colours import YELLOW as YELLOW
 
 LINE_STYLES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)))
 

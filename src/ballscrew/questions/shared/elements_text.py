@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from ballscrew import units
-from ballscrew.cases.case import Case
-from ballscrew.quantities import fields_of
-from ballscrew.supports.element_laws import BEARING_LAWS, GUIDE_LAWS, name_of
-from ballscrew.supports.mounted_bearing import MountedBearing
+from ballscrew.axis.supports.element_laws import BEARING_LAWS, GUIDE_LAWS, name_of
+from ballscrew.axis.supports.mounted_bearing import MountedBearing
+from ballscrew.basis import units
+from ballscrew.basis.quantities import fields_of
+from ballscrew.cases.case_files.case import Case
 
 _LAWS = {
     "contacts": "by its contacts",

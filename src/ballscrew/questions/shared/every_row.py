@@ -7,12 +7,12 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
-from ballscrew.cases import case_file
-from ballscrew.cases.case import Case
-from ballscrew.errors import Fault, InputError, raise_if_any
-from ballscrew.screw_tables import catalogue
-from ballscrew.sizing.catalogue import CatalogueRow
-from ballscrew.studies.own_screws import tables_of_row
+from ballscrew.basis.errors import Fault, InputError, raise_if_any
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.screw_tables import catalogue
+from ballscrew.physics.sizing.catalogue import CatalogueRow
+from ballscrew.questions.shared.own_screws import tables_of_row
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -64,7 +64,7 @@ def cases(
 ) -> OfRows[RowCase]:
     """The case of a file with each screw of a table, or with that of one row, in place of its own.
 
-    Settings are put into each. Raises :class:`~ballscrew.errors.InputError` with the faults of all rows; with
+    Settings are put into each. Raises :class:`~ballscrew.basis.errors.InputError` with the faults of all rows; with
     ``keep_going`` only if none is good.
     """
     tables = case_file.read(case)
@@ -92,8 +92,8 @@ def each(
 ) -> OfRows[R]:
     """The work for each row, by the words that name the row in messages.
 
-    Raises :class:`~ballscrew.errors.InputError` with the faults of all rows, or with those of one where all are the
-    same; with ``keep_going`` only if no row is good. On Ctrl-C what is done by then is returned, if anything is.
+    Raises :class:`~ballscrew.basis.errors.InputError` with the faults of all rows, or with those of one where all are
+    the same; with ``keep_going`` only if no row is good. On Ctrl-C what is done by then is returned, if anything is.
     """
     found: dict[str, R] = {}
     faults: dict[str, Sequence[Fault]] = {}

@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from ballscrew.api_answers.parts import Closed, Tables
+from ballscrew.questions.shared.answer_parts import Closed, Tables
 
 
 class OpenedDesign(Closed):

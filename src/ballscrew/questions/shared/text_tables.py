@@ -7,8 +7,8 @@ from typing import Any
 
 from rich.table import Table
 
-from ballscrew import units
-from ballscrew.quantities import Quantity
+from ballscrew.basis import units
+from ballscrew.basis.quantities import Quantity
 
 
 def table_of(title: str, *columns: str) -> Table:
@@ -31,3 +31,8 @@ def shown_or_dash(value: Any, quantity: Quantity, toward: int = 0) -> str:
 def ends_or_dashes(low: Any, high: Any, quantity: Quantity) -> tuple[str, str]:
     """The ends of a band with their units, rounded outward; dashes where they are not finite."""
     return shown_or_dash(low, quantity, -1), shown_or_dash(high, quantity, 1)
+
+
+def spoken(name: str) -> str:
+    """The last part of a name, without underscores."""
+    return name.rpartition(".")[2].replace("_", " ")

@@ -10,22 +10,22 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ballscrew.cases import uncertain_inputs
-from ballscrew.cases.case_file import Case
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.errors import raise_if_any
-from ballscrew.evaluation.outputs import OPERATION, inputs_of
-from ballscrew.evaluation.plan import Configuration
-from ballscrew.overflow import overflow_as_input_error
-from ballscrew.studies import band as bands
-from ballscrew.studies import sweep as sweeps
-from ballscrew.studies.band import LEVEL, Options
-from ballscrew.studies.sweep import Plan
-from ballscrew.uncertainty.band_evaluation import Values, faults_of_options, tails
-from ballscrew.uncertainty.band_points import PointGroup, bands_of
-from ballscrew.uncertainty.bands import ENDS, NUT_SAMPLES, SAMPLES, with_ends
-from ballscrew.uncertainty.distributions import Distribution, scaled
-from ballscrew.uncertainty.sampling import Joint
+from ballscrew.basis.errors import raise_if_any
+from ballscrew.basis.overflow import overflow_as_input_error
+from ballscrew.cases.case_files import uncertain_inputs
+from ballscrew.cases.case_files.case_file import Case
+from ballscrew.engine.evaluation.outputs import OPERATION, inputs_of
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.uncertainty.band_evaluation import Values, faults_of_options, tails
+from ballscrew.engine.uncertainty.band_points import PointGroup, bands_of
+from ballscrew.engine.uncertainty.bands import ENDS, NUT_SAMPLES, SAMPLES, with_ends
+from ballscrew.engine.uncertainty.distributions import Distribution, scaled
+from ballscrew.engine.uncertainty.sampling import Joint
+from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.questions.band import compute as bands
+from ballscrew.questions.band.compute import LEVEL, Options
+from ballscrew.questions.sweep import compute as sweeps
+from ballscrew.questions.sweep.compute import Plan
 
 #: The seed of the random numbers of a case.
 _SEED = 0
@@ -47,10 +47,10 @@ def with_band(
 ) -> xr.Dataset:
     """The dataset of a sweep with the ends of the band of each output, and of the validity, beside it.
 
-    At each point they are those of :func:`~ballscrew.studies.band.band` of the case with the point's values in place:
-    an uncertain input that is varied has there what its default says of the new value. ``done`` gets the samples.
-    Points that cannot be have no band. Raises :class:`~ballscrew.errors.InputError` that names options of the command
-    line.
+    At each point they are those of :func:`~ballscrew.questions.band.compute.band` of the case with the point's values
+    in place: an uncertain input that is varied has there what its default says of the new value. ``done`` gets the
+    samples. Points that cannot be have no band. Raises :class:`~ballscrew.basis.errors.InputError` that names options
+    of the command line.
     """
     count = options.samples
     if count is None:

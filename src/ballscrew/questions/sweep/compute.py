@@ -8,22 +8,23 @@ import importlib.util
 import logging
 import math
 import re
-from collections.abc import Callable, Generator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from ballscrew import units
-from ballscrew.case_schema.schema import name_of_law
-from ballscrew.cases.case_file import Case
-from ballscrew.components.materials import TEMPERATURE, Material, nominal_oil
-from ballscrew.components.screw import MATERIALS
-from ballscrew.components.traits import traits_of
-from ballscrew.errors import Fault, InputError, fault_of, nearest, raise_if_any
-from ballscrew.evaluation.engines import FEW_POINTS
-from ballscrew.evaluation.outputs import (
+from ballscrew.basis import units
+from ballscrew.basis.atomic_files import check_writable
+from ballscrew.basis.errors import Fault, InputError, fault_of, nearest, raise_if_any
+from ballscrew.basis.overflow import overflow_as_input_error
+from ballscrew.basis.quantities import Quantity, fields_of
+from ballscrew.basis.records import Record
+from ballscrew.cases.case_files.case_file import Case
+from ballscrew.cases.schema.schema import name_of_law
+from ballscrew.engine.evaluation.engines import FEW_POINTS
+from ballscrew.engine.evaluation.outputs import (
     DEFAULT_OUTPUTS,
     NUT_OUTPUTS,
     OPERATION,
@@ -31,19 +32,18 @@ from ballscrew.evaluation.outputs import (
     inputs_of,
     known_outputs,
 )
-from ballscrew.evaluation.plan import STARVED, Configuration, starvation_of
-from ballscrew.evaluation.plan import Plan as Swept
-from ballscrew.files import check_writable
-from ballscrew.friction.law_names import coefficients
-from ballscrew.friction.validity import NUT_REASONS, REASONS
-from ballscrew.overflow import overflow_as_input_error
-from ballscrew.quantities import Quantity, fields_of
-from ballscrew.records import Record
-from ballscrew.sweeps import sweep as sweeps
-from ballscrew.sweeps.cluster import cluster_client
-from ballscrew.sweeps.stream import stream
-from ballscrew.uncertainty.band_evaluation import BAND_OUTPUTS
-from ballscrew.uncertainty.bands import ENDS
+from ballscrew.engine.evaluation.plan import STARVED, Configuration, starvation_of
+from ballscrew.engine.evaluation.plan import Plan as Swept
+from ballscrew.engine.sweeps import sweep as sweeps
+from ballscrew.engine.sweeps.cluster import cluster_client
+from ballscrew.engine.sweeps.stream import stream
+from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
+from ballscrew.engine.uncertainty.bands import ENDS
+from ballscrew.physics.components.materials import TEMPERATURE, Material, nominal_oil
+from ballscrew.physics.components.screw import MATERIALS
+from ballscrew.physics.components.traits import traits_of
+from ballscrew.physics.friction.law_names import coefficients
+from ballscrew.physics.friction.validity import NUT_REASONS, REASONS
 
 #: A range as people write it in prose: ``10-100 rpm``, ``10 to 100 rpm``, ``10..100 rpm``.
 _FROM_TO = re.compile(
@@ -106,20 +106,61 @@ def plan(
 ) -> Plan:
     """Plan of a sweep, of one that ``heats`` itself with what the heat does, of a ``banded`` one with bands.
 
-    Raises :class:`~ballscrew.errors.InputError` before anything is computed.
+    Raises :class:`~ballscrew.basis.errors.InputError` before anything is computed.
     """
     faults: list[Fault] = []
     known = dict(inputs_of(case.model, case.screw, case.lubricant))
+    axes = _axes(case, vary, known, faults)
+    heat: Mapping[str, Quantity] = _heat() if heats else {}
+    asked = _Asked(
+        case=case,
+        axes=axes,
+        outputs=_outputs(case, wanted, tuple(heat), is_shown=to is None and len(axes) == 2, banded=banded),
+        possible={**{name: output.quantity for name, output in known_outputs(case.screw.nut).items()}, **heat},
+        to=to,
+        heats=heats,
+        banded=banded,
+    )
+    faults += [*_faults_of_outputs(asked), *_faults_of_axes(asked), *_faults_of_size(asked)]
+    faults += _file_faults(to, [len(values) for values in axes.values()])
+    if faults:
+        raise InputError(*faults)
+    if to is not None and not is_store(to):
+        check_writable("--to", to)
+    quantities = {name: quantity for name, (_, quantity) in known.items()}
+    quantities |= {name: asked.possible[name] for name in (*asked.outputs, "valid")}
+    found = Plan(axes, asked.outputs, quantities, _units_of(known), heats, banded)
+    ends = {
+        end: dataclasses.replace(quantities[name], name=end) for name in asked.outputs for end in found.ends_of(name)
+    }
+    return dataclasses.replace(found, quantities=quantities | ends)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class _Asked:
+    """Axes in SI, outputs and a file as they are asked for, of which not all need be possible."""
+
+    case: Case
+    axes: Mapping[str, np.ndarray]
+    outputs: tuple[str, ...]
+    #: The outputs that there are.
+    possible: Mapping[str, Quantity]
+    to: Path | None
+    heats: bool
+    banded: bool
+
+
+def _axes(
+    case: Case, vary: Sequence[str], known: Mapping[str, tuple[str, Quantity]], faults: list[Fault]
+) -> dict[str, np.ndarray]:
+    """The axes of the command line, or else of the case, or else the usual ones: load and speed from a tenth on."""
+    if not vary and not case.sweep:
+        return {name: np.linspace(0.1, 1.0, 10) * (getattr(case.operation, name) or 1.0) for name in OPERATION}
     axes: dict[str, np.ndarray] = {}
     for written, text in _texts(vary, faults).items() if vary else case.sweep.items():
         section, name = _split(written)
         if name not in known or section not in ("", known[name][0]):
-            remedy = nearest(name, known)
-            if name == "temperature" and section in ("", "lubricant"):
-                remedy = (
-                    'give the oil by its data sheet or its grade, such as grade = "ISO VG 100", or vary the viscosity'
-                )
-            faults.append(Fault(f"sweep.{written}", "unknown field", "", remedy))
+            faults.append(_unknown_field(written, section, name, known))
             continue
         if name in axes:
             faults.append(Fault(f"sweep.{written}", "is given twice", "", "give each field once"))
@@ -129,26 +170,54 @@ def plan(
             faults.append(values)
         else:
             axes[name] = values
-    if not vary and not case.sweep:
-        axes = {name: np.linspace(0.1, 1.0, 10) * (getattr(case.operation, name) or 1.0) for name in OPERATION}
-    usual = DEFAULT_OUTPUTS if case.screw.nut.is_row else NUT_OUTPUTS
-    chosen = tuple(name.replace(".", "_") for name in wanted)
-    heat: Mapping[str, Quantity] = _heat() if heats else {}
-    chosen = chosen or (BAND_OUTPUTS if banded else ())
-    chosen = chosen or (("efficiency",) if to is None and len(axes) == 2 else (*usual, *heat))
-    possible = {**{name: output.quantity for name, output in known_outputs(case.screw.nut).items()}, **heat}
-    if heats and is_store(to):
-        remedy = "write .nc, .csv or .xlsx"
-        faults.append(Fault("--self-heating", "fills no store", str(to), remedy))
-    if banded and is_store(to):
-        faults.append(Fault("--band", "fills no store", str(to), "write .nc, .csv or .xlsx"))
+    return axes
+
+
+def _unknown_field(written: str, section: str, name: str, known: Iterable[str]) -> Fault:
+    """The fault of an axis that is no input of the case."""
+    remedy = nearest(name, known)
+    if name == "temperature" and section in ("", "lubricant"):
+        remedy = 'give the oil by its data sheet or its grade, such as grade = "ISO VG 100", or vary the viscosity'
+    return Fault(f"sweep.{written}", "unknown field", "", remedy)
+
+
+def _outputs(
+    case: Case, wanted: Sequence[str], heat: tuple[str, ...], *, is_shown: bool, banded: bool
+) -> tuple[str, ...]:
+    """The outputs wanted, or else the usual ones: of a table that ``is_shown`` the efficiency alone."""
+    if wanted:
+        return tuple(name.replace(".", "_") for name in wanted)
     if banded:
-        without = [name for name in chosen if name in possible and name not in BAND_OUTPUTS]
+        return BAND_OUTPUTS
+    if is_shown:
+        return ("efficiency",)
+    return (*(DEFAULT_OUTPUTS if case.screw.nut.is_row else NUT_OUTPUTS), *heat)
+
+
+def _faults_of_outputs(asked: _Asked) -> list[Fault]:
+    """The faults of outputs: in a store, without a band, unknown, or varied."""
+    faults: list[Fault] = []
+    outputs, possible = asked.outputs, asked.possible
+    if asked.heats and is_store(asked.to):
+        faults.append(Fault("--self-heating", "fills no store", str(asked.to), "write .nc, .csv or .xlsx"))
+    if asked.banded and is_store(asked.to):
+        faults.append(Fault("--band", "fills no store", str(asked.to), "write .nc, .csv or .xlsx"))
+    if asked.banded:
+        without = [name for name in outputs if name in possible and name not in BAND_OUTPUTS]
         faults += [Fault("--output", "has no band", name, nearest(name, BAND_OUTPUTS)) for name in without]
-    faults += [Fault("--output", "unknown output", n, nearest(n, possible)) for n in chosen if n not in possible]
+    faults += [Fault("--output", "unknown output", n, nearest(n, possible)) for n in outputs if n not in possible]
     faults += [
-        Fault("--output", "is what is varied", n, "leave it out: it is a column anyway") for n in chosen if n in axes
+        Fault("--output", "is what is varied", name, "leave it out: it is a column anyway")
+        for name in outputs
+        if name in asked.axes
     ]
+    return faults
+
+
+def _faults_of_axes(asked: _Asked) -> list[Fault]:
+    """The faults of axes that change nothing in this case, or that contradict another axis."""
+    faults: list[Fault] = []
+    case, axes = asked.case, asked.axes
     if "ball_to_ball_force" in axes and not traits_of(case.model.ball_force).uses_imposed_force:
         law = case.model.ball_force
         remedy = " or ".join(f"vary ball_force.{name}" for name in coefficients(law)) or "leave it out"
@@ -159,30 +228,30 @@ def plan(
     if "loaded_balls" in axes and case.nut is not None and case.nut.one_by_one:
         remedy = "leave out [bodies] and [deviations]"
         faults.append(Fault("sweep.loaded_balls", "cannot be varied where balls differ", "", remedy))
-    size = math.prod(len(values) for values in axes.values())
-    if size * len(chosen) * (1 + banded * len(ENDS)) > MOST_VALUES and not is_store(to):
-        remedy = "take fewer values an axis, or fewer outputs, or write to a folder: --to map.zarr"
-        faults.append(Fault("sweep", "too many values", f"{size:,} points", remedy))
-    faults += _file_faults(to, [len(values) for values in axes.values()])
-    if faults:
-        raise InputError(*faults)
-    if to is not None and not is_store(to):
-        check_writable("--to", to)
-    quantities = {name: quantity for name, (_, quantity) in known.items()}
+    return faults
+
+
+def _faults_of_size(asked: _Asked) -> list[Fault]:
+    """The fault of a sweep that does not fit into memory."""
+    size = math.prod(len(values) for values in asked.axes.values())
+    if size * len(asked.outputs) * (1 + asked.banded * len(ENDS)) <= MOST_VALUES or is_store(asked.to):
+        return []
+    remedy = "take fewer values an axis, or fewer outputs, or write to a folder: --to map.zarr"
+    return [Fault("sweep", "too many values", f"{size:,} points", remedy)]
+
+
+def _units_of(known: Mapping[str, tuple[str, Quantity]]) -> dict[str, str]:
+    """The SI units of the inputs by section_field, with those of materials and of starved torques."""
     si = {f"{part}_{name.replace('.', '_')}": quantity.unit for name, (part, quantity) in known.items()}
     si |= {
         f"screw_{part}_{name}": quantity.unit for part in MATERIALS for name, quantity in fields_of(Material).items()
     }
-    si |= dict.fromkeys(STARVED, "N m")
-    quantities |= {name: possible[name] for name in (*chosen, "valid")}
-    found = Plan(axes, chosen, quantities, si, heats, banded)
-    ends = {end: dataclasses.replace(quantities[name], name=end) for name in chosen for end in found.ends_of(name)}
-    return dataclasses.replace(found, quantities=quantities | ends)
+    return si | dict.fromkeys(STARVED, "N m")
 
 
 def _heat() -> Mapping[str, Quantity]:
     """What the heat does at each point."""
-    from ballscrew.thermal.warm_sweep import HEAT  # for those only who ask
+    from ballscrew.axis.thermal.warm_sweep import HEAT  # for those only who ask
 
     return HEAT
 
@@ -238,6 +307,22 @@ def _axis(where: str, text: str, quantity: Quantity) -> np.ndarray | Fault:
     """``"100:4000:14 N"`` (start:stop:count) or ``"100, 200, 500 N"`` in SI, or the first fault in it."""
     text = text.strip().strip("\"'")
     span = _RANGE.fullmatch(text)
+    values = _fault_of_range(where, text, quantity) or _values_in(where, text, quantity)
+    if isinstance(values, Fault) or span is None:
+        return values
+    if not 1 <= int(span["count"]) <= _LONGEST_AXIS:
+        return Fault(
+            where, "bad number of values", span["count"], f"start:stop:count, count from 1 to {_LONGEST_AXIS:,}"
+        )
+    numbers = np.linspace(values[0], values[1], int(span["count"]))
+    if quantity.info.whole and np.any(numbers % 1):
+        return Fault(where, "must be whole numbers", text, "choose a count that gives whole steps, or list them")
+    return numbers
+
+
+def _fault_of_range(where: str, text: str, quantity: Quantity) -> Fault | None:
+    """The fault of a range that is written otherwise than start:stop:count, or without its unit."""
+    span = _RANGE.fullmatch(text)
     if span is None and (ends := _FROM_TO.fullmatch(text)):
         unit = f" {ends['unit']}" if ends["unit"] else _blank_unit(quantity)
         remedy = f'write "{ends["start"]}:{ends["stop"]}:5{unit}" for five values, ends included'
@@ -248,6 +333,12 @@ def _axis(where: str, text: str, quantity: Quantity) -> np.ndarray | Fault:
         )
     if span and quantity.unit != "1" and not span["unit"]:
         return Fault(where, "needs a unit", text, f'write "{text} {quantity.shown_in}"')
+    return None
+
+
+def _values_in(where: str, text: str, quantity: Quantity) -> np.ndarray | Fault:
+    """The two ends of a range, or the values of a list, in SI; the first fault in them."""
+    span = _RANGE.fullmatch(text)
     if span:
         items, unit = [span["start"], span["stop"]], span["unit"] or ""
     else:
@@ -259,17 +350,7 @@ def _axis(where: str, text: str, quantity: Quantity) -> np.ndarray | Fault:
         fault = value if isinstance(value, Fault) else fault_of("sweep", quantity, value)
         if fault is not None:
             return units.in_display_units(fault, quantity, fault.given if fault is value else text)
-    ends = [value for value in values if not isinstance(value, Fault)]
-    if span is None:
-        return np.array(ends)
-    if not 1 <= int(span["count"]) <= _LONGEST_AXIS:
-        return Fault(
-            where, "bad number of values", span["count"], f"start:stop:count, count from 1 to {_LONGEST_AXIS:,}"
-        )
-    numbers = np.linspace(ends[0], ends[1], int(span["count"]))
-    if quantity.info.whole and np.any(numbers % 1):
-        return Fault(where, "must be whole numbers", text, "choose a count that gives whole steps, or list them")
-    return numbers
+    return np.array([value for value in values if not isinstance(value, Fault)])
 
 
 def _blank_unit(quantity: Quantity) -> str:
@@ -293,7 +374,7 @@ def sweep(
 
     It also says which points are valid, and why not, whether that was asked for or not. With a
     store ``to`` it is filled first, by the workers of a ``cluster`` if there is one; ``verify`` and ``trust`` are
-    those of :func:`~ballscrew.sweeps.sweep.sweep`.
+    those of :func:`~ballscrew.engine.sweeps.sweep.sweep`.
     """
     fixed = unvaried(case, plan)
     names = dict.fromkeys((*plan.outputs, "valid", *(f"validity_{reason}" for reason in reasons_of(case))))
@@ -301,7 +382,7 @@ def sweep(
     for name, values in plan.axes.items():
         varied |= _oils(case, values) if name == "temperature" else {name: values}
     if plan.heats:
-        from ballscrew.axis_studies import self_heating
+        from ballscrew.questions.warm_up import self_heating
 
         wanted = tuple(name for name in names if name not in _heat())
         return self_heating.swept(case, wanted, {**plan.axes, **fixed}, done)
@@ -322,7 +403,7 @@ def sweep(
 
 
 def check_store_options(to: Path | None, **given: bool) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` for options of a store where there is none."""
+    """Raise :class:`~ballscrew.basis.errors.InputError` for options of a store where there is none."""
     remedy = "add --to map.zarr"
     without = [name for name, is_given in given.items() if is_given and not is_store(to)]
     raise_if_any([Fault(f"--{name}", "needs a store", "", remedy) for name in without])

@@ -6,13 +6,13 @@ from typing import Any
 
 import xarray as xr
 
-from ballscrew import units
-from ballscrew._version import __version__
-from ballscrew.cases import case_file
-from ballscrew.cases.case import Case
-from ballscrew.records import Measured, Message, Record, documents
-from ballscrew.studies.sweep import Plan, implausible, starved
-from ballscrew.uncertainty.bands import ENDS
+from ballscrew.basis import units
+from ballscrew.basis.records import Measured, Message, Record, documents
+from ballscrew.basis.version import __version__
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.case import Case
+from ballscrew.engine.uncertainty.bands import ENDS
+from ballscrew.questions.sweep.compute import Plan, implausible, starved
 
 
 def document(case: Case, plan: Plan, dataset: xr.Dataset) -> dict[str, Any]:

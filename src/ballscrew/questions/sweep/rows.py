@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ballscrew.errors import Fault, InputError, raise_if_any
-from ballscrew.evaluation.outputs import NUT_OUTPUTS, known_outputs
-from ballscrew.studies import every_row
-from ballscrew.studies import sweep as studies
-from ballscrew.studies.every_row import OfRows, RowCase
-from ballscrew.studies.sweep import Plan
+from ballscrew.basis.errors import Fault, InputError, raise_if_any
+from ballscrew.engine.evaluation.outputs import NUT_OUTPUTS, known_outputs
+from ballscrew.questions.shared import every_row
+from ballscrew.questions.shared.every_row import OfRows, RowCase
+from ballscrew.questions.sweep import compute
+from ballscrew.questions.sweep.compute import Plan
 
 #: The dimension of the screws, and its coordinate: their names.
 SCREW = "screw"
@@ -27,9 +27,9 @@ def plans(
 ) -> OfRows[tuple[RowCase, Plan]]:
     """The plan of each row; without outputs asked for, those that all of them have.
 
-    Raises :class:`~ballscrew.errors.InputError` before anything is computed.
+    Raises :class:`~ballscrew.basis.errors.InputError` before anything is computed.
     """
-    if to is not None and studies.is_store(to):
+    if to is not None and compute.is_store(to):
         remedy = "end it in .nc, .csv or .xlsx, or fill a store of each screw: --row NAME --to NAME.zarr"
         raise InputError(Fault("--to", "holds one screw", str(to), remedy))
     nuts = [row.case.screw.nut for row in rows.values()]
@@ -37,11 +37,11 @@ def plans(
         wanted = [name for name in NUT_OUTPUTS if all(name in known_outputs(nut) for nut in nuts)]
     found = every_row.each(
         {row.place: row for row in rows.values()},
-        lambda row: (row, studies.plan(row.case, vary, wanted, to)),
+        lambda row: (row, compute.plan(row.case, vary, wanted, to)),
         keep_going=keep_going,
     )
     size = sum(_size(plan) * len(plan.outputs) for _, plan in found.found.values())
-    if size > studies.MOST_VALUES:
+    if size > compute.MOST_VALUES:
         remedy = "take fewer values an axis, or fewer outputs, or one screw: --row NAME"
         raise_if_any([Fault("sweep", "too many values", f"{size:,}", remedy)])
     return found
@@ -70,7 +70,7 @@ def sweep(
             if done is not None:
                 done(start + finished, total)
 
-        found = studies.sweep(case.case, plan, tell, to)
+        found = compute.sweep(case.case, plan, tell, to)
         before += _size(plan)
         return found
 

@@ -11,11 +11,11 @@ from typing import IO, Any
 import numpy as np
 import xarray as xr
 
-from ballscrew import units
-from ballscrew.evaluation.outputs import OPERATION
-from ballscrew.files import atomic_write
-from ballscrew.studies.sweep import Plan
-from ballscrew.studies.sweep_rows import SCREW
+from ballscrew.basis import units
+from ballscrew.basis.atomic_files import atomic_write
+from ballscrew.engine.evaluation.outputs import OPERATION
+from ballscrew.questions.sweep.compute import Plan
+from ballscrew.questions.sweep.rows import SCREW
 
 
 def write_csv(stream: IO[str], dataset: xr.Dataset, plan: Plan) -> None:

@@ -9,15 +9,15 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from ballscrew import units
-from ballscrew.cases.case_file import Case
-from ballscrew.errors import InputError
-from ballscrew.evaluation.outputs import inputs_of
-from ballscrew.friction.validity import REASONS
-from ballscrew.quantities import fields_of
-from ballscrew.studies.sweep import Plan, implausible, is_store, reasons_of, starved
-from ballscrew.sweeps.store_check import count_false
-from ballscrew.sweeps.store_plan import Blocks
+from ballscrew.basis import units
+from ballscrew.basis.errors import InputError
+from ballscrew.basis.quantities import fields_of
+from ballscrew.cases.case_files.case_file import Case
+from ballscrew.engine.evaluation.outputs import inputs_of
+from ballscrew.engine.sweeps.store_check import count_false
+from ballscrew.engine.sweeps.store_plan import Blocks
+from ballscrew.physics.friction.validity import REASONS
+from ballscrew.questions.sweep.compute import Plan, implausible, is_store, reasons_of, starved
 
 #: Why a point that heats itself may not be valid, besides the reasons of the model.
 _OF_HEAT = {"steady_state": "no steady state in the range of oil and preload: it runs away, or gets too hot"}

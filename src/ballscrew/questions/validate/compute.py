@@ -10,18 +10,18 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from ballscrew import units
-from ballscrew.case_schema.schema import MODELS
-from ballscrew.components.traits import traits_of
-from ballscrew.errors import Fault, InputError, fault_of, nearest, raise_if_any
-from ballscrew.friction.calibrations import Calibration, calibrated, calibration
-from ballscrew.friction.model import FrictionModel
-from ballscrew.screw_tables.catalogue import COLUMNS
-from ballscrew.studies import torque_cards
-from ballscrew.tables.headings import Column
-from ballscrew.tables.rows import made, read
-from ballscrew.validation.entries import CONDITIONS, Conditions, Entry, Point, ValidationSet, Values
-from ballscrew.validation.sets import SETS
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError, fault_of, nearest, raise_if_any
+from ballscrew.cases.schema.schema import MODELS
+from ballscrew.cases.screw_tables.catalogue import COLUMNS
+from ballscrew.evidence.validation.entries import CONDITIONS, Conditions, Entry, Point, ValidationSet, Values
+from ballscrew.evidence.validation.sets import SETS
+from ballscrew.files.tables.headings import Column
+from ballscrew.files.tables.rows import made, read
+from ballscrew.physics.components.traits import traits_of
+from ballscrew.physics.friction.calibrations import Calibration, calibrated, calibration
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.questions.card import compute as torque_cards
 
 DEFAULT_CALIBRATION = "rexroth-2006"
 _ALIASES: Mapping[str, tuple[str, ...]] = {
@@ -61,7 +61,7 @@ def request(
     speed: str | None = None,
     cards: Sequence[Path] = (),
 ) -> Request:
-    """The request that options mean. Raises :class:`~ballscrew.errors.InputError` with all faults found."""
+    """The request that options mean. Raises :class:`~ballscrew.basis.errors.InputError` with all faults found."""
     faults = [Fault("validate", "unknown set", name, nearest(name, SETS)) for name in names if name not in SETS]
     if model not in MODELS:
         faults.append(Fault("--model", "unknown model", model, nearest(model, MODELS)))

@@ -7,9 +7,9 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
-from ballscrew.records import Record
-from ballscrew.records import documents as documents_of
-from ballscrew.validation.entries import Entry, Point
+from ballscrew.basis.records import Record
+from ballscrew.basis.records import documents as documents_of
+from ballscrew.evidence.validation.entries import Entry, Point
 
 
 def documents(entries: Sequence[Entry]) -> list[dict[str, Any]]:

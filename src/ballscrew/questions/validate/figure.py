@@ -10,11 +10,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew import units
-from ballscrew.figures import style
-from ballscrew.studies.validation import Request
-from ballscrew.text import validation as text
-from ballscrew.validation.entries import DESCRIPTORS, Entry, Point
+from ballscrew.basis import units
+from ballscrew.evidence.validation.entries import DESCRIPTORS, Entry, Point
+from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.validate import text
+from ballscrew.questions.validate.compute import Request
 
 _HEIGHT = 3.2
 #: An axis with fewer values shows no trend.

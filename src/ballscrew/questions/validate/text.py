@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from ballscrew import units
-from ballscrew.output.wrapping import aligned, wrapped
-from ballscrew.quantities import Quantity
-from ballscrew.studies.validation import Request
-from ballscrew.validation.entries import CONDITIONS, Entry, Point, RuleEntry, ValidationSet
+from ballscrew.basis import units
+from ballscrew.basis.output.wrapping import aligned, wrapped
+from ballscrew.basis.quantities import Quantity
+from ballscrew.evidence.validation.entries import CONDITIONS, Entry, Point, RuleEntry, ValidationSet
+from ballscrew.questions.validate.compute import Request
 
 #: What laws and definitions beside the model are called.
 WORDS: Mapping[str, str] = {

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from ballscrew.api_answers.parts import (
+from ballscrew.basis.quantities import Quantity
+from ballscrew.questions.shared.answer_parts import (
     Closed,
     Number,
     Open,
@@ -15,8 +16,7 @@ from ballscrew.api_answers.parts import (
     model,
     quantities,
 )
-from ballscrew.axis_studies.warm_up import EQUILIBRIUM, SERIES
-from ballscrew.quantities import Quantity
+from ballscrew.questions.warm_up.compute import EQUILIBRIUM, SERIES
 
 
 def _lists(quantity: Quantity) -> Any:
@@ -28,7 +28,7 @@ Equilibrium = model(
     "The steady state; null where there is none.",
     Open,
     exists=(bool, ...),
-    margin=(Number, field("1 less the gain of the loop, which runs away at 0")),
+    margin=(Number, field("stability margin of the thermal loop: 1 less its gain; thermal runaway at 0")),
     **quantities(EQUILIBRIUM),
 )
 

@@ -5,24 +5,24 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Mapping
 
-from ballscrew.axis_studies.warm_up import HOUR, SERIES, WarmUpReport, duty_of, length_of
-from ballscrew.cases import uncertain_inputs
-from ballscrew.cases.case import Case
-from ballscrew.cases.uncertain_inputs import GIVEN, NOTHING_GIVEN, Uncertain
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.errors import InputError
-from ballscrew.overflow import overflow_as_input_error
-from ballscrew.quantities import Quantity, fields_of
-from ballscrew.thermal.network import Network, network_of
-from ballscrew.thermal.surroundings import PREFIX, VARIED, Surroundings
-from ballscrew.thermal.warm_up_band import (
+from ballscrew.axis.thermal.network import Network, network_of
+from ballscrew.axis.thermal.surroundings import PREFIX, VARIED, Surroundings
+from ballscrew.axis.thermal.warm_up_band import (
     OVER_TIME,
     WarmUpBand,
     uncertain_surroundings,
     warm_up_band,
 )
-from ballscrew.uncertainty.default_uncertainties import default_uncertainties
-from ballscrew.uncertainty.uncertain_value import describe_distribution
+from ballscrew.basis.errors import InputError
+from ballscrew.basis.overflow import overflow_as_input_error
+from ballscrew.basis.quantities import Quantity, fields_of
+from ballscrew.cases.case_files import uncertain_inputs
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.uncertain_inputs import GIVEN, NOTHING_GIVEN, Uncertain
+from ballscrew.engine.uncertainty.default_uncertainties import default_uncertainties
+from ballscrew.engine.uncertainty.uncertain_value import describe_distribution
+from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.questions.warm_up.compute import HOUR, SERIES, WarmUpReport, duty_of, length_of
 
 #: What has a band over time.
 BANDS: Mapping[str, Quantity] = {name: SERIES[name] for name in OVER_TIME}

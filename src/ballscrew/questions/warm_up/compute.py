@@ -9,23 +9,23 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew import units
-from ballscrew._arrays import lazy
-from ballscrew.axis import duty as axis_duty
-from ballscrew.axis.duty import Duty
-from ballscrew.axis.to_and_fro import to_and_fro
-from ballscrew.cases import case_file
-from ballscrew.cases.case import Case
-from ballscrew.components.materials import Lubricant
-from ballscrew.errors import Fault, InputError, raise_if_any
-from ballscrew.motion.profiles import Trapezoid
-from ballscrew.motion.states import Numbers
-from ballscrew.overflow import overflow_as_input_error
-from ballscrew.quantities import Info, Length, Quantity, fields_of
-from ballscrew.supports.mounted_bearing import MountedBearing
-from ballscrew.thermal.network import GAP_SHARE, GREASE_CONDUCTIVITY, NUT_WALL, Network
-from ballscrew.thermal.surroundings import Surroundings
-from ballscrew.thermal.warm_up import WarmUp, warm_up
+from ballscrew.axis.duty_cycle import duty as axis_duty
+from ballscrew.axis.duty_cycle.duty import Duty
+from ballscrew.axis.duty_cycle.to_and_fro import to_and_fro
+from ballscrew.axis.motion.profiles import Trapezoid
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.axis.supports.mounted_bearing import MountedBearing
+from ballscrew.axis.thermal.network import GAP_SHARE, GREASE_CONDUCTIVITY, NUT_WALL, Network
+from ballscrew.axis.thermal.surroundings import Surroundings
+from ballscrew.axis.thermal.warm_up import WarmUp, warm_up
+from ballscrew.basis import units
+from ballscrew.basis.arrays import lazy
+from ballscrew.basis.errors import Fault, InputError, raise_if_any
+from ballscrew.basis.overflow import overflow_as_input_error
+from ballscrew.basis.quantities import Info, Length, Quantity, fields_of
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.case import Case
+from ballscrew.physics.components.materials import Lubricant
 
 HOUR = 3600.0
 #: The longest time, h: a year.
@@ -188,7 +188,7 @@ def assumed_of(case: Case, given: Surroundings, network: Network, stroke: Length
 
 
 def check_hours(hours: float, cool_down: float) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` for times that are none."""
+    """Raise :class:`~ballscrew.basis.errors.InputError` for times that are none."""
     faults: list[Fault] = []
     if not 0 < hours <= LONGEST:
         faults.append(Fault("--hours", f"must be above 0 and at most {LONGEST:g}", f"{hours:g}", "write --hours 4"))
@@ -211,8 +211,8 @@ def drift_cycle(case: Case, share: float = FEED_SHARE) -> Case:
     """The case with a cycle like that of the drift test of ISO 230-3: the full stroke to and fro at a share of rapid.
 
     The standard could not be read: stroke and rapid are those of the motion of the case, its acceleration the largest,
-    and the share is a choice. Raises :class:`~ballscrew.errors.InputError` without a motion, and for shares that are
-    none.
+    and the share is a choice. Raises :class:`~ballscrew.basis.errors.InputError` without a motion, and for shares that
+    are none.
     """
     faults: list[Fault] = []
     if case.axis is None or case.motion is None:
@@ -242,7 +242,7 @@ def load(path: str | Path, settings: Sequence[str], model: str | None, *, allow_
 
 
 def check_oil(case: Case) -> None:
-    """Raise :class:`~ballscrew.errors.InputError` for an oil that has no temperature."""
+    """Raise :class:`~ballscrew.basis.errors.InputError` for an oil that has no temperature."""
     if case.lubricant.temperature is None:
         problem = "has no temperature: its viscosity would be the same for ever"
         remedy = 'write grade = "ISO VG 100", or both viscosities of the data sheet, in its place'

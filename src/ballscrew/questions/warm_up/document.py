@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from ballscrew.axis_studies import warm_up_records
-from ballscrew.axis_studies.warm_up import EQUILIBRIUM, SERIES, WarmUpReport
-from ballscrew.axis_studies.warm_up_records import band_records
-from ballscrew.cases import case_file, duty_tables, provenance
-from ballscrew.quantities import Quantity
-from ballscrew.records import documents
+from ballscrew.basis.quantities import Quantity
+from ballscrew.basis.records import documents
+from ballscrew.cases.case_files import case_file, duty_tables, provenance
+from ballscrew.questions.warm_up import records as warm_up_records
+from ballscrew.questions.warm_up.compute import EQUILIBRIUM, SERIES, WarmUpReport
+from ballscrew.questions.warm_up.records import band_records
 
 if TYPE_CHECKING:
-    from ballscrew.axis_studies.warm_up_band import WarmUpBandReport
+    from ballscrew.questions.warm_up.band import WarmUpBandReport
 
 #: The parts of the heat, which stand together.
 _HEAT = "heat_"

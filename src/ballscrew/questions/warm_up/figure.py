@@ -9,15 +9,15 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew import units
-from ballscrew.axis_studies import warm_up_records
-from ballscrew.axis_studies.warm_up import PLACE, SERIES, WarmUpReport
-from ballscrew.figures import style
-from ballscrew.quantities import Quantity
-from ballscrew.text import warm_up as text
+from ballscrew.basis import units
+from ballscrew.basis.quantities import Quantity
+from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.warm_up import records as warm_up_records
+from ballscrew.questions.warm_up import text
+from ballscrew.questions.warm_up.compute import PLACE, SERIES, WarmUpReport
 
 if TYPE_CHECKING:  # slow to import
-    from ballscrew.axis_studies.warm_up_band import WarmUpBandReport
+    from ballscrew.questions.warm_up.band import WarmUpBandReport
 
 _TITLE_CHARACTERS, _LABEL_SIZE, _LEVELS, _SHADE = 100, 8.0, 12, 0.15
 

@@ -6,15 +6,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ballscrew import units
-from ballscrew.axis_studies.warm_up import AT_END, AT_START, PLACE, SERIES, WarmUpReport
-from ballscrew.friction import starvation
-from ballscrew.friction.plausibility import implausible
-from ballscrew.motion.states import Numbers
-from ballscrew.records import Measured, Message, Record
+from ballscrew.axis.motion.states import Numbers
+from ballscrew.basis import units
+from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.physics.friction import starvation
+from ballscrew.physics.friction.plausibility import implausible
+from ballscrew.questions.warm_up.compute import AT_END, AT_START, PLACE, SERIES, WarmUpReport
 
 if TYPE_CHECKING:  # its room of distributions is slow to import
-    from ballscrew.axis_studies.warm_up_band import WarmUpBandReport
+    from ballscrew.questions.warm_up.band import WarmUpBandReport
 
 #: So many times as far while it stands as at work, and it is said.
 _FARTHER = 1.05

@@ -9,8 +9,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ballscrew import units
-from ballscrew.axis_studies.warm_up import (
+from ballscrew.axis.thermal.equilibrium import Equilibrium, equilibrium
+from ballscrew.axis.thermal.friction_map import friction_map
+from ballscrew.axis.thermal.steady_heat import steady_heat
+from ballscrew.axis.thermal.surroundings import Surroundings
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.quantities import Info, Quantity, quantities_of
+from ballscrew.basis.records import Record
+from ballscrew.cases.case_files.case import Case
+from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.friction import starvation
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.questions.warm_up.compute import (
     EQUILIBRIUM,
     assumed_of,
     bearings_of,
@@ -19,17 +30,6 @@ from ballscrew.axis_studies.warm_up import (
     length_of,
     stroke_of,
 )
-from ballscrew.cases.case import Case
-from ballscrew.components.materials import TEMPERATURE
-from ballscrew.errors import Fault, InputError
-from ballscrew.friction import starvation
-from ballscrew.friction.result import FrictionResult
-from ballscrew.quantities import Info, Quantity, quantities_of
-from ballscrew.records import Record
-from ballscrew.thermal.equilibrium import Equilibrium, equilibrium
-from ballscrew.thermal.friction_map import friction_map
-from ballscrew.thermal.steady_heat import steady_heat
-from ballscrew.thermal.surroundings import Surroundings
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -123,7 +123,7 @@ class SelfHeating:
             preload = f", preload {there} in place of {before}"
         text = (
             f"self-heating: oil at {oil} in place of {given} (nut {nut}){preload}; friction torque {warm}, not {cold}; "
-            f"gain of the loop {1 - end.margin:z.2f}, which runs away at 1"
+            f"gain of the thermal loop {1 - end.margin:z.2f}, thermal runaway at 1"
         )
         return Record(
             id="verdict.self_heating", subject="lubricant.temperature", text=text, severity="info", holds=True,
@@ -134,8 +134,8 @@ class SelfHeating:
 def self_heating(case: Case) -> SelfHeating:
     """The case at the steady state of its operating point, going to and fro in its surroundings.
 
-    Raises :class:`~ballscrew.errors.InputError` where there is none, and as
-    :func:`~ballscrew.axis_studies.warm_up.duty_of` does.
+    Raises :class:`~ballscrew.basis.errors.InputError` where there is none, and as
+    :func:`~ballscrew.questions.warm_up.compute.duty_of` does.
     """
     surroundings = case.surroundings or Surroundings()
     duty, stroke = duty_of(_point_of(case), surroundings)
@@ -175,10 +175,10 @@ def swept(
 ) -> xr.Dataset:
     """A sweep whose points are each in their own steady state; ``assumed`` is among its attributes.
 
-    Raises :class:`~ballscrew.errors.InputError` as :func:`~ballscrew.thermal.warm_sweep.warm_sweep` does.
+    Raises :class:`~ballscrew.basis.errors.InputError` as :func:`~ballscrew.axis.thermal.warm_sweep.warm_sweep` does.
     """
-    from ballscrew.evaluation.plan import Configuration
-    from ballscrew.thermal import warm_sweep  # loads xarray
+    from ballscrew.axis.thermal import warm_sweep  # loads xarray
+    from ballscrew.engine.evaluation.plan import Configuration
 
     check_oil(case)
     surroundings, point = case.surroundings or Surroundings(), _point_of(case)

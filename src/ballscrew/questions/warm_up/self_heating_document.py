@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from ballscrew.cases import case_file
-from ballscrew.records import documents
+from ballscrew.basis.records import documents
+from ballscrew.cases.case_files import case_file
 
 if TYPE_CHECKING:  # its solvers are slow to import, and seldom asked for
-    from ballscrew.axis_studies.self_heating import SelfHeating
+    from ballscrew.questions.warm_up.self_heating import SelfHeating
 
 _UNITS: Mapping[str, str] = {
     "oil_temperature": "K", "oil_temperature_given": "K", "nut_temperature": "K", "shaft_temperature": "K",

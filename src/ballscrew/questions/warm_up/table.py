@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ballscrew import units
-from ballscrew.axis_studies.warm_up import EQUILIBRIUM, PLACE, SERIES, WarmUpReport
-from ballscrew.files import atomic_write
-from ballscrew.quantities import Quantity
-from ballscrew.table_files.row_tables import RowTable, put, write_csv, xlsx_bytes
+from ballscrew.basis import units
+from ballscrew.basis.atomic_files import atomic_write
+from ballscrew.basis.quantities import Quantity
+from ballscrew.questions.shared.row_tables import RowTable, put, write_csv, xlsx_bytes
+from ballscrew.questions.warm_up.compute import EQUILIBRIUM, PLACE, SERIES, WarmUpReport
 
 if TYPE_CHECKING:  # slow to import
-    from ballscrew.axis_studies.warm_up_band import WarmUpBandReport
+    from ballscrew.questions.warm_up.band import WarmUpBandReport
 
 _GROWTH, _TEMPERATURE = SERIES["shaft_growth"], SERIES["shaft_temperature"]
 
@@ -69,7 +69,10 @@ def shaft(report: WarmUpReport) -> RowTable:
 def steady(report: WarmUpReport) -> RowTable:
     """The steady state."""
     end = report.warm_up.equilibrium
-    rows: list[list[Any]] = [["exists", int(end.exists), ""], ["margin to running away", _finite(end.margin), ""]]
+    rows: list[list[Any]] = [
+        ["exists", int(end.exists), ""],
+        ["stability margin of the thermal loop", _finite(end.margin), ""],
+    ]
     for name, quantity in EQUILIBRIUM.items():
         cell: dict[str, Any] = {}
         put(cell, quantity, report.equilibrium[name])

@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ballscrew import units
-from ballscrew.axis_studies import warm_up_records
-from ballscrew.axis_studies.duty import NUMBERS
-from ballscrew.axis_studies.warm_up import EQUILIBRIUM, PLACE, SERIES, WarmUpReport
-from ballscrew.cases import descriptions
-from ballscrew.output.wrapping import aligned, wrapped
-from ballscrew.text.tables import ends_or_dashes, shown_or_dash
+from ballscrew.basis import units
+from ballscrew.basis.output.wrapping import aligned, wrapped
+from ballscrew.cases.case_files import descriptions
+from ballscrew.questions.duty.compute import NUMBERS
+from ballscrew.questions.shared.text_tables import ends_or_dashes, shown_or_dash
+from ballscrew.questions.warm_up import records as warm_up_records
+from ballscrew.questions.warm_up.compute import EQUILIBRIUM, PLACE, SERIES, WarmUpReport
 
 if TYPE_CHECKING:
-    from ballscrew.axis_studies.warm_up_band import WarmUpBandReport
+    from ballscrew.questions.warm_up.band import WarmUpBandReport
 
 _SHOWN = ("nut_temperature", "shaft_temperature", "shaft_growth", "preload", "screw_torque", "friction_power")
 _SHORT = {"nut_temperature": "nut", "shaft_temperature": "shaft, mean", "shaft_growth": "growth",
@@ -132,7 +132,10 @@ def _steady(report: WarmUpReport) -> list[str]:
         for name, quantity in EQUILIBRIUM.items()
         if name != "preload" or report.warm_up.network.preload_set
     ]
-    return [f"Steady state, margin to running away {end.margin:.3g} (1 is none of the loop, 0 runs away)", *lines]
+    return [
+        f"Steady state, stability margin of the thermal loop {end.margin:.3g} (1: no feedback, 0: thermal runaway)",
+        *lines,
+    ]
 
 
 def _steady_in_full_bath(report: WarmUpReport) -> list[str]:

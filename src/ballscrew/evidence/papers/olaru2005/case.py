@@ -8,9 +8,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.screw import BallScrew
-from ballscrew.friction.model import (
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.model import (
     FrictionModel,
 )
 

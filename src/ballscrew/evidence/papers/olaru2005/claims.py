@@ -9,9 +9,9 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Mapping
 
-from ballscrew.papers.olaru2005 import case, verdicts
-from ballscrew.papers.olaru2005.observations import Observations, observe
-from ballscrew.papers.olaru2005.verdicts import Finding
+from ballscrew.evidence.papers.olaru2005 import case, verdicts
+from ballscrew.evidence.papers.olaru2005.observations import Observations, observe
+from ballscrew.evidence.papers.olaru2005.verdicts import Finding
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ballscrew.equations.transmission import efficiency
-from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.result import MECHANISMS
-from ballscrew.friction.validity import REASONS
-from ballscrew.papers.olaru2005 import case
-from ballscrew.sweeps.sweep import sweep
+from ballscrew.engine.sweeps.sweep import sweep
+from ballscrew.evidence.papers.olaru2005 import case
+from ballscrew.physics.equations.transmission import efficiency
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.result import MECHANISMS
+from ballscrew.physics.friction.validity import REASONS
 
 #: The models whose figures are drawn.
 DRAWN = ("olaru2005", "corrected")

@@ -10,17 +10,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.components.contact import RaceState
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.screw import BallScrew
-from ballscrew.equations import equilibrium, friction
-from ballscrew.equations.transmission import efficiency
-from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.result import (
+from ballscrew.evidence.papers.olaru2005 import case
+from ballscrew.physics.components.contact import RaceState
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.equations import equilibrium, friction
+from ballscrew.physics.equations.transmission import efficiency
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.result import (
     MECHANISMS,
     FrictionResult,
 )
-from ballscrew.papers.olaru2005 import case
 
 #: Steps of 1 rpm, then of 0.05 rpm around the smallest torque found.
 _FINE_STEP = 0.05

@@ -5,10 +5,10 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 
-from ballscrew.friction.model import (
+from ballscrew.evidence.papers.olaru2005 import case
+from ballscrew.physics.friction.model import (
     FrictionModel,
 )
-from ballscrew.papers.olaru2005 import case
 
 #: The fields of the model in which the two differ, and what each repair is.
 REPAIRS: Mapping[str, str] = {

@@ -6,9 +6,9 @@ import dataclasses
 import enum
 from collections.abc import Mapping
 
-from ballscrew.friction.result import MECHANISMS
-from ballscrew.papers.olaru2005 import case
-from ballscrew.papers.olaru2005.observations import Observations, Range, Split
+from ballscrew.evidence.papers.olaru2005 import case
+from ballscrew.evidence.papers.olaru2005.observations import Observations, Range, Split
+from ballscrew.physics.friction.result import MECHANISMS
 
 #: Residuals below this are rounding.
 _ROUNDING = 1e-10

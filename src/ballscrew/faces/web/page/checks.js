@@ -18,7 +18,6 @@ const CLOSE = 0.8;
 /** The share from which it is written as a multiple. */
 const MULTIPLE = 10;
 const DIGITS_OF_SHARE = 3;
-const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 
 /** @typedef {VerdictRecord & { name: string, utilisation: number | null, missing: string }} OneCheck */
 
@@ -81,11 +80,7 @@ function toneOf({ holds, utilisation }) {
  * @param {number | null} value
  */
 function shown({ unit }, value) {
-  const written = units.formattedIn(value, SHOWN_IN[unit] ?? unit, unit);
-  return written.replace(
-    /e(\d+)/,
-    (_, power) => `\u00a0·\u00a010${[...power].map((one) => RAISED[Number(one)]).join("")}`,
-  );
+  return units.withPowers(units.formattedIn(value, SHOWN_IN[unit] ?? unit, unit));
 }
 
 /** @param {OneCheck} check */

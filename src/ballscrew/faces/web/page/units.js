@@ -338,6 +338,20 @@ export function formattedIn(value, metric, si, count = DIGITS, toward = 0) {
   return withUnit(value === null || value === undefined ? value : fromSI(value, unit, si), unit, count, toward);
 }
 
+const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+
+/**
+ * A number with the exponent of programs as people write it: 9.56 · 10⁶.
+ *
+ * @param {string} written
+ */
+export function withPowers(written) {
+  return written.replace(
+    /e(\d+)/,
+    (_, power) => `\u00a0·\u00a010${[...power].map((one) => RAISED[Number(one)]).join("")}`,
+  );
+}
+
 /**
  * The ends of a band as numbers without a unit, rounded outward.
  *

@@ -327,7 +327,7 @@ function multiple(share) {
  *
  * @param {Candidate} candidate
  */
-function verdictOf({ fails, checks, holds, valid, complete, starved, preload_lost_above: limit }) {
+function verdictOf({ fails, checks, holds, valid, complete, starved, rigid_lift_off_load: limit }) {
   const open = checks.filter((check) => check.holds === null).length;
   const failing = fails.map((check) => `${nameOf(check)}${multiple(check.utilisation)}`).join(", ");
   const fail = complete ? "checks.fail" : "choose.cannot";

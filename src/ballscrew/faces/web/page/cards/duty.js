@@ -12,7 +12,7 @@ import * as units from "../units.js";
 import { placeFaults, showValues } from "./case_fields.js";
 import * as charts from "./duty_charts.js";
 import { inputs } from "./motion.js";
-import { data, ENERGY, FORCE, POWER, quantity, SPEED, TEMPERATURE, TIME, TORQUE, TURNING } from "./quantities.js";
+import { data, ENERGY, FORCE, POWER, quantity, SPEED, TEMPERATURE, TIME, TORQUE } from "./quantities.js";
 import { question } from "./question.js";
 import { lines } from "./records.js";
 
@@ -22,26 +22,8 @@ import { lines } from "./records.js";
 const EXAMPLE = "vertical-axis";
 /** Sections that an example gives; those beside the first two may be missing. */
 const OF_EXAMPLE = ["axis", "motion", "motor", "bearings", "guides"];
-const HOURS_OF_LIFE = quantity("s", "h");
-const ENERGY_OF_DAY = quantity("J", "kW h");
 /** A share of a column, or a number in SI, that is rounding. */
 const ROUNDING = 1e-9;
-/** The numbers above. @type {[string, ReturnType<typeof quantity>][]} */
-const NUMBERS = [
-  ["torque_rms", TORQUE],
-  ["torque_peak", TORQUE],
-  ["mean_speed", TURNING],
-  ["largest_speed", TURNING],
-  ["cycle_time", TIME],
-  ["mean_load", FORCE],
-  ["life_time", HOURS_OF_LIFE],
-  ["energy_drawn", ENERGY],
-  ["energy_returned", ENERGY],
-  ["energy_lost", ENERGY],
-  ["energy_per_day", ENERGY_OF_DAY],
-  ["energy_per_day_with_recovery", ENERGY_OF_DAY],
-];
-
 /**
  * @param {HTMLElement} holder
  * @param {import("../cards.js").Page} page
@@ -232,15 +214,20 @@ export function setUp(holder, page) {
 
   /** @param {DutyAnswer["results"]} results */
   function numbers(results) {
-    const rows = NUMBERS.map(([name, { text: inUnits }]) => {
-      const value = /** @type {Record<string, any>} */ (results)[name];
-      const meaning = textOr(`quantity.${name}`, vocabulary.of_cycle[name].meaning);
-      return element("div", {}, element("dt", {}, meaning), element("dd", {}, data(name, value, inUnits(value))));
+    const values = /** @type {Record<string, any>} */ (results);
+    const least = ROUNDING * (results.energy_drawn ?? 0);
+    const shown = Object.entries(vocabulary.of_cycle).filter(
+      ([name, of]) => !of.if_any || Math.abs(values[name]) > least,
+    );
+    const rows = shown.map(([name, of]) => {
+      const inUnits = units.withPowers(quantity(of.unit, of.shown_in).text(values[name]));
+      const meaning = textOr(`quantity.${name}`, of.meaning);
+      return element("div", {}, element("dt", {}, meaning), element("dd", {}, data(name, values[name], inUnits)));
     });
     return element("div", { class: "numbers" }, element("dl", {}, ...rows));
   }
 
-  /** What the motor is paid for: each part of its torque and of the energy, and their sums. @param {DutyAnswer["results"]} results */
+  /** Torque and energy by cause: each part of its torque and of the energy, and their sums. @param {DutyAnswer["results"]} results */
   function partsOf(results) {
     const { torque_peak_by: peak, torque_rms_by: rms, energy_by: energy } = results;
     const names = Object.keys(energy).filter((name) =>

@@ -1,1 +1,0 @@
-"""Response models of the API, made from the annotations of the parts that its answers consist of."""

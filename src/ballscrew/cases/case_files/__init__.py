@@ -1,0 +1,1 @@
+"""Case files: schema, fields, units, catalogue rows, overrides."""

@@ -1,5 +1,0 @@
-"""``python -m ballscrew.cli``."""
-
-from ballscrew.cli.start import main
-
-main()

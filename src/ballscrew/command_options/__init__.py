@@ -1,1 +1,0 @@
-"""Options that commands share, and the bar that shows progress."""

@@ -1,1 +1,0 @@
-"""JSON documents: one module per question, a value in, a plain dictionary out"""

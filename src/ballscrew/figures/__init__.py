@@ -1,1 +1,0 @@
-"""Figures: drawn with matplotlib's objects only, the same bytes on every run."""

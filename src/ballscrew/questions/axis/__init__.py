@@ -1,0 +1,1 @@
+"""Stiffness, lost motion, critical speed and buckling of an axis over its stroke."""

@@ -1,0 +1,88 @@
+"""Response models of the API for a band."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
+from ballscrew.engine.uncertainty.bands import Interval, OutputBand
+from ballscrew.questions.run.answer import Document
+from ballscrew.questions.shared.answer_parts import (
+    Closed,
+    Number,
+    Numbers,
+    Template,
+    field,
+    model,
+)
+
+_Interval = model(
+    "Interval",
+    "Two ends with a share of the samples between them.",
+    Closed,
+    **dict.fromkeys((*Interval._fields,), (Number, ...)),
+)
+_INTERVALS = [name for name, kind in OutputBand.__annotations__.items() if kind == Interval.__name__]
+#: The interval by both causes stands beside the value, the others under their names.
+BandedOutput = model(
+    "BandedOutput",
+    "One output and its intervals.",
+    _Interval,
+    **{name: (Number, ...) for name in OutputBand.__annotations__ if name not in _INTERVALS},
+    **{name: (_Interval, ...) for name in _INTERVALS if name != "both"},
+)
+
+
+class UncertainInput(Closed):
+    """Distribution of an input, and where it comes from."""
+
+    distribution: str
+    source: str
+    reason: str = field(optional=True)
+
+
+class AlternativeLaw(Closed):
+    """A law that could stand in place of the model's."""
+
+    name: str
+    factor: Number = Field(description="torque with it over torque with the model's own law")
+
+
+class _BandTables(Closed):
+    level: float
+    samples: int
+    seed: int
+    self_locking_share: Number
+    invalid_share: Number
+    reasons: Numbers
+    laws: dict[str, list[AlternativeLaw]]
+    inputs: dict[str, UncertainInput]
+
+
+BandTables = model(
+    "BandTables",
+    "Intervals of all outputs, and what they come from.",
+    _BandTables,
+    **dict.fromkeys(BAND_OUTPUTS, (BandedOutput, ...)),
+)
+
+
+class BandWords(Closed):
+    """Sentences beside the numbers of a band."""
+
+    sentences: list[str]
+    inputs: str
+
+
+class BandDisplay(Closed):
+    """The same sentences, with their quantities apart."""
+
+    sentences: list[Template]
+
+
+class Band(Document):
+    """The answer of a run with the band beside it."""
+
+    band: BandTables  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
+    words: BandWords
+    display: BandDisplay

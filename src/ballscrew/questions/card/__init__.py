@@ -1,0 +1,1 @@
+"""A torque card: what was measured on one screw, and the model beside it."""

@@ -1,0 +1,1 @@
+"""Checks of a case: life, speed, buckling, pressure and preload against their limits."""

@@ -1,0 +1,28 @@
+"""The checks of screws as a table: a row for each, numbers in the units of their headings."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ballscrew.cases.screw_tables.nut_kinds import LISTED
+from ballscrew.questions.check.compute import RATINGS, Checked
+from ballscrew.questions.run.table import of_run
+from ballscrew.questions.shared.check_lines import quantity_of
+from ballscrew.questions.shared.row_tables import Cells, RowTable, of_cells, put
+
+
+def of_checks(screws: Sequence[Checked]) -> RowTable:
+    """The results, ratings and checks of each screw; of a check its value, and the share of the limit that is used."""
+    return of_cells([_of_check(screw) for screw in screws])
+
+
+def _of_check(found: Checked) -> Cells:
+    cells = of_run(found.name, found.run)
+    for name, field in RATINGS.items():
+        computed = None if found.computed is None else getattr(found.computed, field)
+        put(cells, LISTED[name], found.case.listed.get(name))
+        put(cells, LISTED[name], computed, f"{name} by geometry")
+    for check in found.checks:
+        put(cells, quantity_of(check), check.value)
+        cells[f"{check.name.replace('_', ' ')} used"] = check.utilisation
+    return {**cells, "verdict": found.verdict}

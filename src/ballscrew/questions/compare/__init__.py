@@ -1,0 +1,1 @@
+"""The torque by several models and by rules of one line."""

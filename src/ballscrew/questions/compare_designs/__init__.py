@@ -1,0 +1,1 @@
+"""Several cases side by side, with their checks and what differs."""

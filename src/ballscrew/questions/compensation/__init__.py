@@ -1,0 +1,1 @@
+"""The error of position by heat, as a table for controls."""

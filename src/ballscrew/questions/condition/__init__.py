@@ -1,0 +1,1 @@
+"""The state of a nut over time, from a table of tests."""

@@ -1,0 +1,1 @@
+"""Numbers of a screw fitted to a log of torques."""

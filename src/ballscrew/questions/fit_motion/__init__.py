@@ -1,0 +1,1 @@
+"""Friction of an axis fitted to a log of its motion."""

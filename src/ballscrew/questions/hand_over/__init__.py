@@ -1,0 +1,1 @@
+"""The files of an export, their range and their worst error."""

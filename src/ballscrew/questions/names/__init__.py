@@ -1,0 +1,1 @@
+"""The names that may stand in a case file."""

@@ -1,0 +1,1 @@
+"""The oils and greases of the library."""

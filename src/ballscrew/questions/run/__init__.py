@@ -1,0 +1,1 @@
+"""The result at an operating point: torque, efficiency, losses and their parts."""

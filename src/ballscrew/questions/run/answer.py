@@ -1,0 +1,94 @@
+"""Response models of the API for a run, made from the annotations of the parts that it consists of.
+
+They describe the answers in the OpenAPI document. They are not run on each answer: the endpoints return finished
+responses, and the tests validate answers against the description.
+"""
+
+from __future__ import annotations
+
+from pydantic import BaseModel
+
+from ballscrew.basis.quantities import fields_of, quantities_of
+from ballscrew.physics.components.contact import RaceState
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.questions.run.compute import OF_ONE_BALL
+from ballscrew.questions.run.text import SHOWN
+from ballscrew.questions.shared.answer_parts import (
+    MASKS,
+    Closed,
+    Number,
+    Numbers,
+    Open,
+    Provenance,
+    Record,
+    Tables,
+    Template,
+    VendorRows,
+    field,
+    model,
+    quantities,
+)
+
+Contact = model(
+    "Contact",
+    "One contact of a ball with its race.",
+    BaseModel,
+    **quantities(quantities_of(RaceState), optional=True),
+)
+_RESULTS = {n: q for n, q in quantities_of(FrictionResult).items() if n not in fields_of(OperatingState)}
+# Models made by ``create_model`` are variables to a type checker: where they are used as types, it is silenced.
+#: Results of one row of equal balls, and of a whole nut.
+_ALWAYS = {n: q for n, q in _RESULTS.items() if n in (*SHOWN, *MASKS, "holding_torque") and n not in OF_ONE_BALL}
+Results = model(
+    "Results",
+    "Results of one row of equal balls, or of a whole nut.",
+    Open,
+    **quantities(_ALWAYS),
+    **quantities({name: q for name, q in _RESULTS.items() if name not in _ALWAYS}, optional=True),
+    preload_drag=(
+        Number,
+        field("torque of the nut without load, seals and other losses included, SI", "N m", optional=True),
+    ),
+    contributions=(Numbers, field("parts of the friction torque, SI", "N m")),
+    validity=(dict[str, bool], ...),
+    screw=(Contact, ...),
+    nut=(Contact, ...),
+)
+
+
+class RunWords(Closed):
+    """Sentences beside the numbers, as the command line prints them."""
+
+    title: str
+    verdicts: list[str]
+    assumed: list[str]
+
+
+class RunDisplay(Closed):
+    """The same sentences, with their quantities apart."""
+
+    title: Template
+    verdicts: list[Template]
+    assumed: list[Template]
+
+
+class Document(Closed):
+    """Inputs, results and units in SI; verdicts, checks and warnings; provenance."""
+
+    inputs: Tables
+    results: Results  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
+    loads: Tables = field("loads of the balls of a nut, SI", optional=True)
+    vendor_rows: VendorRows = field(optional=True)
+    units: Tables
+    verdicts: list[Record]
+    checks: list[Record]
+    warnings: list[Record]
+    provenance: Provenance
+
+
+class Run(Document):
+    """Friction at one operating point."""
+
+    words: RunWords
+    display: RunDisplay

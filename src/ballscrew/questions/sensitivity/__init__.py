@@ -1,0 +1,1 @@
+"""The inputs that a result varies with, and by how much."""

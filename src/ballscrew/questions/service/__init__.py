@@ -1,0 +1,1 @@
+"""The preload that is left, from logs of two dates."""

@@ -1,0 +1,56 @@
+"""Checks in lines: value, limit, the share that is used, and the verdict."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+from ballscrew.basis import units
+from ballscrew.basis.output.plain_numbers import plain
+from ballscrew.basis.output.wrapping import beside
+from ballscrew.basis.quantities import Info, Quantity
+from ballscrew.physics.sizing.checks import Check
+
+#: The display units of the checks, by SI unit.
+_SHOWN_IN = {"N": "kN", "Pa": "MPa", "s": "h", "rad/s": "rpm", "m rad/s": "mm rpm", "N m": "N m"}
+#: The options for an input that is missing.
+_GIVE = {
+    "installation": "--length and --ends, or [installation]",
+    "limits.running_time": '--set limits.running_time="20000 h"',
+}
+
+
+def quantity_of(check: Check) -> Quantity:
+    """The quantity of a check, in the unit it is shown in."""
+    return Quantity(check.name, check.unit, Info("", check.name, _SHOWN_IN.get(check.unit, "")))
+
+
+def shown(check: Check, value: float | None) -> str:
+    """Four digits and the unit, without the exponent of programs."""
+    if value is None or not math.isfinite(value):
+        return "–"
+    quantity = quantity_of(check)
+    rounded = float(f"{value:.4g}") if quantity.unit == "1" else float(units.rounded(value, quantity))
+    return plain(f"{rounded:.6g}") + ("" if quantity.unit == "1" else f" {quantity.shown_in}")
+
+
+def check_lines(checks: Sequence[Check], give: Mapping[str, str] | None = None) -> list[str]:
+    """A line for each check: value, limit, share used, verdict; ``give`` names what to give for inputs it lacks."""
+    said = _GIVE if give is None else give
+    lines = [f"{'Checks':<26}{'value':>13} {'limit':>13} {'used':>7}  verdict"]
+    for check in checks:
+        used = used_of(check)
+        verdict = {True: "passes", False: "FAILS", None: ""}[check.holds]
+        explanation = check.text
+        if check.missing in said:
+            explanation = explanation.replace(check.missing, said[check.missing])
+        cells = f"{shown(check, check.value):>13} {shown(check, check.limit):>13} {used:>7}"
+        prefix = f"  {check.name.replace('_', ' '):<24}{cells}  "
+        lines.append(beside(prefix, ": ".join(filter(None, [verdict, explanation]))))
+    return lines
+
+
+def used_of(check: Check) -> str:
+    """The share of a limit that is used; a dash where there is no limit, or nothing is left of it."""
+    used = check.utilisation
+    return "–" if used is None or not math.isfinite(used) else f"{used:.1%}"

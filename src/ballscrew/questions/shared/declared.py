@@ -1,0 +1,236 @@
+"""Answers that are declared once: their document, its units and its schema follow from their annotations.
+
+An answer is a class: a dataclass, a named tuple, or a class whose public properties are annotated. Each part of it is a
+number with a unit (``Annotated[Torque, Info(...)]``), a truth value, a text, another answer, or a sequence or a mapping
+of these. A mapping that is annotated as a whole (``Annotated[Mapping[str, float], Unit("N")]``) has one unit in the
+document of units, one of annotated numbers (``Mapping[str, Force]``) a unit for each key.
+
+A part that may be None is null; one with :data:`LEFT_OUT` among its annotations is left out. Numbers that are not
+finite are null in JSON; those of a part with :data:`FINITE` always are.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import types
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Annotated, Any, NamedTuple, Union, get_args, get_origin, get_type_hints
+
+import numpy as np
+
+from ballscrew.basis.quantities import info_of, unit_of
+
+#: A part that is left out where it is None.
+LEFT_OUT = "left out"
+#: A part whose numbers are always finite.
+FINITE = "finite"
+
+
+class Part(NamedTuple):
+    """A part of an answer."""
+
+    name: str
+    annotation: Any
+    #: The docstring of the property, up to its first full stop; empty for fields.
+    words: str = ""
+
+    @property
+    def unit(self) -> str | None:
+        """The SI unit of a number, or of all numbers of a mapping; None of other parts."""
+        return unit_of(self.annotation)
+
+    @property
+    def meaning(self) -> str:
+        """What it is, for people."""
+        info = info_of(self.annotation)
+        return self.words if info is None else info.meaning
+
+    @property
+    def bare(self) -> Any:
+        """The annotation without what is said of it, and without None."""
+        return _bare(self.annotation)
+
+    @property
+    def may_be_none(self) -> bool:
+        """True for a part that may be None."""
+        return type(None) in get_args(_unwrapped(self.annotation))
+
+    @property
+    def left_out(self) -> bool:
+        """True for a part that is left out where it is None."""
+        return self._is(LEFT_OUT)
+
+    @property
+    def number(self) -> Any:
+        """The type of its numbers in JSON."""
+        return float if self._is(FINITE) else float | None
+
+    def _is(self, what: str) -> bool:
+        return get_origin(self.annotation) is Annotated and what in get_args(self.annotation)[1:]
+
+
+def _unwrapped(annotation: Any) -> Any:
+    return get_args(annotation)[0] if get_origin(annotation) is Annotated else annotation
+
+
+def _bare(annotation: Any) -> Any:
+    inner = _unwrapped(annotation)
+    if _is_union(inner):
+        several = [each for each in get_args(inner) if each is not type(None)]
+        return _bare(several[0]) if len(several) == 1 else Union[tuple(several)]  # noqa: UP007  (made at run time)
+    return inner
+
+
+def _is_union(annotation: Any) -> bool:
+    return isinstance(annotation, types.UnionType) or get_origin(annotation) is Union
+
+
+@functools.cache
+def parts_of(cls: type) -> Mapping[str, Part]:
+    """The parts of an answer by name: fields, then public properties, those of a base class first."""
+    found: dict[str, Part] = {}
+    fields = [field.name for field in dataclasses.fields(cls)] if dataclasses.is_dataclass(cls) else []
+    names = set(getattr(cls, "_fields", fields))  # those of a named tuple, or of a dataclass
+    if names:
+        hints = get_type_hints(cls, include_extras=True)
+        found |= {name: Part(name, hint) for name, hint in hints.items() if name in names and not name.startswith("_")}
+    for owner in reversed(cls.__mro__):
+        for name, member in vars(owner).items():
+            getter = member.fget if isinstance(member, property) else getattr(member, "func", None)
+            if name.startswith("_") or getter is None or not isinstance(member, property | functools.cached_property):
+                continue
+            annotation = get_type_hints(getter, include_extras=True).get("return")
+            found[name] = Part(name, annotation, (getter.__doc__ or "").partition(".")[0])
+    return found
+
+
+def is_answer(annotation: Any) -> bool:
+    """True for a class that is an answer of its own."""
+    return isinstance(annotation, type) and (
+        dataclasses.is_dataclass(annotation) or hasattr(annotation, "_fields") or issubclass(annotation, Answer)
+    )
+
+
+class Answer:
+    """An answer whose parts are annotated properties."""
+
+
+# -- document and units ---------------------------------------------------------------------------
+
+
+def document(value: Any) -> Any:
+    """An answer as plain tables, lists, numbers, truth values and texts, all in SI."""
+    if is_answer(type(value)):
+        return dict(_items(value))
+    if isinstance(value, Mapping):
+        return {str(key): document(each) for key, each in value.items()}
+    if isinstance(value, np.ndarray):
+        return [document(each) for each in value.tolist()]
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return [document(each) for each in value]
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def _items(answer: Any) -> Iterator[tuple[str, Any]]:
+    for name, part in parts_of(type(answer)).items():
+        value = getattr(answer, name)
+        if value is not None or not part.left_out:
+            yield name, document(value)
+
+
+def units(answer: Any) -> dict[str, Any]:
+    """The SI units of the numbers of an answer, in tables like its document; parts without numbers are not in it."""
+    found: dict[str, Any] = {}
+    for name, part in parts_of(type(answer)).items():
+        value = getattr(answer, name)
+        unit = None if value is None and part.left_out else _units(part, value)
+        if unit:
+            found[name] = unit
+    return found
+
+
+def _units(part: Part, value: Any) -> Any:
+    if part.unit is not None:
+        return part.unit
+    if is_answer(type(value)):
+        return units(value)
+    kind, inner = get_origin(part.bare) or part.bare, get_args(part.bare)
+    if is_answer(kind):
+        return units_of(kind)
+    if kind is Mapping:
+        each = Part(part.name, inner[1])
+        return {key: unit for key, one in (value or {}).items() if (unit := _units(each, one))}
+    if kind is Sequence:
+        return units_of(inner[0]) if is_answer(inner[0]) else unit_of(inner[0])
+    return None
+
+
+def units_of(cls: type) -> dict[str, Any]:
+    """The SI units of the numbers of an answer of a class."""
+    found = {name: part.unit for name, part in parts_of(cls).items()}
+    return {name: unit for name, unit in found.items() if unit is not None}
+
+
+# -- schema ---------------------------------------------------------------------------------------
+
+
+@functools.cache
+def schema(cls: type) -> Any:
+    """The response model of an answer: a name, a type and a description for each part."""
+    from ballscrew.questions.shared.answer_parts import Closed, model  # pydantic, which the command line does not need
+
+    fields = {each: _field(part) for each, part in parts_of(cls).items()}
+    return model(cls.__name__, _first_line(cls), Closed, **fields)
+
+
+@functools.cache
+def response(cls: type, name: str, *, judged: bool = False) -> Any:
+    """The response model of a document whose results are an answer; ``judged`` where its checks are of a screw."""
+    from ballscrew.questions.shared import answer_parts as parts
+
+    checks = parts.JudgedCheck if judged else parts.Record
+    return parts.model(
+        name,
+        _first_line(cls),
+        parts.Closed,
+        inputs=(parts.Tables, ...),
+        results=(schema(cls), ...),
+        units=(parts.Tables, ...),
+        verdicts=(list[parts.Record], ...),
+        checks=(list[checks], ...),
+        warnings=(list[parts.Record], ...),
+        provenance=(parts.Provenance, ...),
+    )
+
+
+def _first_line(cls: type) -> str:
+    return (cls.__doc__ or "").partition("\n")[0]
+
+
+def _field(part: Part) -> tuple[Any, Any]:
+    from ballscrew.questions.shared.answer_parts import field
+
+    # what may be left out has a default, which the description does not show
+    unit = part.unit or _unit_within(part.bare) or "1"
+    words = f"{part.meaning}, SI" if unit != "1" and part.meaning else part.meaning
+    kind = _kind(part)
+    return (kind | None if part.may_be_none else kind, field(words, unit, optional=part.left_out))
+
+
+def _unit_within(annotation: Any) -> str | None:
+    """The unit of the numbers in a sequence or a mapping; None of others."""
+    return next((unit for each in get_args(annotation) if (unit := unit_of(each) or _unit_within(each))), None)
+
+
+def _kind(part: Part) -> Any:
+    kind, inner = get_origin(part.bare) or part.bare, get_args(part.bare)
+    if kind is Mapping:
+        return dict[str, _kind(Part("", inner[1]))]
+    if kind is Sequence:
+        return list[part.number if unit_of(inner[0]) else _kind(Part("", inner[0]))]
+    if _is_union(part.bare):
+        return Union[tuple(_kind(Part("", each)) for each in inner)]  # noqa: UP007  (made at run time)
+    if part.unit is not None or kind is float:
+        return part.number
+    return schema(kind) if is_answer(kind) else part.bare  # a truth value, a text, one of several texts

@@ -1,0 +1,1 @@
+"""The results over the axes of a grid, in memory or in files."""

@@ -1,0 +1,1 @@
+"""The model against rows of makers and of publications."""

@@ -1,0 +1,1 @@
+"""Temperatures over hours, growth, preload, and the torque as they change it."""

@@ -1,1 +1,0 @@
-"""Questions about a case, computed: one module per question, a case in, a frozen value out."""

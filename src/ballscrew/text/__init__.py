@@ -1,1 +1,0 @@
-"""Text on the terminal: one module per question"""

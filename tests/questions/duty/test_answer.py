@@ -1,0 +1,93 @@
+"""The answer of a duty: declared once, and the same on every face."""
+
+import math
+
+import pytest
+
+from ballscrew.cases.case_files import case_file
+from ballscrew.faces.report import duty_section
+from ballscrew.faces.web.vocabulary import vocabulary
+from ballscrew.questions.duty import compute, document, table, text
+from ballscrew.questions.duty.answer import DutyResults
+from ballscrew.questions.duty.compute import IF_ANY, NUMBERS
+from ballscrew.questions.shared import declared
+from support.commands import ROOT
+
+EXAMPLES = ROOT / "examples"
+
+
+def report_of(*settings, example="vertical_axis.toml"):
+    tables = case_file.override(case_file.read(EXAMPLES / example), list(settings))
+    return compute.duty(case_file.build(tables, None, EXAMPLES, moves=True))
+
+
+@pytest.fixture(scope="module")
+def report():
+    return report_of()
+
+
+def test_every_number_is_on_every_face(report):
+    """A number is one property: nothing else has to name it."""
+    answer, schema = document.document(report), declared.schema(DutyResults).model_json_schema()["properties"]
+    rows, words = {row[0] for row in table.numbers(report).rows}, text.text(report)
+    of_report = {row[0] for row in duty_section._numbers(report, None).rows}
+    for name, quantity in NUMBERS.items():
+        meaning = quantity.info.meaning
+        assert math.isfinite(answer["results"][name])
+        assert answer["units"][name] == quantity.unit == schema[name].get("x-si-unit", "1")
+        assert schema[name]["description"].startswith(meaning)
+        assert meaning in rows
+        assert vocabulary()["of_cycle"][name]["meaning"] == meaning
+        if name in text.shown_numbers(report):
+            assert meaning in words
+            assert meaning in of_report
+    assert set(NUMBERS) - set(text.shown_numbers(report)) <= set(IF_ANY)
+
+
+CASES = {
+    "as it is": (),
+    "starved of oil": ("lubricant.temperature=-5 degC",),
+    "by the rule": ("model.name=constant-efficiency", "model.efficiency=0.9"),
+}
+
+
+@pytest.mark.parametrize("example", ["vertical_axis.toml", "feed_axis.toml"])
+@pytest.mark.parametrize("settings", CASES.values(), ids=CASES)
+def test_answers_are_valid_by_their_schema(example, settings):
+    found = document.document(report_of(*settings, example=example))
+    declared.response(DutyResults, "Duty", judged=True).model_validate(found)
+
+
+def units_within(results, units, path=""):
+    """Numbers of results without a unit, by their path."""
+    for name, value in results.items():
+        unit = units.get(name) if isinstance(units, dict) else units
+        if isinstance(value, dict):
+            yield from units_within(value, unit or {}, f"{path}{name}.")
+        elif isinstance(value, list) and value and isinstance(value[0], dict):
+            yield from units_within(value[0], unit or {}, f"{path}{name}.")
+        elif isinstance(value, float) and not unit:
+            yield path + name
+
+
+def test_every_number_has_a_unit(report):
+    found = document.document(report)
+    # a share of a torque that changes with the speed: no quantity
+    assert set(units_within(found["results"], found["units"])) <= {"motor.utilisation"}
+
+
+def test_numbers_of_a_full_bath_are_those_of_the_flooded_cycle():
+    report = report_of("lubricant.temperature=-5 degC")
+    flooded = report.duty.flooded
+    assert report.full_bath["energy_lost"] == pytest.approx(flooded.energy_lost, rel=1e-12)
+    assert report.full_bath["torque_peak"] == pytest.approx(flooded.torque_peak, rel=1e-12)
+    assert report.full_bath["energy_lost"] > 2 * report.numbers["energy_lost"]
+
+
+@pytest.mark.parametrize(("kind", "unit"), [(compute.PositionSmoothing, "m"), (compute.SpeedSmoothing, "m/s")])
+def test_the_noise_of_a_recorded_motion_has_the_unit_of_what_was_recorded(kind, unit):
+    found = kind(100, 3, 1e-6, 0.1, 2.0)
+    assert declared.units(found) == {"noise": unit, "acceleration_noise": "m/s^2", "torque_rms_unsmoothed": "N m"}
+    assert list(declared.document(found)) == [
+        "samples", "half_width", "noise", "acceleration_noise", "torque_rms_unsmoothed",
+    ]  # fmt: skip

@@ -1,0 +1,106 @@
+"""Answers declared once: document, units and schema follow from the annotations."""
+
+from collections.abc import Mapping, Sequence
+from typing import Annotated, NamedTuple
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from ballscrew.basis.quantities import Force, Info, Length, Torque, Unit
+from ballscrew.questions.shared import declared
+from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, Answer
+
+
+class Point(NamedTuple):
+    name: str
+    place: Length
+
+
+class Path(Answer):
+    """A path."""
+
+    def __init__(self, ends=None, motor=None):
+        self._ends, self._motor = ends, motor
+
+    @property
+    def torque(self) -> Annotated[Torque, Info("M", "torque along the path", "N mm")]:
+        """Not read: the meaning is that of the annotation."""
+        return np.float64(1.5)
+
+    @property
+    def loads(self) -> Mapping[str, Force]:
+        """Load of each half. More of it."""
+        return {"left": 1.0, "right": np.float64(2.0)}
+
+    @property
+    def lives(self) -> Annotated[Mapping[str, float], Unit("1")]:
+        """Lives."""
+        return {"left": 3.0}
+
+    @property
+    def places(self) -> Annotated[Sequence[Length], FINITE]:
+        """Places."""
+        return np.array([0.0, 0.5])
+
+    @property
+    def points(self) -> Sequence[Point]:
+        """Points."""
+        return [Point("start", 0.0)]
+
+    @property
+    def holds(self) -> bool:
+        """True where it holds."""
+        return np.bool_(True)
+
+    @property
+    def ends(self) -> Point | None:
+        """Its end, null where there is none."""
+        return self._ends
+
+    @property
+    def motor(self) -> Annotated[Point | None, LEFT_OUT]:
+        """The motor, where there is one."""
+        return self._motor
+
+
+DOCUMENT = {
+    "torque": 1.5, "loads": {"left": 1.0, "right": 2.0}, "lives": {"left": 3.0}, "places": [0.0, 0.5],
+    "points": [{"name": "start", "place": 0.0}], "holds": True, "ends": None,
+}  # fmt: skip
+UNITS = {
+    "torque": "N m", "loads": {"left": "N", "right": "N"}, "lives": "1", "places": "m", "points": {"place": "m"},
+    "ends": {"place": "m"},
+}  # fmt: skip
+
+
+def test_a_document_has_each_part():
+    found = declared.document(Path())
+    assert found == DOCUMENT
+    assert [type(found[name]) for name in ("torque", "holds")] == [float, bool]
+    assert declared.document(Path(motor=Point("m", 2.0)))["motor"] == {"name": "m", "place": 2.0}
+
+
+def test_units_have_the_tables_of_the_document():
+    assert declared.units(Path()) == UNITS
+    assert declared.units(Path(motor=Point("m", 2.0))) == UNITS | {"motor": {"place": "m"}}
+
+
+def test_a_schema_describes_each_part():
+    schema = declared.schema(Path).model_json_schema()
+    assert schema["description"] == "A path."
+    torque = schema["properties"]["torque"]
+    assert (torque["description"], torque["x-si-unit"]) == ("torque along the path, SI", "N m")
+    assert schema["properties"]["loads"]["description"] == "Load of each half, SI"
+    assert schema["properties"]["points"]["items"] == {"$ref": "#/$defs/Point"}
+    assert schema["required"] == list(DOCUMENT)
+    assert schema["properties"]["places"]["items"] == {"type": "number"}
+    assert {"type": "null"} in torque["anyOf"]
+
+
+def test_a_document_is_valid_by_its_schema_and_another_is_not():
+    model = declared.schema(Path)
+    model.model_validate(DOCUMENT)
+    for wrong in ({**DOCUMENT, "more": 1}, {**DOCUMENT, "places": "none"}, {"torque": 1.0}):
+        with pytest.raises(ValidationError):
+            model.model_validate(wrong)
