@@ -7,8 +7,8 @@ from pathlib import Path
 
 import httpx
 
-from ballscrew.web import bodies, connections, jobs, limits, log_bodies, problems, request_queue
-from ballscrew.web.server import application
+from ballscrew.faces.web import bodies, connections, jobs, limits, log_bodies, problems, request_queue
+from ballscrew.faces.web.server import application
 
 #: The case of the examples, as Python source.
 CASE = """\

@@ -16,13 +16,14 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.mixed_friction import LoadSharing, RunInSharing
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.figures import files, style
-from ballscrew.friction.model import FrictionModel
-from ballscrew.supports.bearing import SupportBearing
-from ballscrew.supports.makers_bearing import SKFBearing
+from ballscrew.axis.supports.bearing import SupportBearing
+from ballscrew.axis.supports.makers_bearing import SKFBearing
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.mixed_friction import LoadSharing, RunInSharing
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.questions.shared import chart_files as files
+from ballscrew.questions.shared import chart_style as style
 
 DENSITY = 870.0
 SPEEDS, VISCOSITIES, SHARES = (30.0, 100.0, 300.0, 1000.0, 3000.0), (20.0, 68.0, 200.0), (0.02, 0.05, 0.10)

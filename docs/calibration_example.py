@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 
 import ballscrew as bs
-from ballscrew.cases import case_file
-from ballscrew.torque_logs import reading
+from ballscrew.cases.case_files import case_file
+from ballscrew.files.torque_logs import reading
 
 case = case_file.load(Path("examples/rig.toml"))
 log = reading.read(Path("examples/rig_log.csv"))  # or arrays by name in SI: {"axial_load": ..., "torque": ...}

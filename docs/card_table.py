@@ -1,6 +1,6 @@
 """Tables of what a torque card holds, from the models that check it."""
 
-from ballscrew.torque_cards.torque_card import json_schema
+from ballscrew.cases.torque_cards.torque_card import json_schema
 
 
 def tables() -> str:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ballscrew.quantities import Quantity
-from ballscrew.screw_tables.catalogue import COLUMNS
-from ballscrew.tables.headings import Column
-from ballscrew.units import example_of
+from ballscrew.basis.quantities import Quantity
+from ballscrew.basis.units import example_of
+from ballscrew.cases.screw_tables.catalogue import COLUMNS
+from ballscrew.files.tables.headings import Column
 
 
 def column_table() -> str:

@@ -56,7 +56,7 @@ def generate(_app):
     import theory_figures
     import uncertainty_tables
     import warm_up_tables
-    from ballscrew.cli.reproduction import reproduce_olaru2005
+    from ballscrew.faces.cli.reproduction import reproduce_olaru2005
     from card_table import tables as card_tables
     from column_table import column_table
     from field_table import field_table

@@ -12,12 +12,12 @@ import math
 from types import SimpleNamespace
 from typing import Any
 
-from ballscrew.axis.axis import GRAVITY, Axis
-from ballscrew.axis.cycle_life import CycleLife
-from ballscrew.axis.duty import Duty, duty
-from ballscrew.axis.vendor_rule import VendorRule
-from ballscrew.components.nut import SingleNut
-from ballscrew.motion.profiles import Motion, Segment, Segments, Trapezoid
+from ballscrew.axis.duty_cycle.axis import GRAVITY, Axis
+from ballscrew.axis.duty_cycle.cycle_life import CycleLife
+from ballscrew.axis.duty_cycle.duty import Duty, duty
+from ballscrew.axis.duty_cycle.vendor_rule import VendorRule
+from ballscrew.axis.motion.profiles import Motion, Segment, Segments, Trapezoid
+from ballscrew.physics.components.nut import SingleNut
 
 
 @dataclasses.dataclass(frozen=True)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from ballscrew.figures import style
-from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.result import MECHANISMS
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.result import MECHANISMS
+from ballscrew.questions.shared import chart_style as style
 from effect_study import curves, law_figures
 from effect_study import effect_figures as figures
 from effect_study.cases import CASES, RPM, effects, sensitivities

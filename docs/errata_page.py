@@ -12,14 +12,14 @@ from collections.abc import Callable
 from pathlib import Path
 
 import make_equation_table
-from ballscrew.equations import friction, hertz, rolling
-from ballscrew.friction.model import PAPER_FRICTION, FrictionModel
-from ballscrew.papers.olaru2005.repairs import REPAIRS, Repair, repairs
-from ballscrew.references import PaperEquation, paper_equations
+from ballscrew.basis.references import PaperEquation, paper_equations
+from ballscrew.evidence.papers.olaru2005.repairs import REPAIRS, Repair, repairs
+from ballscrew.physics.equations import friction, hertz, rolling
+from ballscrew.physics.friction.model import PAPER_FRICTION, FrictionModel
 from effect_study.cases import PAPER, RPM
 
 PRINTED, CORRECTED = FrictionModel.olaru2005(), FrictionModel.corrected()
-ERRATA_TESTS = "papers/test_errata.py::"
+ERRATA_TESTS = "evidence/papers/test_errata.py::"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -165,7 +165,7 @@ def imposed_offset() -> str:
     )
 
 
-E = "ballscrew.equations."
+E = "ballscrew.physics.equations."
 ERRATA = (
     Erratum(
         "The film is too thick",
@@ -310,7 +310,9 @@ def _held_by(equations: list[PaperEquation]) -> str:
     ]
     assert names, equations
     return (
-        "**Held by** " + ", ".join(f"`{name}`" for name in dict.fromkeys(names)) + " in `tests/papers/test_errata.py`."
+        "**Held by** "
+        + ", ".join(f"`{name}`" for name in dict.fromkeys(names))
+        + " in `tests/evidence/papers/test_errata.py`."
     )
 
 

@@ -8,25 +8,25 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from ballscrew import units
-from ballscrew.axis.axis import Axis
-from ballscrew.axis.motor import Motor
-from ballscrew.case_schema.duty_schema import MOTIONS
-from ballscrew.case_schema.fields import example_of
-from ballscrew.components.data_sheet import DataSheet
-from ballscrew.components.materials import Lubricant, Material, grades
-from ballscrew.components.nut import Bodies, Scatter
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.components.screw import MATERIALS, BallScrew
-from ballscrew.friction.model import FrictionModel
-from ballscrew.motion.profiles import Segment, Trapezoid
-from ballscrew.quantities import Quantity, fields_of
-from ballscrew.screw_tables.nut_kinds import ENDS, LISTED, LOSSES, NUTS
-from ballscrew.sizing.installation import Installation, Limits
-from ballscrew.supports.element_laws import BEARING_LAWS, GUIDE_LAWS, STATICS
-from ballscrew.supports.guide import LinearGuide
-from ballscrew.supports.mounted_bearing import MountedBearing
-from ballscrew.thermal.surroundings import Surroundings
+from ballscrew.axis.duty_cycle.axis import Axis
+from ballscrew.axis.duty_cycle.motor import Motor
+from ballscrew.axis.motion.profiles import Segment, Trapezoid
+from ballscrew.axis.supports.element_laws import BEARING_LAWS, GUIDE_LAWS, STATICS
+from ballscrew.axis.supports.guide import LinearGuide
+from ballscrew.axis.supports.mounted_bearing import MountedBearing
+from ballscrew.axis.thermal.surroundings import Surroundings
+from ballscrew.basis import units
+from ballscrew.basis.quantities import Quantity, fields_of
+from ballscrew.cases.schema.duty_schema import MOTIONS
+from ballscrew.cases.schema.fields import example_of
+from ballscrew.cases.screw_tables.nut_kinds import ENDS, LISTED, LOSSES, NUTS
+from ballscrew.physics.components.data_sheet import DataSheet
+from ballscrew.physics.components.materials import Lubricant, Material, grades
+from ballscrew.physics.components.nut import Bodies, Scatter
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.screw import MATERIALS, BallScrew
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.sizing.installation import Installation, Limits
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "feed_drive.toml"
 

@@ -6,9 +6,9 @@ import dataclasses
 from collections.abc import Iterator
 from typing import Any
 
-from ballscrew.case_schema.schema import LAWS, MODELS, coefficients_of, name_of_law
-from ballscrew.quantities import fields_of
-from ballscrew.units import shown
+from ballscrew.basis.quantities import fields_of
+from ballscrew.basis.units import shown
+from ballscrew.cases.schema.schema import LAWS, MODELS, coefficients_of, name_of_law
 
 #: Purpose of each slot.
 SLOTS = {

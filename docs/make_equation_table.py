@@ -15,8 +15,8 @@ import pkgutil
 from collections.abc import Iterator
 from pathlib import Path
 
-import ballscrew.equations
-from ballscrew.references import addresses_in, paper_equations
+import ballscrew.physics.equations
+from ballscrew.basis.references import addresses_in, paper_equations
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGE = ROOT / "docs" / "equations.md"
@@ -29,7 +29,7 @@ HEAD = """\
 
 The {count} numbered equations of Olaru et al. (2005), the functions that implement them, and the tests that check
 them. The paper uses the numbers (22) to (26) twice, so an equation is named by section and number. Where the verdict
-is not simply "right", a test in `papers/test_errata.py` shows what is wrong.
+is not simply "right", a test in `evidence/papers/test_errata.py` shows what is wrong.
 
 | address | what | verdict | functions | tests |
 |---|---|---|---|---|
@@ -37,10 +37,10 @@ is not simply "right", a test in `papers/test_errata.py` shows what is wrong.
 
 
 def functions() -> dict[str, list[str]]:
-    """For each address, the functions of ``ballscrew.equations`` whose docstrings name it."""
+    """For each address, the functions of ``ballscrew.physics.equations`` whose docstrings name it."""
     found: dict[str, list[str]] = {}
-    for module_info in pkgutil.iter_modules(ballscrew.equations.__path__):
-        module = importlib.import_module(f"ballscrew.equations.{module_info.name}")
+    for module_info in pkgutil.iter_modules(ballscrew.physics.equations.__path__):
+        module = importlib.import_module(f"ballscrew.physics.equations.{module_info.name}")
         for name, function in inspect.getmembers(module, inspect.isfunction):
             if function.__module__ == module.__name__ and not name.startswith("_"):
                 for address in dict.fromkeys(addresses_in(inspect.getdoc(function))):

@@ -9,8 +9,8 @@ import sys
 import textwrap
 from pathlib import Path
 
-from ballscrew.cli.reproduction import claims_table
-from ballscrew.figures import style
+from ballscrew.faces.cli.reproduction import claims_table
+from ballscrew.questions.shared import chart_style as style
 
 HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "tests")]

@@ -1,12 +1,15 @@
-"""Write the table of rooms in CONTRIBUTING.md: subject, size and imports of each package, and the number of cycles.
+"""Write the tables of folders and rooms in CONTRIBUTING.md: subject, size, cohesion and imports of each.
 
-``make rooms``. The import graph is that of import-linter: type-only and lazy imports count.
+``make rooms``. The import graph is that of import-linter, type-only and lazy imports included, and modules named in
+strings, which are imported when they are needed. Cohesion is the share of imports that stay within: of all imports
+from or to modules of the room, without those of ``basis``, which all rooms use.
 """
 
 from __future__ import annotations
 
 import ast
-from collections.abc import Mapping
+import re
+from collections.abc import Callable, Iterator, Mapping
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -17,19 +20,20 @@ HERE = Path(__file__).parent.parent
 SOURCE = HERE / "src" / "ballscrew"
 CONTRIBUTING = HERE / "CONTRIBUTING.md"
 BEGIN, END = "<!-- rooms: begin -->", "<!-- rooms: end -->"
-#: The row of the modules that are in no room.
-TOP = "top modules"
-TOP_SUBJECT = "Quantities and units, errors, records, references, atomic files, arrays"
+#: The public face: it loads what is asked for by name, and is no folder.
+FACE = "ballscrew"
+BASIS = "basis"
 
 
 class Room(NamedTuple):
-    """A package directly under ``ballscrew``."""
+    """A folder below ``ballscrew``, or a package in it as ``folder/room``."""
 
     name: str
     subject: str
     #: Lines of each file, by its path in the room.
     files: Mapping[str, int]
     imports: frozenset[str]
+    cohesion: float
 
     @property
     def lines(self) -> int:
@@ -39,23 +43,63 @@ class Room(NamedTuple):
 
 @cache
 def modules() -> Mapping[str, frozenset[str]]:
-    """The modules that each module of the package imports."""
+    """The modules that each module imports."""
     graph = grimp.build_graph("ballscrew", cache_dir=None)
     return {module: frozenset(graph.find_modules_directly_imported_by(module)) for module in graph.modules}
 
 
+@cache
+def named(module: str) -> frozenset[str]:
+    """Modules that are named in the strings of a module; in an f-string the package before the first value counts."""
+    text = source(module).read_text(encoding="utf-8")
+    strings = (node.value for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Constant))
+    found = (re.fullmatch(r"(ballscrew(?:\.\w+)+)\.?(?::\w+)?", text) for text in strings if isinstance(text, str))
+    return frozenset(match[1] for match in found if match and match[1] in modules()) - {module}
+
+
+def source(module: str) -> Path:
+    """The file of a module."""
+    path = SOURCE.parent / module.replace(".", "/")
+    return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+
+
+def folder_of(module: str) -> str:
+    """The folder of a module, such as ``physics``."""
+    return module.split(".")[1]
+
+
 def room_of(module: str) -> str:
-    """The room of a module."""
-    name = [*module.split("."), ""][1]
-    return name if (SOURCE / name / "__init__.py").is_file() and name else TOP
+    """The room of a module, such as ``physics/friction``; the folder for what is in no room of it."""
+    parts = module.split(".")[1:3]
+    return "/".join(parts) if (SOURCE / "/".join(parts)).is_dir() else parts[0]
 
 
-def arrows() -> dict[str, frozenset[str]]:
-    """The rooms that each room imports."""
-    found: dict[str, set[str]] = {}
+def edges(place: Callable[[str], str]) -> Iterator[tuple[str, str]]:
+    """The place of each importing module with that of the imported one."""
     for module, imported in modules().items():
-        found.setdefault(room_of(module), set()).update(map(room_of, imported))
-    return {room: frozenset(others - {room}) for room, others in found.items()}
+        if module != FACE:
+            for other in (imported | named(module)) - {FACE}:
+                yield place(module), place(other)
+
+
+def arrows(place: Callable[[str], str]) -> dict[str, frozenset[str]]:
+    """The places that each place imports."""
+    found: dict[str, set[str]] = {place(module): set() for module in modules() if module != FACE}
+    for one, other in edges(place):
+        found[one].add(other)
+    return {name: frozenset(others - {name}) for name, others in found.items()}
+
+
+def of_the_basis(name: str) -> bool:
+    """True for the basis and for rooms in it."""
+    return name.split("/")[0] == BASIS
+
+
+def cohesion(name: str, place: Callable[[str], str]) -> float:
+    """Share of the imports from or to a place that stay in it, without those of the basis; 0 without any."""
+    whole = of_the_basis(name)
+    ours = [pair for pair in edges(place) if name in pair and (whole or not any(map(of_the_basis, pair)))]
+    return sum(one == other for one, other in ours) / len(ours) if ours else 0.0
 
 
 def cycles(graph: Mapping[str, frozenset[str]]) -> list[list[str]]:
@@ -91,50 +135,64 @@ def lines_of(path: Path) -> int:
     return len(path.read_text(encoding="utf-8").splitlines())
 
 
-def rooms() -> list[Room]:
-    """The rooms, each above those it imports."""
-    graph = arrows()
-    depth: dict[str, int] = {}
+def heights(graph: Mapping[str, frozenset[str]]) -> dict[str, int]:
+    """Longest way down from each place."""
+    found: dict[str, int] = {}
 
     def height(name: str) -> int:
-        if name not in depth:
-            depth[name] = 0  # ends the recursion in a cycle, which the test reports
-            depth[name] = 1 + max((height(other) for other in graph[name]), default=0)
-        return depth[name]
+        if name not in found:
+            found[name] = 0  # ends the recursion in a circle, which the test reports
+            found[name] = 1 + max((height(other) for other in graph[name]), default=0)
+        return found[name]
 
+    for name in sorted(graph):
+        height(name)
+    return found
+
+
+def rooms(place: Callable[[str], str]) -> list[Room]:
+    """The folders, or the rooms in them, each above those it imports."""
+    graph = arrows(place)
+    high = heights(graph)
+    folders = heights(arrows(folder_of))
     found: list[Room] = []
-    for name in sorted(graph, key=lambda name: (name == TOP, -height(name), name)):
-        folder = SOURCE if name == TOP else SOURCE / name
-        paths = sorted(folder.glob("*.py") if name == TOP else folder.rglob("*.py"))
+    for name in sorted(graph, key=lambda name: (-folders[name.split("/")[0]], -high[name], name)):
+        folder = SOURCE / name
+        # what is beside the rooms of a folder, or all of it
+        paths = sorted(folder.glob("*.py") if place is room_of and "/" not in name else folder.rglob("*.py"))
         docstring = ast.get_docstring(ast.parse((folder / "__init__.py").read_text(encoding="utf-8"))) or ""
-        subject = TOP_SUBJECT if name == TOP else docstring.partition("\n")[0].rstrip(".")
         files = {path.relative_to(folder).as_posix(): lines_of(path) for path in paths}
-        found.append(Room(name, subject, files, graph[name]))
+        subject = docstring.partition("\n")[0].rstrip(".")
+        found.append(Room(name, subject, files, graph[name], cohesion(name, place)))
     return found
 
 
 def table() -> str:
-    """The table and the figures below it."""
-    found = rooms()
-    lines = ["| room | subject | files | lines | largest file | imports |", "|---|---|---|---|---|---|"]
-    for room in found:
-        largest = max(room.files, key=lambda name: room.files[name])
-        imports = ", ".join(f"`{name}`" for name in sorted(room.imports - {TOP}))
-        name = room.name if room.name == TOP else f"`{room.name}/`"
-        size = f"{room.files[largest]} (`{largest}`)"
-        lines.append(f"| {name} | {room.subject} | {len(room.files)} | {room.lines} | {size} | {imports} |")
-    largest_room = max(found, key=lambda room: room.lines)
-    total, files = sum(room.lines for room in found), sum(len(room.files) for room in found)
+    """The folders, the rooms in them, and the figures below."""
+    folders = rooms(folder_of)
+    lines = ["| folder | subject | files | lines | cohesion | imports |", "|---|---|---|---|---|---|"]
+    for each in folders:
+        imports = ", ".join(f"`{name}`" for name in sorted(each.imports))
+        lines.append(
+            f"| `{each.name}/` | {each.subject} | {len(each.files)} | {each.lines} | {each.cohesion:.2f} | {imports} |"
+        )
+    lines += ["", "| room | subject | files | lines | cohesion |", "|---|---|---|---|---|"]
+    lines += [
+        f"| `{each.name}/` | {each.subject} | {len(each.files)} | {each.lines} | {each.cohesion:.2f} |"
+        for each in rooms(room_of)
+        if "/" in each.name
+    ]
+    total, files = sum(each.lines for each in folders), sum(len(each.files) for each in folders)
     lines += [
         "",
-        f"Import cycles: {len(cycles(arrows()))} between rooms, {len(cycles(modules()))} between modules. Largest "
-        f"room: `{largest_room.name}`, {largest_room.lines} lines. In all: {total} lines in {files} files.",
+        f"Circles of imports: {len(cycles(arrows(folder_of)))} between folders, {len(cycles(modules()))} between "
+        f"modules. In all: {total} lines in {files} files.",
     ]
     return "\n".join(lines)
 
 
 def page(text: str) -> str:
-    """The text of CONTRIBUTING.md with the table of today."""
+    """The text of CONTRIBUTING.md with the tables of today."""
     before, _, rest = text.partition(BEGIN)
     _, _, after = rest.partition(END)
     return f"{before}{BEGIN}\n{table()}\n{END}{after}"
@@ -142,3 +200,4 @@ def page(text: str) -> str:
 
 if __name__ == "__main__":
     CONTRIBUTING.write_text(page(CONTRIBUTING.read_text(encoding="utf-8")), encoding="utf-8")
+    print(table())

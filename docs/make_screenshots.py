@@ -20,7 +20,7 @@ CASE = ROOT / "examples" / "catalogue_screw.toml"
 START = ROOT / "out" / "docs" / "index.html"
 DOUBLE = "rexroth-40x10x6-6-double"
 LARGEST = 300_000  # bytes of a picture
-COMMAND = [sys.executable, "-m", "ballscrew.cli"]
+COMMAND = [sys.executable, "-m", "ballscrew.faces.cli"]
 
 DESKTOP, PHONE = {"width": 1360, "height": 1500}, {"width": 390, "height": 844}
 OF_PAGE = {
@@ -71,7 +71,10 @@ def of_cards(browser: Browser, address: str) -> None:
     for name, (card, fragment) in OF_CARDS.items():
         page = browser.new_page(viewport=TALL, device_scale_factor=0.75)
         page.goto(f"{address}/{fragment}")
-        page.wait_for_selector(f"#{card} .card-result[aria-busy=false] .main-svg")
+        page.wait_for_selector(f"#{card} .card-result[aria-busy=false]")
+        for chart in page.locator(f"#{card} .chart:visible").all():  # drawn when it is seen
+            chart.scroll_into_view_if_needed()
+            chart.locator(".main-svg").first.wait_for()
         page.wait_for_timeout(2000)
         save(name, page.locator(f"section[aria-labelledby={card}-title]").screenshot())
         page.close()

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from accuracy_table import printed
-from ballscrew.figures import style
+from ballscrew.questions.shared import chart_style as style
 from effect_study import nut_figures
 
 #: Random screws of the table: a quarter of those of the benchmark tell the same, in a quarter of its 40 s.

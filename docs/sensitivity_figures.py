@@ -4,11 +4,11 @@ import contextlib
 import io
 from pathlib import Path
 
-from ballscrew.cases import case_file
-from ballscrew.figures import sensitivity as figures
-from ballscrew.figures import style
-from ballscrew.studies import sensitivity
-from ballscrew.text import sensitivity as text
+from ballscrew.cases.case_files import case_file
+from ballscrew.questions.sensitivity import compute as sensitivity
+from ballscrew.questions.sensitivity import figure as figures
+from ballscrew.questions.sensitivity import text
+from ballscrew.questions.shared import chart_style as style
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "feed_drive.toml"
 

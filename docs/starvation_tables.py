@@ -18,12 +18,12 @@ from pathlib import Path
 from typing import NamedTuple
 
 import ballscrew as bs
-from ballscrew.axis_studies.duty import duty
-from ballscrew.axis_studies.warm_up import load, warmed_up
-from ballscrew.cases import case_file
-from ballscrew.friction.starvation import differs
-from ballscrew.studies.run import run
-from ballscrew.thermal.friction_map import COLDEST
+from ballscrew.axis.thermal.friction_map import COLDEST
+from ballscrew.cases.case_files import case_file
+from ballscrew.physics.friction.starvation import differs
+from ballscrew.questions.duty.compute import duty
+from ballscrew.questions.run.compute import run
+from ballscrew.questions.warm_up.compute import load, warmed_up
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 #: Temperatures of the oil, or of the hall, °C.

@@ -12,11 +12,11 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Circle, Ellipse
 
 import theory_screw_figures
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.mixed_friction import LoadSharing
-from ballscrew.equations import film, geometry, hertz, kinematics, rheology, rolling
-from ballscrew.figures import style
-from ballscrew.friction.model import PAPER_FRICTION, FrictionModel
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.mixed_friction import LoadSharing
+from ballscrew.physics.equations import film, geometry, hertz, kinematics, rheology, rolling
+from ballscrew.physics.friction.model import PAPER_FRICTION, FrictionModel
+from ballscrew.questions.shared import chart_style as style
 from effect_study.cases import CASES, CATALOGUE, PAPER, RPM, Case
 from effect_study.effect_figures import SPEED, case_caption, mathtext, titled
 

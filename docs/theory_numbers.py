@@ -5,9 +5,9 @@ from __future__ import annotations
 import dataclasses
 import math
 
-from ballscrew.components.materials import Lubricant
-from ballscrew.equations import friction, hertz, kinematics, preload, transmission
-from ballscrew.friction.model import FrictionModel
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.equations import friction, hertz, kinematics, preload, transmission
+from ballscrew.physics.friction.model import FrictionModel
 from effect_study.cases import CASES, CATALOGUE
 
 REFERENCE = FrictionModel.reference()

@@ -8,13 +8,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew.components.materials import Lubricant
-from ballscrew.equations import life, preload, slip, transmission
-from ballscrew.figures import style
-from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.result import MECHANISMS
-from ballscrew.papers.olaru2005.repairs import repairs
-from ballscrew.solvers.line_slip import creep_of_lines, pure_rolling_lines
+from ballscrew.evidence.papers.olaru2005.repairs import repairs
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.equations import life, preload, slip, transmission
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.result import MECHANISMS
+from ballscrew.physics.solvers.line_slip import creep_of_lines, pure_rolling_lines
+from ballscrew.questions.shared import chart_style as style
 from effect_study.cases import CASES, CATALOGUE, PAPER, RPM
 from effect_study.curves import over_lead
 from effect_study.effect_figures import case_caption, mathtext

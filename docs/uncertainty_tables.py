@@ -13,20 +13,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ballscrew.cases import case_file
-from ballscrew.components.nut import DoubleNut, Nut, OversizeBallNut
-from ballscrew.components.operating_state import OperatingState
-from ballscrew.figures import band as figures
-from ballscrew.figures import style
-from ballscrew.friction.calibrations import calibrated, calibration
-from ballscrew.friction.model import FrictionModel
-from ballscrew.screw_tables.nut_kinds import NUTS
-from ballscrew.studies import band
-from ballscrew.studies.validation import shipped_rows
-from ballscrew.uncertainty.default_uncertainties import JUDGEMENT, DefaultUncertainty, default_uncertainties
-from ballscrew.validation.entries import Conditions, Values
-from ballscrew.validation.rows import screw_of
-from ballscrew.validation.sets import SETS
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.screw_tables.nut_kinds import NUTS
+from ballscrew.engine.uncertainty.default_uncertainties import JUDGEMENT, DefaultUncertainty, default_uncertainties
+from ballscrew.evidence.validation.entries import Conditions, Values
+from ballscrew.evidence.validation.rows import screw_of
+from ballscrew.evidence.validation.sets import SETS
+from ballscrew.physics.components.nut import DoubleNut, Nut, OversizeBallNut
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.friction.calibrations import calibrated, calibration
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.questions.band import compute as band
+from ballscrew.questions.band import figure as figures
+from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.validate.compute import shipped_rows
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 #: Where the coverage stands: too slow for each build of the pages.

@@ -10,17 +10,17 @@ import sys
 import textwrap
 from pathlib import Path
 
-from ballscrew.components.nut import DoubleNut, OversizeBallNut
-from ballscrew.figures import files
-from ballscrew.figures import validation as figures
-from ballscrew.friction.calibrations import calibrated, calibration, calibrations
-from ballscrew.friction.model import FrictionModel
-from ballscrew.sizing.catalogue import catalogue
-from ballscrew.sizing.rules import RULES
-from ballscrew.studies import validation
-from ballscrew.text import validation as text_of
-from ballscrew.validation.entries import DESCRIPTORS, Conditions, trends
-from ballscrew.validation.rows import ACCURACY_FACTOR, OTHER_FACTORS
+from ballscrew.evidence.validation.entries import DESCRIPTORS, Conditions, trends
+from ballscrew.evidence.validation.rows import ACCURACY_FACTOR, OTHER_FACTORS
+from ballscrew.physics.components.nut import DoubleNut, OversizeBallNut
+from ballscrew.physics.friction.calibrations import calibrated, calibration, calibrations
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.sizing.catalogue import catalogue
+from ballscrew.physics.sizing.rules import RULES
+from ballscrew.questions.shared import chart_files as files
+from ballscrew.questions.validate import compute as validation
+from ballscrew.questions.validate import figure as figures
+from ballscrew.questions.validate import text as text_of
 
 SCRIPT = Path(__file__).parents[1] / "benchmarks" / "fit_calibration.py"
 SYMBOLS = {"boundary_friction_coefficient": "µ₀", "share_of_load": "F_B/Q"}

@@ -21,12 +21,12 @@ from pathlib import Path
 import numpy as np
 
 import ballscrew as bs
-from ballscrew.axis.duty import Duty
-from ballscrew.thermal.equilibrium import equilibrium
-from ballscrew.thermal.friction_map import FrictionMap
-from ballscrew.thermal.network import Network, network_of
-from ballscrew.thermal.surroundings import Surroundings
-from ballscrew.thermal.warm_up_band import WarmUpBand
+from ballscrew.axis.duty_cycle.duty import Duty
+from ballscrew.axis.thermal.equilibrium import equilibrium
+from ballscrew.axis.thermal.friction_map import FrictionMap
+from ballscrew.axis.thermal.network import Network, network_of
+from ballscrew.axis.thermal.surroundings import Surroundings
+from ballscrew.axis.thermal.warm_up_band import WarmUpBand
 
 SPEEDS, PRELOAD, STROKE = (500, 1500, 3000), 3500.0, 0.5
 #: From the nut to its surroundings, W/K: bolted to a table, and on a cooled plate.

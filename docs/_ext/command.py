@@ -102,7 +102,7 @@ class Page:
         words = shlex.split(typed)
         if words[0] == PROGRAM and not _SHELL.search(typed):
             code, said = program_at_hand().together(words[1:], self._place(), {"COLUMNS": WIDTH, "NO_COLOR": "1"})
-            said = said.replace("python -m ballscrew.cli", "ballscrew")
+            said = said.replace("python -m ballscrew.faces.cli", "ballscrew")
         else:
             code, said = self._by_shell(typed)
         if code:

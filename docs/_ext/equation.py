@@ -1,4 +1,4 @@
-"""Directive ``{equation} ballscrew.equations.film.film_parameter``: a formula with symbols, units, sources.
+"""Directive ``{equation} ballscrew.physics.equations.film.film_parameter``: a formula with symbols, units, sources.
 
 Formula, letters, units, source and range come from the function itself: its docstring, the line that binds the letters,
 and its annotations. So a page of theory cannot say anything else than the program does.
@@ -19,8 +19,8 @@ from myst_parser.mdit_to_docutils.base import make_document
 from myst_parser.mocking import MockRSTParser
 from sphinx.util.docutils import SphinxDirective
 
-from ballscrew.quantities import unit_of
-from ballscrew.references import bibliography
+from ballscrew.basis.quantities import unit_of
+from ballscrew.basis.references import bibliography
 
 _MATH = re.compile(r"^\.\. math::(?P<formula>.*(?:\n(?:[ \t]+\S.*|[ \t]*(?=\n[ \t])))*)", re.MULTILINE)
 _ADDRESS = re.compile(r"Olaru2005\s+(§[\d.]+\s+\(\d+\))")
@@ -32,7 +32,7 @@ _UNITS = {"1": "", "N m": "N m", "m^2/s": "m²/s", "kg/m^3": "kg/m³", "1/m^2": 
 
 
 class Equation(SphinxDirective):
-    """The formula of a function of ``ballscrew.equations``; the content of the directive is not used."""
+    """The formula of a function of ``ballscrew.physics.equations``; the content of the directive is not used."""
 
     required_arguments = 1
     has_content = False
@@ -82,7 +82,7 @@ def _as_rst(name: str, function: Callable[..., Any], source: str) -> str:
         raise ValueError("its docstring has no formula")
     formula = textwrap.dedent("\n".join(line.strip() for line in found["formula"].splitlines())).strip()
     head, rest = doc[: found.start()].strip(), doc[found.end() :].strip()
-    short = name.removeprefix("ballscrew.equations.")
+    short = name.removeprefix("ballscrew.physics.equations.")
     links = [f":py:func:`{short} <{name}>`", f"`source <{source}#{name.rpartition('.')[2]}>`__"]
     lines = [
         head,

@@ -13,17 +13,17 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from ballscrew.components.laws import ProportionalBallForce
-from ballscrew.components.lubrication import Inlet, houpert_rolling
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.mixed_friction import LoadSharing, RunInSharing
-from ballscrew.components.screw import BallScrew
-from ballscrew.friction.model import PAPER_FRICTION, FrictionModel
-from ballscrew.friction.result import MECHANISMS, FrictionResult
-from ballscrew.papers.olaru2005 import case as paper
-from ballscrew.solvers.ellipse_slip import ellipse_slip
-from ballscrew.solvers.line_slip import line_slip
-from ballscrew.solvers.slip import BallProblem, Slip
+from ballscrew.evidence.papers.olaru2005 import case as paper
+from ballscrew.physics.components.laws import ProportionalBallForce
+from ballscrew.physics.components.lubrication import Inlet, houpert_rolling
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.mixed_friction import LoadSharing, RunInSharing
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.model import PAPER_FRICTION, FrictionModel
+from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
+from ballscrew.physics.solvers.ellipse_slip import ellipse_slip
+from ballscrew.physics.solvers.line_slip import line_slip
+from ballscrew.physics.solvers.slip import BallProblem, Slip
 
 RPM = paper.RPM
 #: Published pairs of decay and exponent of the asperities' share, each for its surfaces (ZhouHoeprich).

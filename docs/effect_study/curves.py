@@ -10,14 +10,19 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.components.laws import RollingLaw
-from ballscrew.components.lubrication import aihara_rolling, biboulet_houpert_rolling, houpert_rolling, olaru_rolling
-from ballscrew.components.mixed_friction import GreenwoodTrippSharing, LoadSharing, RunInSharing
-from ballscrew.equations import mixed_lubrication, slip
-from ballscrew.friction.model import PAPER_FRICTION, FrictionModel
-from ballscrew.friction.result import FrictionResult
-from ballscrew.friction.validity import SMALLEST_ELASTIC_REGIME_PARAMETER
-from ballscrew.solvers.line_slip import pure_rolling_lines
+from ballscrew.physics.components.laws import RollingLaw
+from ballscrew.physics.components.lubrication import (
+    aihara_rolling,
+    biboulet_houpert_rolling,
+    houpert_rolling,
+    olaru_rolling,
+)
+from ballscrew.physics.components.mixed_friction import GreenwoodTrippSharing, LoadSharing, RunInSharing
+from ballscrew.physics.equations import mixed_lubrication, slip
+from ballscrew.physics.friction.model import PAPER_FRICTION, FrictionModel
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.friction.validity import SMALLEST_ELASTIC_REGIME_PARAMETER
+from ballscrew.physics.solvers.line_slip import pure_rolling_lines
 from effect_study.cases import DECAYS, PAPER, RPM, Case
 
 Values = NDArray[np.float64]

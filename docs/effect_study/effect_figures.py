@@ -10,9 +10,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ballscrew.figures import style
-from ballscrew.figures.style import Columns, Plot
-from ballscrew.friction.result import MECHANISMS, FrictionResult
+from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
+from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared.chart_style import Columns, Plot
 from effect_study import curves
 from effect_study.cases import CASES, Case, Effect, effects
 from effect_study.cases import steps as reference_steps

@@ -9,11 +9,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Ellipse
 
-from ballscrew.figures import style
-from ballscrew.figures.style import Columns, Plot
-from ballscrew.friction.result import (
+from ballscrew.physics.friction.result import (
     FrictionResult,
 )
+from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared.chart_style import Columns, Plot
 from effect_study import curves
 from effect_study.cases import PAPER, RPM, Case
 from effect_study.effect_figures import Cases, case_caption, mathtext

@@ -10,14 +10,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.nut import Bodies, Deviations, DoubleNut, Nut, OversizeBallNut, SingleNut
-from ballscrew.components.nut_losses import DOUBLE_NUT_DRAG, OVERSIZE_BALL_DRAG, JISDrag, RexrothDrag
-from ballscrew.components.screw import BallScrew
-from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.result import FrictionResult
-from ballscrew.sizing.catalogue import CatalogueRow, catalogue
-from ballscrew.solvers.load_distribution import BallLoads, ball_loads
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.nut import Bodies, Deviations, DoubleNut, Nut, OversizeBallNut, SingleNut
+from ballscrew.physics.components.nut_losses import DOUBLE_NUT_DRAG, OVERSIZE_BALL_DRAG, JISDrag, RexrothDrag
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.sizing.catalogue import CatalogueRow, catalogue
+from ballscrew.physics.solvers.load_distribution import BallLoads, ball_loads
 from effect_study.cases import RPM
 
 Values = NDArray[np.float64]

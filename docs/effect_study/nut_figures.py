@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from ballscrew.figures import style
-from ballscrew.friction.calibrations import calibrated, calibrations
-from ballscrew.friction.model import FrictionModel
+from ballscrew.physics.friction.calibrations import calibrated, calibrations
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.questions.shared import chart_style as style
 from effect_study import nut_curves as curves
 from effect_study.cases import RPM
 from effect_study.effect_figures import mathtext
