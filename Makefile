@@ -2,6 +2,8 @@
 # make app: the page in the browser.
 .PHONY: app demo test test-all lint types layers js docs bench hostile constraints floors readme rooms interpreter interpreter-check screenshots clean
 
+.DEFAULT_GOAL := demo
+
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
@@ -39,7 +41,7 @@ floors: $(UV)
 	@$(UV) venv --quiet --clear --python $(PYTHON) out/floors
 	@$(UV) pip install --quiet --python out/floors/bin/python --require-hashes --requirement floors.txt
 	@$(UV) pip install --quiet --python out/floors/bin/python --no-deps --no-build-isolation --editable .
-	out/floors/bin/python -m pytest -n 0 -k "not killed" tests/golden tests/kernels tests/cli/test_cli.py tests/sweeps/test_store.py \
+	out/floors/bin/python -m pytest -n 0 -k "not killed" tests/golden tests/compiler/kernels tests/faces/cli/test_cli.py tests/engine/sweeps/test_store.py \
 		$(addprefix tests/cases/,test_catalogue.py test_duty_case.py test_nut_cases.py test_uncertain_value.py)
 
 demo: $(READY)

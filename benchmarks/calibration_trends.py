@@ -12,17 +12,17 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.components.conditions import ContactConditions
-from ballscrew.components.laws import imposed_ball_force, two_neighbours
-from ballscrew.components.lubrication import Inlet
-from ballscrew.components.mixed_friction import BalanSharing, GreenwoodTrippSharing, LoadSharing, RunInSharing
-from ballscrew.components.screw import BallScrew
-from ballscrew.friction.calibrations import calibrated, calibrations
-from ballscrew.friction.model import FrictionModel
-from ballscrew.studies import validation
-from ballscrew.validation.entries import Conditions, Point, Values, trends
-from ballscrew.validation.rows import screw_of
-from ballscrew.validation.sets import SETS
+from ballscrew.evidence.validation.entries import Conditions, Point, Values, trends
+from ballscrew.evidence.validation.rows import screw_of
+from ballscrew.evidence.validation.sets import SETS
+from ballscrew.physics.components.conditions import ContactConditions
+from ballscrew.physics.components.laws import imposed_ball_force, two_neighbours
+from ballscrew.physics.components.lubrication import Inlet
+from ballscrew.physics.components.mixed_friction import BalanSharing, GreenwoodTrippSharing, LoadSharing, RunInSharing
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.calibrations import calibrated, calibrations
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.questions.validate import compute as validation
 
 #: The sets that the calibrations are fitted to, and a column of each that is a maximum and no band.
 FITTED = ("rexroth-double-nut", "rexroth-single-nut")

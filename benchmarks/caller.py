@@ -25,11 +25,11 @@ import numpy as np
 import xarray as xr
 
 import ballscrew as bs
-from ballscrew.evaluation import recordings
-from ballscrew.evaluation.evaluation import Evaluation
-from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.kernels import buffers
-from ballscrew.papers.olaru2005 import OIL, SCREW
+from ballscrew.compiler.kernels import buffers
+from ballscrew.engine.evaluation import recordings
+from ballscrew.engine.evaluation.evaluation import Evaluation
+from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 from engine import OPERATION, OUTPUTS, drawn
 from timing import seconds
 

@@ -21,11 +21,11 @@ from typing import Any
 import distributed
 
 import ballscrew as bs
-from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.papers.olaru2005 import OIL, SCREW
-from ballscrew.sweeps import cluster
-from ballscrew.sweeps.store import Store
-from ballscrew.sweeps.store_plan import Blocks
+from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.engine.sweeps import cluster
+from ballscrew.engine.sweeps.store import Store
+from ballscrew.engine.sweeps.store_plan import Blocks
+from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 
 sys.path.insert(0, str(Path(__file__).parent))
 from out_of_core import OUTPUTS, axes

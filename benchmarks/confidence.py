@@ -27,9 +27,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 import ballscrew as bs
-from ballscrew.cases import case_file
-from ballscrew.papers.olaru2005 import SCREW
-from ballscrew.studies import band
+from ballscrew.cases.case_files import case_file
+from ballscrew.evidence.papers.olaru2005 import SCREW
+from ballscrew.questions.band import compute as band
 
 CASE = Path(__file__).parents[1] / "examples" / "olaru2005.toml"
 MODELS: dict[str, Callable[[], bs.FrictionModel]] = {

@@ -22,8 +22,8 @@ from typing import Any
 import numpy as np
 
 import ballscrew as bs
-from ballscrew.axis.duty import Duty
-from ballscrew.motion.trajectory import Trajectory
+from ballscrew.axis.duty_cycle.duty import Duty
+from ballscrew.axis.motion.trajectory import Trajectory
 from timing import seconds
 
 MODEL = bs.FrictionModel.reference()

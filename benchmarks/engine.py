@@ -30,16 +30,16 @@ import xarray as xr
 from numpy.typing import NDArray
 
 import ballscrew as bs
-from ballscrew._arrays import map_blocks, processors
-from ballscrew.evaluation.derivatives import slopes_of
-from ballscrew.evaluation.evaluation import Evaluation
-from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.kernels.buffers import aligned_array
-from ballscrew.kernels.emission import kernel_text
-from ballscrew.kernels.kernel import Kernel
-from ballscrew.papers.olaru2005 import OIL, SCREW
-from ballscrew.tracing.program import Program, Source
-from ballscrew.tracing.tape import Tape
+from ballscrew.basis.arrays import map_blocks, processors
+from ballscrew.compiler.kernels.buffers import aligned_array
+from ballscrew.compiler.kernels.emission import kernel_text
+from ballscrew.compiler.kernels.kernel import Kernel
+from ballscrew.compiler.tracing.program import Program, Source
+from ballscrew.compiler.tracing.tape import Tape
+from ballscrew.engine.evaluation.derivatives import slopes_of
+from ballscrew.engine.evaluation.evaluation import Evaluation
+from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 from script import OUTPUTS, formulas_on_arrays
 
 SIZES = (1_000_000, 10_000_000)

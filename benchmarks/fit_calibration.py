@@ -29,16 +29,16 @@ import numpy as np
 from scipy.optimize import least_squares
 
 import ballscrew
-from ballscrew.components.laws import two_neighbours
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.mixed_friction import LoadSharing, RunInSharing
-from ballscrew.components.screw import BallScrew
-from ballscrew.friction.calibrations import PARAMETERS, with_parameters
-from ballscrew.friction.model import FrictionModel
-from ballscrew.friction.result import FrictionResult
-from ballscrew.studies import validation
-from ballscrew.validation.entries import Conditions, Entry, Point
-from ballscrew.validation.sets import SETS
+from ballscrew.evidence.validation.entries import Conditions, Entry, Point
+from ballscrew.evidence.validation.sets import SETS
+from ballscrew.physics.components.laws import two_neighbours
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.mixed_friction import LoadSharing, RunInSharing
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.calibrations import PARAMETERS, with_parameters
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.questions.validate import compute as validation
 from calibration_trends import CLASSES, FITTED, strata_table, trends_table
 
 OBJECTIVE = "least squares of (model - middle) / half the band, every row with the same weight"
@@ -290,7 +290,7 @@ def _shown(value: float) -> str:
 
 
 def ratios_text(found: Mapping[str, Fit]) -> str:
-    """Model / middle of the band, row by row, as it is stored for :mod:`ballscrew.validation.nearest`."""
+    """Model / middle of the band, row by row, as it is stored for :mod:`ballscrew.evidence.validation.nearest`."""
     models = {"uncalibrated": FrictionModel.reference()}
     models |= {name: DECLARED[name].model(*map(float, one.values)) for name, one in found.items()}
     by_model = {name: [(e, p) for e in entries(model) for p in e.points] for name, model in models.items()}

@@ -18,10 +18,10 @@ from typing import Any
 import numpy as np
 
 import ballscrew as bs
-from ballscrew.exports import c99, fmu, interpreter, program_file
 from ballscrew.exports.hand_over import handed
+from ballscrew.exports.programs import c99, fmu, interpreter, program_file
+from ballscrew.exports.programs.two_levels import two_levels
 from ballscrew.exports.subject import HandOver
-from ballscrew.exports.two_levels import two_levels
 from timing import seconds
 
 PRESETS = ("olaru2005", "corrected", "reference")

@@ -17,10 +17,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import ballscrew as bs
-from ballscrew.calibration.calibrated_model import CalibratedModel
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.nut import Nut
-from ballscrew.components.screw import BallScrew
+from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.nut import Nut
+from ballscrew.physics.components.screw import BallScrew
 
 PAGE = Path(__file__).parents[1] / "docs" / "implausible_fits.inc"
 MODEL = bs.FrictionModel.reference()

@@ -26,8 +26,16 @@ from typing import Any
 import numpy as np
 
 import ballscrew as bs
-from ballscrew.components.nut import Bodies, Deviations, DoubleNut, Nut, OffsetLeadNut, OversizeBallNut, SingleNut
-from ballscrew.solvers.load_distribution import BallLoads, ball_loads
+from ballscrew.physics.components.nut import (
+    Bodies,
+    Deviations,
+    DoubleNut,
+    Nut,
+    OffsetLeadNut,
+    OversizeBallNut,
+    SingleNut,
+)
+from ballscrew.physics.solvers.load_distribution import BallLoads, ball_loads
 
 POINTS = 100
 KINDS = ("single", "oversize", "double", "offset")

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 import ballscrew as bs
-from ballscrew.cases import case_file
+from ballscrew.cases.case_files import case_file
 
 ROOT = Path(__file__).parents[1]
 ROWS, STEP = 25_000, 1e-3

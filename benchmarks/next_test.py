@@ -24,8 +24,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import ballscrew as bs
-from ballscrew.calibration.identifiability import weighted_derivatives
-from ballscrew.papers.olaru2005 import SCREW
+from ballscrew.evidence.calibration.identifiability import weighted_derivatives
+from ballscrew.evidence.papers.olaru2005 import SCREW
 
 RPM = 2 * math.pi / 60
 CELSIUS = 273.15

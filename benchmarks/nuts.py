@@ -24,9 +24,9 @@ import numpy as np
 import xarray as xr
 
 import ballscrew as bs
-from ballscrew.evaluation.derivatives import slopes_of
-from ballscrew.evaluation.evaluation import Evaluation
-from ballscrew.evaluation.plan import Configuration, Plan
+from ballscrew.engine.evaluation.derivatives import slopes_of
+from ballscrew.engine.evaluation.evaluation import Evaluation
+from ballscrew.engine.evaluation.plan import Configuration, Plan
 from timing import seconds
 
 PRELOAD = 4326.0

@@ -16,12 +16,12 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.optimisation import optimisation as studies
-from ballscrew.optimisation.design_model import DesignModel
-from ballscrew.optimisation.design_space import design_space
-from ballscrew.optimisation.search import Found, search
-from ballscrew.selection.need import need_of
-from ballscrew.selection.pareto import front, hypervolume
+from ballscrew.questions.optimise import compute
+from ballscrew.questions.optimise.design_model import DesignModel
+from ballscrew.questions.optimise.design_space import design_space
+from ballscrew.questions.optimise.search import Found, search
+from ballscrew.questions.select.need import need_of
+from ballscrew.questions.select.pareto import front, hypervolume
 from timing import seconds
 
 NEED = Path(__file__).parents[1] / "examples" / "needs" / "feed_axis.toml"
@@ -36,7 +36,7 @@ def prepared(nut: str) -> tuple[DesignModel, float]:
     space = design_space(need)
     centre = {name: math.sqrt(low * high) for name, (low, high) in space.bounds.items()}
     options = {"model": None, "calibration": None, "allow_code": False}
-    case = studies._case(need, space, centre, options)
+    case = compute._case(need, space, centre, options)
     made: list[DesignModel] = []
     taken = seconds(lambda: made.append(DesignModel.of(case, need, space, 1.0)))
     return made[0], taken

@@ -26,10 +26,10 @@ from typing import Any
 import numpy as np
 
 import ballscrew as bs
-from ballscrew.evaluation.evaluation import Evaluation
-from ballscrew.evaluation.plan import Configuration, Plan
-from ballscrew.papers.olaru2005 import OIL, SCREW
-from ballscrew.sweeps.store_plan import Blocks
+from ballscrew.engine.evaluation.evaluation import Evaluation
+from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.engine.sweeps.store_plan import Blocks
+from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 from script import OUTPUTS
 
 #: At which parts of the way the process is killed.

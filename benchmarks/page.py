@@ -43,7 +43,7 @@ def chromium() -> str:
 @contextlib.contextmanager
 def server() -> Iterator[str]:
     """The address of a server of its own."""
-    command = [sys.executable, "-m", "ballscrew.cli", "serve", "--port", "0"]
+    command = [sys.executable, "-m", "ballscrew.faces.cli", "serve", "--port", "0"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, encoding="utf-8") as process:
         assert process.stdout is not None
         found = re.search(r"http://\S+", process.stdout.readline())

@@ -42,7 +42,7 @@ AXES = {"axial_load": "100:9000:20 N", "screw_speed": "1:900:20 rpm"}
 
 def started(*options: str, errors: IO[str] | None = None) -> tuple[subprocess.Popen[str], str]:
     """The process of a server, with options of Python and a file for its standard error, and its address."""
-    program = [sys.executable, *options, "-m", "ballscrew.cli", "serve", "--port", "0"]
+    program = [sys.executable, *options, "-m", "ballscrew.faces.cli", "serve", "--port", "0"]
     process = subprocess.Popen(program, stdout=subprocess.PIPE, stderr=errors, encoding="utf-8")
     assert process.stdout is not None
     line = process.stdout.readline()
@@ -165,8 +165,8 @@ def mixed(
 
 def slowest(address: str) -> Iterator[tuple[str, str, int, float]]:
     """Seconds of the slowest requests that are let through, alone."""
-    from ballscrew.web.bodies import MOST_BALLS
-    from ballscrew.web.limits import MOST_BALLS_IN_ALL, MOST_POINTS, MOST_POINTS_OF_NUT, MOST_SAMPLES
+    from ballscrew.faces.web.bodies import MOST_BALLS
+    from ballscrew.faces.web.limits import MOST_BALLS_IN_ALL, MOST_POINTS, MOST_POINTS_OF_NUT, MOST_SAMPLES
 
     deviations = {"ball_diameter": "2 um", "lead": "3 um"}
     ball = {**CASE, "model": {"name": "reference"}}

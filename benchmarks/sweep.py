@@ -20,7 +20,7 @@ import numpy as np
 import xarray as xr
 
 import ballscrew as bs
-from ballscrew.papers.olaru2005 import OIL, SCREW
+from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 from script import OUTPUTS, formulas_on_arrays
 from timing import seconds
 
@@ -106,7 +106,7 @@ def cold(*arguments: str) -> float | None:
 def cold_starts() -> dict[str, float | None]:
     """What a person waits for before the first answer."""
     bare, whole = cold("-c", "import numpy"), cold("-c", "import numpy; import ballscrew")
-    command = ("-c", "import sys; from ballscrew.cli.main import main; sys.exit(main())")
+    command = ("-c", "import sys; from ballscrew.faces.cli.main import main; sys.exit(main())")
     return {
         "import_over_numpy_s": None if bare is None or whole is None else whole - bare,
         "cli_help_s": cold(*command, "--help"),

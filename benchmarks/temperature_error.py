@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import ballscrew as bs
-from ballscrew.components.materials import Lubricant
+from ballscrew.physics.components.materials import Lubricant
 
 PAGE = Path(__file__).parents[1] / "docs" / "temperature_coverage.inc"
 LOGS, ROWS, NOISE = 40, 300, 0.01

@@ -27,10 +27,10 @@ from typing import Any
 import numpy as np
 
 import ballscrew as bs
-from ballscrew.axis.duty import Duty
-from ballscrew.thermal.friction_map import state_maps
-from ballscrew.thermal.network import Network
-from ballscrew.thermal.warm_up import WarmUp, warm_up
+from ballscrew.axis.duty_cycle.duty import Duty
+from ballscrew.axis.thermal.friction_map import state_maps
+from ballscrew.axis.thermal.network import Network
+from ballscrew.axis.thermal.warm_up import WarmUp, warm_up
 
 PRELOAD, RPM, STROKE, START = 3500.0, 1000.0, 0.5, 293.15
 AIR = bs.Surroundings(shaft_length=1.2, ambient=START)
@@ -65,7 +65,7 @@ class Plain(Network):
 
 def plain(network: Network, seconds: float) -> tuple[float, int, float]:
     """Time of the plain way, its calls, and the temperature of the nut at the end."""
-    from ballscrew.thermal import warm_up as module
+    from ballscrew.axis.thermal import warm_up as module
 
     fields = {field.name: getattr(network, field.name) for field in dataclasses.fields(Network)}
     own = Plain(**fields)

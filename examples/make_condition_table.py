@@ -21,8 +21,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ballscrew.cases import case_file
-from ballscrew.evaluation.plan import Configuration
+from ballscrew.cases.case_files import case_file
+from ballscrew.engine.evaluation.plan import Configuration
 
 HERE = Path(__file__).parent
 FILE = HERE / "nut_over_years.csv"

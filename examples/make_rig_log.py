@@ -25,7 +25,7 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.cases import case_file
+from ballscrew.cases.case_files import case_file
 
 HERE = Path(__file__).parent
 LOG = HERE / "rig_log.csv"

@@ -21,8 +21,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.cases import case_file
-from ballscrew.evaluation.plan import Configuration
+from ballscrew.cases.case_files import case_file
+from ballscrew.engine.evaluation.plan import Configuration
 
 HERE = Path(__file__).parent
 PRELOAD, LEFT = 4326.0, 0.6  # N, and the share of it that is left

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ballscrew.cases import case_file
+from ballscrew.cases.case_files import case_file
 
 CARD = Path(__file__).parent / "torque_cards" / "synthetic_40x10.toml"
 HEAD = """\

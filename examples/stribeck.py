@@ -5,7 +5,7 @@ from typing import Annotated
 
 import numpy as np
 
-from ballscrew.quantities import Info, Ratio
+from ballscrew.basis.quantities import Info, Ratio
 
 
 @dataclasses.dataclass(frozen=True)

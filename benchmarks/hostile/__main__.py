@@ -35,7 +35,7 @@ from benchmarks.hostile import (
 )
 from benchmarks.hostile.tally import Tally
 
-from ballscrew._version import __version__
+from ballscrew.basis.version import __version__
 
 SECTIONS: dict[str, ModuleType] = {
     module.__name__.rpartition(".")[2]: module

@@ -16,12 +16,12 @@ from benchmarks.hostile.mutations import chosen, mutated_text
 from benchmarks.hostile.screws import TORQUES
 from benchmarks.hostile.tally import Outcome, Tally
 
-from ballscrew.cases import case_file
-from ballscrew.documents import run as run_documents
-from ballscrew.errors import InputError
-from ballscrew.output.json_text import as_json
-from ballscrew.studies import run as runs
-from ballscrew.text.run import print_run
+from ballscrew.basis.errors import InputError
+from ballscrew.basis.output.json_text import as_json
+from ballscrew.cases.case_files import case_file
+from ballscrew.questions.run import compute as runs
+from ballscrew.questions.run import document as run_documents
+from ballscrew.questions.run.text import print_run
 
 COUNT, SECONDS = 3_000, 130.0
 TRIED = (
@@ -130,7 +130,7 @@ def not_finite(path: Any) -> str:
 
 def wrong_command(path: Any, *, is_answer: bool) -> str:
     """Words on what the command does wrong with a file; empty where it does as it should."""
-    command = [sys.executable, "-W", "error::RuntimeWarning", "-m", "ballscrew.cli", "run", str(path)]
+    command = [sys.executable, "-W", "error::RuntimeWarning", "-m", "ballscrew.faces.cli", "run", str(path)]
     try:
         done = subprocess.run(
             command, capture_output=True, check=False, timeout=COMMAND_SECONDS, encoding="utf-8", errors="replace"

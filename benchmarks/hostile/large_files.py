@@ -192,7 +192,7 @@ def attempt(_: int, number: int, __: int) -> Outcome:
     said = workers.folder() / "said.txt"
     with said.open("wb") as errors:
         process = subprocess.Popen(
-            [sys.executable, "-m", "ballscrew.cli", *words],
+            [sys.executable, "-m", "ballscrew.faces.cli", *words],
             cwd=ROOT / "examples",
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=errors,
             preexec_fn=_limited,

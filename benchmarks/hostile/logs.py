@@ -16,10 +16,10 @@ from benchmarks.hostile import workers
 from benchmarks.hostile.mutations import OF_BYTES, OF_TEXT_BYTES, Random, chosen
 from benchmarks.hostile.tally import Outcome, Tally
 
-from ballscrew.cases import case_file
-from ballscrew.errors import InputError
-from ballscrew.studies import fit as fits
-from ballscrew.studies.fit_log import Options, steady_log
+from ballscrew.basis.errors import InputError
+from ballscrew.cases.case_files import case_file
+from ballscrew.questions.fit import compute as fits
+from ballscrew.questions.fit.log import Options, steady_log
 from support.fit_logs import FRICTION, HEADINGS, OFFSET, PAPER, columns
 
 COUNT, SECONDS = 300, 120.0

@@ -12,10 +12,17 @@ from benchmarks.hostile.tally import Outcome, Tally
 from benchmarks.loads import KINDS, Draw, draw
 
 import ballscrew as bs
-from ballscrew.components.nut_losses import Churning, HarrisChurning, LipSeals, ParasiticLaw, Recirculation, Seals
-from ballscrew.components.traits import traits_of
-from ballscrew.errors import InputError
-from ballscrew.friction.result import FrictionResult
+from ballscrew.basis.errors import InputError
+from ballscrew.physics.components.nut_losses import (
+    Churning,
+    HarrisChurning,
+    LipSeals,
+    ParasiticLaw,
+    Recirculation,
+    Seals,
+)
+from ballscrew.physics.components.traits import traits_of
+from ballscrew.physics.friction.result import FrictionResult
 from support.strategies import MODELS, RPM
 
 COUNT, SECONDS = 2_000, 60.0

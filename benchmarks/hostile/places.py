@@ -142,7 +142,7 @@ def attempt(_: int, number: int, __: int) -> Outcome:
     file = folder / file_name
     place.make(folder, file)
     before = _files(root)
-    program = f'cd "{_EXAMPLES}" && "{sys.executable}" -m ballscrew.cli "$@"{place.after}'
+    program = f'cd "{_EXAMPLES}" && "{sys.executable}" -m ballscrew.faces.cli "$@"{place.after}'
     shell = ["sh", "-c", f"{place.before}\n{program}" if place.before else program, "sh", *words, str(file)]
     command = ["unshare", "--user", "--map-root-user", "--mount", *shell] if mounts else shell
     environment = {**os.environ, "FOLDER": str(folder)}

@@ -21,7 +21,7 @@ from benchmarks.hostile.server import MOST_SECONDS, started, wrong_answer
 from benchmarks.hostile.tally import Outcome, Tally
 from benchmarks.serve import CASE, NUT, requests
 
-from web.test_hostile import BODIES, HEAD, LOGS, SWEEPS, VALUES
+from faces.web.test_hostile import BODIES, HEAD, LOGS, SWEEPS, VALUES
 
 COUNT, SECONDS = 10_000, 200.0
 TRIED = (

@@ -11,12 +11,12 @@ from benchmarks.hostile import workers
 from benchmarks.hostile.tally import Outcome, Tally
 from numpy.typing import NDArray
 
-from ballscrew.components.materials import Lubricant
-from ballscrew.components.operating_state import settled
-from ballscrew.components.screw import BallScrew
-from ballscrew.errors import InputError
-from ballscrew.friction.result import FrictionResult
-from ballscrew.quantities import fields_of
+from ballscrew.basis.errors import InputError
+from ballscrew.basis.quantities import fields_of
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.operating_state import settled
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.result import FrictionResult
 from support.strategies import MODELS, Case, box
 
 COUNT, SECONDS = 100_000, 90.0

@@ -19,10 +19,10 @@ from benchmarks.hostile import workers
 from benchmarks.hostile.tally import Outcome, Tally
 
 import ballscrew as bs
-from ballscrew.errors import InputError
-from ballscrew.papers.olaru2005 import OIL, SCREW
-from ballscrew.sweeps.store import UnfinishedSweepError
-from ballscrew.sweeps.store_plan import read_sealed, sealed
+from ballscrew.basis.errors import InputError
+from ballscrew.engine.sweeps.store import UnfinishedSweepError
+from ballscrew.engine.sweeps.store_plan import read_sealed, sealed
+from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 from support.stores import MODEL, SMALL, files
 
 SECONDS = 300.0

@@ -13,13 +13,12 @@ from benchmarks.hostile import ROOT, logs, workers
 from benchmarks.hostile.mutations import OF_BYTES, OF_TEXT_BYTES, Random, chosen
 from benchmarks.hostile.tally import Outcome, Tally
 
-from ballscrew.axis_studies import duty as studies
-from ballscrew.axis_studies import duty_records
-from ballscrew.cases import case_file
-from ballscrew.documents import duty as documents
-from ballscrew.errors import InputError
-from ballscrew.output.json_text import as_json
-from ballscrew.text import duty as text
+from ballscrew.basis.errors import InputError
+from ballscrew.basis.output.json_text import as_json
+from ballscrew.cases.case_files import case_file
+from ballscrew.questions.duty import compute, text
+from ballscrew.questions.duty import document as documents
+from ballscrew.questions.duty import records as duty_records
 
 COUNT, SECONDS = 300, 120.0
 TRIED = (
@@ -116,7 +115,7 @@ def attempt(seed: int, number: int, _: int) -> Outcome:
     words = f"attempt {number} (.{kind}: {done})"
     try:
         tables = {**_tables(), "motion": {"kind": "trajectory", "file": str(path)}}
-        report = studies.duty(case_file.build(tables, None, ROOT / "examples", moves=True))
+        report = compute.duty(case_file.build(tables, None, ROOT / "examples", moves=True))
         as_json(documents.document(report))
         text.text(report, "utf-8")
     except InputError:

@@ -83,7 +83,7 @@ class Answer(NamedTuple):
 
 async def in_process(questions: Iterable[Question]) -> dict[Question, bytes]:
     """The answers that the same application gives without a server between."""
-    from ballscrew.web.server import application
+    from ballscrew.faces.web.server import application
 
     transport = httpx.ASGITransport(application())
     async with httpx.AsyncClient(base_url="http://localhost", transport=transport, timeout=None) as client:

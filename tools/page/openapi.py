@@ -4,7 +4,7 @@ import json
 import sys
 from pathlib import Path
 
-from ballscrew.web.openapi import document
-from ballscrew.web.server import application
+from ballscrew.faces.web.openapi import document
+from ballscrew.faces.web.server import application
 
 Path(sys.argv[1]).write_text(json.dumps(document(application())), encoding="utf-8")
