@@ -5,11 +5,12 @@ The text is made when somebody reads it, so that it costs an import nothing and 
 
 from __future__ import annotations
 
-import contextlib
 import dataclasses
 import functools
 import inspect
+import linecache
 import re
+import sys
 import textwrap
 from collections.abc import Iterator, Mapping
 from typing import Any, cast, get_type_hints
@@ -69,7 +70,7 @@ def _fields(cls: Any) -> list[str]:
 
 def _described(cls: type) -> dict[str, str]:
     """What is known of fields and annotated properties, by name."""
-    hints, comments = get_type_hints(cls, include_extras=True), _comments(cls)
+    hints, comments = get_type_hints(cls, include_extras=True), comments_of(cls)
     quantities = quantities_of(cls)
     found: dict[str, str] = {}
     for name in dict.fromkeys([*_fields(cls), *quantities]):
@@ -101,17 +102,27 @@ def _bounds(info: Info) -> Iterator[str]:
         yield f"usual {info.usual[0]:g} to {info.usual[1]:g}"
 
 
-def _comments(cls: type) -> Mapping[str, str]:
-    """The comments ``#:`` above fields, by field, of a class and of those that it is made of."""
+def comments_of(cls: type) -> Mapping[str, str]:
+    """The comments ``#:`` above fields, by field, of a dataclass or named tuple and of those that it is made of."""
     found: dict[str, str] = {}
     for owner in reversed(cls.__mro__):
-        if "__dataclass_fields__" not in vars(owner):
+        if not vars(owner).keys() & {"__dataclass_fields__", "_fields"}:
             continue
-        with contextlib.suppress(OSError):  # installed without sources, which says nothing of the fields
-            for comment, name in _COMMENTED.findall(textwrap.dedent(inspect.getsource(owner))):
-                lines = (line.strip().removeprefix("#:").strip() for line in comment.splitlines())
-                found[name] = " ".join(lines).removesuffix(".")
+        for comment, name in _COMMENTED.findall(_source(owner)):
+            lines = (line.strip().removeprefix("#:").strip() for line in comment.splitlines())
+            found[name] = " ".join(lines).removesuffix(".")
     return found
+
+
+def _source(cls: type) -> str:
+    """The text of a class at the top of its module; ``inspect`` parses the whole module for it.
+
+    Empty where the sources are not installed.
+    """
+    module = sys.modules[cls.__module__]
+    text = "".join(linecache.getlines(getattr(module, "__file__", None) or "", vars(module)))
+    found = re.search(rf"^class {cls.__name__}\b.*\n(?:[ )].*\n|\n)*", text, re.MULTILINE)
+    return "" if found is None else found[0]
 
 
 def _item(name: str, text: str) -> str:

@@ -11,6 +11,7 @@ from ballscrew.questions.duty import compute, document, table, text
 from ballscrew.questions.duty.answer import DutyResults
 from ballscrew.questions.duty.compute import IF_ANY, NUMBERS
 from ballscrew.questions.shared import declared
+from support.answers import undescribed, without_unit
 from support.commands import ROOT
 
 EXAMPLES = ROOT / "examples"
@@ -58,22 +59,14 @@ def test_answers_are_valid_by_their_schema(example, settings):
     declared.response(DutyResults, "Duty", judged=True).model_validate(found)
 
 
-def units_within(results, units, path=""):
-    """Numbers of results without a unit, by their path."""
-    for name, value in results.items():
-        unit = units.get(name) if isinstance(units, dict) else units
-        if isinstance(value, dict):
-            yield from units_within(value, unit or {}, f"{path}{name}.")
-        elif isinstance(value, list) and value and isinstance(value[0], dict):
-            yield from units_within(value[0], unit or {}, f"{path}{name}.")
-        elif isinstance(value, float) and not unit:
-            yield path + name
+def test_every_part_is_described():
+    assert list(undescribed(DutyResults)) == []
 
 
 def test_every_number_has_a_unit(report):
     found = document.document(report)
     # a share of a torque that changes with the speed: no quantity
-    assert set(units_within(found["results"], found["units"])) <= {"motor.utilisation"}
+    assert set(without_unit(found["results"], found["units"])) <= {"motor.utilisation"}
 
 
 def test_numbers_of_a_full_bath_are_those_of_the_flooded_cycle():

@@ -13,6 +13,7 @@ from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, Answer
 
 
 class Point(NamedTuple):
+    #: Name of the point. More of it.
     name: str
     place: Length
 
@@ -93,6 +94,7 @@ def test_a_schema_describes_each_part():
     assert (torque["description"], torque["x-si-unit"]) == ("torque along the path, SI", "N m")
     assert schema["properties"]["loads"]["description"] == "Load of each half, SI"
     assert schema["properties"]["points"]["items"] == {"$ref": "#/$defs/Point"}
+    assert schema["$defs"]["Point"]["properties"]["name"]["description"] == "Name of the point"
     assert schema["required"] == list(DOCUMENT)
     assert schema["properties"]["places"]["items"] == {"type": "number"}
     assert {"type": "null"} in torque["anyOf"]

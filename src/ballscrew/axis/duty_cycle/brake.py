@@ -32,21 +32,25 @@ SPEEDS = 25
 class LetGo(ByValue):
     """The axis with the motor off, without a brake, in one condition."""
 
+    #: What it is: as in the case, cold, hot or dry.
     condition: str
+    #: Temperature of the oil; None where it is that of the case, or dry.
     temperature: Temperature | None
     #: Torque of the load about the motor, without friction, N m, positive where it would turn it backwards.
     load_torque: Torque
-    #: Friction about the motor from rest, and the least of it at the speeds of the duty, N m.
+    #: Friction about the motor from rest, N m.
     breakaway_torque: Torque
+    #: The least of the friction about the motor at the speeds of the duty, N m.
     running_torque: Torque
     #: True where the load alone starts the axis.
     falls: bool
     #: True where the axis goes on at any of these speeds, once something has started it.
     goes_on: bool
-    #: Largest acceleration, with the least friction, m/s²; zero where it stays.
+    #: Largest acceleration, with the least friction; zero where it stays.
     acceleration: Acceleration
-    #: Speed after the stroke at most, m/s, and that at which friction holds the load; infinite if there is none.
+    #: Speed after the stroke at most, m/s.
     speed_after_stroke: Speed
+    #: Speed at which friction holds the load, m/s; infinite if there is none.
     steady_speed: Speed
 
     @property
@@ -67,7 +71,9 @@ class Brake(ByValue):
     Friction of a motor, its magnets' detent and a set grease hold more; none of them is counted on.
     """
 
+    #: The axis with the motor off, in each condition.
     conditions: Sequence[LetGo]
+    #: Torque of the brake over that of the load.
     brake_factor: Ratio = BRAKE_FACTOR
 
     @property

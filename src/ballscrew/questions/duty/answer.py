@@ -28,6 +28,7 @@ from ballscrew.basis.quantities import (
     Unit,
 )  # fmt: skip
 from ballscrew.questions.duty.compute import (
+    NUMBERS,
     OF_BATH,
     CycleNumbers,
     DutyReport,
@@ -106,10 +107,13 @@ def _with_keys(values: Mapping[str, float]) -> dict[str, float]:
 class WorstState(NamedTuple):
     """The state whose torque comes nearest to the peak torque of the motor at its speed."""
 
+    #: The phase of the motion that it is in.
     phase: str
+    #: Torque of the motor.
     torque: Torque
     #: The condition of the track that counts there; None where nothing is starved of oil.
     condition: str | None
+    #: Speed of the motor.
     speed: AngularSpeed
 
 
@@ -180,22 +184,25 @@ class MotorUse(Answer):
 class Mechanics(NamedTuple):
     """Torque of the motor by mechanics."""
 
-    torque_rms: Torque
-    torque_peak: Torque
+    torque_rms: Annotated[Torque, NUMBERS["torque_rms"].info]
+    torque_peak: Annotated[Torque, NUMBERS["torque_peak"].info]
 
 
 class Catalogue(NamedTuple):
     """Torque of the motor by the rule of catalogues."""
 
+    #: Efficiency of the screw that the rule takes.
     efficiency: Ratio
-    torque_rms: Torque
-    torque_peak: Torque
+    torque_rms: Annotated[Torque, NUMBERS["torque_rms"].info]
+    torque_peak: Annotated[Torque, NUMBERS["torque_peak"].info]
 
 
 class Rules(NamedTuple):
     """Torque of the motor by both rules."""
 
+    #: By mechanics, with the friction of the model.
     mechanics: Mechanics
+    #: By the rule of catalogues, with one efficiency.
     catalogue: Catalogue
 
 

@@ -81,14 +81,21 @@ def cause_of(name: str) -> str:
 
 
 class PhaseNumbers(NamedTuple):
-    """Numbers of one phase of a motion; the peak torque has its sign."""
+    """Numbers of one phase of a motion."""
 
+    #: Its name in the motion.
     name: str
+    #: Time from the start of the cycle to its own.
     start: Duration
+    #: Time that it takes.
     duration: Duration
+    #: Largest size of the axial load.
     largest_load: Force
+    #: Largest torque of the motor, with its sign.
     torque_peak: Torque
+    #: RMS torque of the motor.
     torque_rms: Torque
+    #: Energy that the motor gives, less what it takes back.
     energy: Energy
 
 
@@ -96,12 +103,13 @@ class PhaseNumbers(NamedTuple):
 class Smoothing:
     """How a recorded motion was smoothed, and what that does to the RMS torque."""
 
+    #: Recorded samples.
     samples: int
     #: Samples on either side that the smoothing reaches.
     half_width: int
     #: Standard deviation of one recorded sample.
     noise: float
-    #: What is left of it in the acceleration, m/s².
+    #: What is left of it in the acceleration.
     acceleration_noise: Acceleration
     #: RMS torque with the narrowest smoothing, N m.
     torque_rms_unsmoothed: Torque

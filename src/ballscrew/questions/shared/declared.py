@@ -19,6 +19,7 @@ from typing import Annotated, Any, NamedTuple, Union, get_args, get_origin, get_
 
 import numpy as np
 
+from ballscrew.basis.field_docs import comments_of
 from ballscrew.basis.quantities import info_of, unit_of
 
 #: A part that is left out where it is None.
@@ -32,7 +33,7 @@ class Part(NamedTuple):
 
     name: str
     annotation: Any
-    #: The docstring of the property, up to its first full stop; empty for fields.
+    #: The docstring of the property, or in a schema the comment above the field, up to its first full stop.
     words: str = ""
 
     @property
@@ -180,7 +181,11 @@ def schema(cls: type) -> Any:
     """The response model of an answer: a name, a type and a description for each part."""
     from ballscrew.questions.shared.answer_parts import Closed, model  # pydantic, which the command line does not need
 
-    fields = {each: _field(part) for each, part in parts_of(cls).items()}
+    said = comments_of(cls)
+    fields = {
+        name: _field(part._replace(words=said[name].partition(". ")[0]) if name in said else part)
+        for name, part in parts_of(cls).items()
+    }
     return model(cls.__name__, _first_line(cls), Closed, **fields)
 
 
@@ -213,7 +218,8 @@ def _field(part: Part) -> tuple[Any, Any]:
 
     # what may be left out has a default, which the description does not show
     unit = part.unit or _unit_within(part.bare) or "1"
-    words = f"{part.meaning}, SI" if unit != "1" and part.meaning else part.meaning
+    says_unit = unit == "1" or not part.meaning or f", {unit}" in part.meaning
+    words = part.meaning if says_unit else f"{part.meaning}, SI"
     kind = _kind(part)
     return (kind | None if part.may_be_none else kind, field(words, unit, optional=part.left_out))
 

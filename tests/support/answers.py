@@ -1,0 +1,27 @@
+"""Answers and their schemas: parts without a description, numbers without a unit."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from ballscrew.questions.shared import declared
+
+
+def undescribed(cls: type) -> Iterator[str]:
+    """The parts of an answer, and of those in it, of which its schema does not say what they are."""
+    schema = declared.schema(cls).model_json_schema()
+    for name, model in {cls.__name__: schema, **schema.get("$defs", {})}.items():
+        for part, described in model["properties"].items():
+            if "description" not in described:
+                yield f"{name}.{part}"
+
+
+def without_unit(results: Mapping[str, Any], units: Any, path: str = "") -> Iterator[str]:
+    """Numbers of results without a unit, by their path."""
+    for name, value in results.items():
+        unit = units.get(name) if isinstance(units, dict) else units
+        if isinstance(value, dict):
+            yield from without_unit(value, unit or {}, f"{path}{name}.")
+        elif isinstance(value, list) and value and isinstance(value[0], dict):
+            yield from without_unit(value[0], unit or {}, f"{path}{name}.")
+        elif not unit and isinstance(value[0] if isinstance(value, list) and value else value, float):
+            yield path + name
