@@ -131,7 +131,7 @@ bench: $(READY)
 	$(BIN)/python benchmarks/four_point.py
 	$(BIN)/python benchmarks/loads.py
 
-# random, mutated and damaged input for up to 15 minutes; fewer by SCALE=0.01. Writes the table of docs/reliability.md
+# random, mutated and damaged input for up to 25 minutes; fewer by SCALE=0.01. Writes the table of docs/reliability.md
 SCALE ?= 1
 
 hostile: $(READY)
