@@ -242,7 +242,8 @@ def _fingerprint(plan: Plan, engine: Engine, program: Program | None, formulas: 
         held["functions"] = [f for f in functions if getattr(np, f.__name__, None) is not f]
     else:
         held |= {"package": package_digest(), "evaluated": Configuration.at, "outputs": plan.wanted}
-        held |= vars(plan.subject.changed({n: v for n, v in plan.points(slice(0, 1)).items() if n not in OPERATION}))
+        first = plan.subject.changed({n: v for n, v in plan.points(slice(0, 1)).items() if n not in OPERATION})
+        held |= {field.name: getattr(first, field.name) for field in dataclasses.fields(first)}
     return fingerprint_of(held)
 
 

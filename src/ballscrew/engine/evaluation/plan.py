@@ -78,7 +78,7 @@ class Configuration(ByValue):
         """The parts with fields that can be varied."""
         return {"screw": self.screw, "lubricant": self.lubricant, "model": self.model, "nut": self.nut}
 
-    @property
+    @functools.cached_property
     def inputs(self) -> Mapping[str, tuple[str, Quantity]]:
         """Everything that can be varied."""
         return inputs_of(self.model, self.screw, self.lubricant)
