@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ballscrew.basis.errors import InputError
-from ballscrew.files.torque_logs import cleaning
+from ballscrew.files.torque_logs import cleaning, log_rows
 from ballscrew.files.torque_logs.motion import SCALES, motion_of, runs_in
 from ballscrew.files.torque_logs.reservoir_sampler import ReservoirSampler
 from ballscrew.files.torque_logs.torque_log import TorqueLog
@@ -529,3 +529,10 @@ def test_arrays_without_a_load_are_those_of_no_load_and_say_so():
     assert "no axial load: 0 N in every row" in found.notes
     # one that is there by another name is asked for
     assert lines_of(TorqueLog.of, {**data, "pull": np.ones(12)})[0].startswith('data: has no column "axial_load"')
+
+
+def test_rows_of_a_log_are_not_converted_again(monkeypatch):
+    log = TorqueLog.of({"axial_load": [1e3, 2e3], "screw_speed": [1, 2], "torque": [0.1, 0.2]})
+    monkeypatch.setattr(log_rows, "si_value", None)
+    chosen = log.select(np.array([False, True])).with_notes("second")
+    assert (chosen.torque.tolist(), chosen.screw_speed.tolist(), chosen.notes) == ([0.2], [2.0], ("second",))

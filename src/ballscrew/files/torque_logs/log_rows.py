@@ -78,8 +78,9 @@ class LogRows:
 
     def __post_init__(self) -> None:
         for name, values in self.columns.items():
-            in_si = si_value(f"log.{name}", values, quantities()[name].unit)
-            object.__setattr__(self, name, np.asarray(in_si, dtype=np.float64))
+            if not (type(values) is np.ndarray and values.dtype == np.float64):  # those of another log are
+                in_si = si_value(f"log.{name}", values, quantities()[name].unit)
+                object.__setattr__(self, name, np.asarray(in_si, dtype=np.float64))
         line = np.arange(1, len(self) + 1) if self.line is None else np.asarray(self.line)
         object.__setattr__(self, "line", line)
         object.__setattr__(self, "rows", self.rows or len(self))
