@@ -1,1 +1,1 @@
-"""Recorded formulas compiled by LLVM: emission, compilation, cache, random numbers, quantile sketches."""
+"""Recorded formulas compiled by LLVM: emission, compilation, cache."""

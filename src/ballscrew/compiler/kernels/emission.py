@@ -1,10 +1,9 @@
 """A program as a kernel in LLVM's assembly: one fused loop over the points of a rectangle of a grid.
 
-A result goes to place ``row · columns + column`` of its array; points without a grid are one row. An
-input is an array over the points or over the columns, one number for each row, or a random number
-generated in the kernel. Rows are walked through a tile of columns at a time, so that what is read of the
-columns stays in the cache. The last points of a row run through the same instructions as all others, with
-room to spare, so that a point's result does not depend on where blocks begin and end.
+A result goes to place ``row · columns + column`` of its array; points without a grid are one row. An input is an array
+over the points or over the columns, or one number for each row. Rows are walked through a tile of columns at a time, so
+that what is read of the columns stays in the cache. The last points of a row run through the same instructions as all
+others, with room to spare, so that a point's result does not depend on where blocks begin and end.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.compiler.kernels import elementary, random
+from ballscrew.compiler.kernels import elementary
 from ballscrew.compiler.kernels.ir import Value, Writer, constant
 from ballscrew.compiler.tracing.program import Program, Source
 from ballscrew.compiler.tracing.steps import Operand, Step, choose
@@ -47,7 +46,7 @@ _TRUE, _ZERO, _ONE = Value("splat (i1 true)"), constant(0.0), constant(1.0)
 
 SIGNATURE = (
     "i64 %row_start, i64 %row_stop, i64 %column_start, i64 %column_stop, i64 %columns, i64 %tile, "
-    "i64 %seed, i1 %stream, ptr noalias %inputs, ptr noalias %outputs"
+    "i1 %stream, ptr noalias %inputs, ptr noalias %outputs"
 )
 
 
@@ -103,7 +102,6 @@ def kernel_text(
             f"  store {w.doubles} zeroinitializer, ptr %spare",
             *pointers("input", len(sources)),
             *pointers("output", len(program.outputs)),
-            *(random.emit_key_schedule() if "random" in sources else []),
             *(line for i in seen for line in _ends_of_nothing(w, i)),
             *lines,
             "}",
@@ -196,11 +194,6 @@ def _emit_loops_and_loads(w: Writer, sources: Sequence[Source], seen: Sequence[i
     w.lines += ["  br label %evaluate", "evaluate:"]
     for i in addresses:
         values[i] = w.instruction(f"phi {w.doubles} [ {whole[i]}, %load_all ], [ {some[i]}, %load_some ]")
-    random_inputs = [i for i, source in enumerate(sources) if source == "random"]
-    if random_inputs:
-        lanes = ", ".join(f"i64 {lane}" for lane in range(w.lanes))
-        number = w.on_integers("add", w.broadcast("i64", "%place"), Value(f"<{lanes}>"))
-        values |= dict(zip(random_inputs, random.emit_uniform(w, number, len(random_inputs)), strict=True))
     return [values[i] for i in range(len(sources))]
 
 

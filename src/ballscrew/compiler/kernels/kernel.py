@@ -42,13 +42,11 @@ ASSEMBLY_OPTIMISATION, CODE_OPTIMISATION = 0, 2
 LINE_SECONDS, LOGGED_SECONDS = 2e-4, 1.0
 
 #: Version of the calling convention of kernels.
-FORMAT = 1
+FORMAT = 2
 
 _log = logging.getLogger(__name__)
 _int64 = ctypes.c_int64
-_SIGNATURE = ctypes.CFUNCTYPE(
-    None, *[_int64] * 7, ctypes.c_bool, ctypes.c_void_p, ctypes.c_void_p
-)  # fmt: skip
+_SIGNATURE = ctypes.CFUNCTYPE(None, *[_int64] * 6, ctypes.c_bool, ctypes.c_void_p, ctypes.c_void_p)
 _lock = threading.RLock()
 _kernels: dict[str, Kernel] = {}
 
@@ -93,11 +91,10 @@ class Kernel:
         rows: slice,
         columns: slice,
         row_length: int,
-        inputs: Sequence[NDArray[np.float64] | None],
+        inputs: Sequence[NDArray[np.float64]],
         results: Sequence[NDArray[Any]],
         *,
         first: int = 0,
-        seed: int = 0,
         past_cache: bool | None = None,
         tile: int | None = None,
     ) -> None:
@@ -107,7 +104,7 @@ class Kernel:
         the cache; by default their sizes decide.
 
         Results and inputs over points are contiguous arrays that begin at place ``first`` of the
-        flattened grid; inputs over rows and columns are whole; random ones are None.
+        flattened grid; inputs over rows and columns are whole.
         """
         start = rows.start * row_length + columns.start
         ends = [_address(array, first) for array in results]
@@ -120,7 +117,7 @@ class Kernel:
         if past_cache is None:
             past_cache = sum(array.nbytes for array in results) > LARGEST_CACHED
         places = [
-            None if array is None else _address(array, first if source == "points" else 0)
+            _address(array, first if source == "points" else 0)
             for source, array in zip(self.sources, inputs, strict=True)
         ]
         self._function(
@@ -130,7 +127,6 @@ class Kernel:
             columns.stop,
             row_length,
             tile or (COLUMN_TILE if "columns" in self.sources else columns.stop - columns.start),
-            seed,
             aligned and past_cache,
             (ctypes.c_void_p * len(places))(*places),
             (ctypes.c_void_p * len(ends))(*ends),
@@ -147,7 +143,7 @@ class Kernel:
     ) -> None:
         """Run over a rectangle, of contiguous arrays whose extents are the caller's affair."""
         tables = [(ctypes.c_void_p * len(arrays))(*(_address(a, 0) for a in arrays)) for arrays in (inputs, results)]
-        self._function(rows.start, rows.stop, columns.start, columns.stop, row_length, tile, 0, False, *tables)
+        self._function(rows.start, rows.stop, columns.start, columns.stop, row_length, tile, False, *tables)
 
     def at_one_point(self, inputs: NDArray[np.float64], results: Sequence[NDArray[Any]]) -> Callable[[], None]:
         """A call that reads one point from ``inputs`` and writes it into ``results``, with next to nothing left to do.
@@ -157,7 +153,7 @@ class Kernel:
         start, item = _address(inputs, 0), inputs.itemsize
         places = (ctypes.c_void_p * inputs.size)(*(start + i * item for i in range(inputs.size)))
         ends = (ctypes.c_void_p * len(results))(*(_address(array, 0) for array in results))
-        return functools.partial(self._function, 0, 1, 0, 1, 1, 1, 0, False, places, ends)
+        return functools.partial(self._function, 0, 1, 0, 1, 1, 1, False, places, ends)
 
 
 def is_cached(text: str) -> bool:

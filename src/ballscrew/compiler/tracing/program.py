@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 from ballscrew.compiler.tracing.steps import Operand, Step
 from ballscrew.compiler.tracing.tape import Tape, Traced
 
-#: The origin of the values of an input: one for each point, column or row of a grid, or a random number.
-Source = Literal["points", "columns", "rows", "random"]
+#: The origin of the values of an input: one for each point, column or row of a grid.
+Source = Literal["points", "columns", "rows"]
 
 #: Most sizes of blocks whose buffers a thread keeps.
 MOST_WORKSPACES = 4

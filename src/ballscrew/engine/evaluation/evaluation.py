@@ -90,15 +90,23 @@ class Evaluation:
         self._row_length = row_length
 
     @classmethod
-    def of(cls, plan: Plan, engine: SweepEngine | None = None, times: int = 1, *, recorded: bool = False) -> Evaluation:
+    def of(
+        cls,
+        plan: Plan,
+        engine: SweepEngine | None = None,
+        times: int = 1,
+        *,
+        recorded: bool = False,
+        section: str = "sweep",
+    ) -> Evaluation:
         """Make a plan ready; the engine is chosen by the size of the work and by what is compiled already.
 
         ``times`` says how often all of it will be evaluated (see :meth:`at`). ``recorded`` records balls that differ
-        however little work it is.
+        however little work it is. Faults stand under ``section``.
 
         Raises :class:`~ballscrew.basis.errors.InputError` for an engine that cannot be had.
         """
-        raise_if_any(engine_faults("sweep", engine, SWEEP_ENGINES))
+        raise_if_any(engine_faults(section, engine, SWEEP_ENGINES))
         if engine == "model":
             return _by_numpy(plan, None, f"the model itself: {ASKED_FOR}")
         if plan.subject.nut.one_by_one and type(plan) is Plan:
@@ -106,7 +114,7 @@ class Evaluation:
             if isinstance(ready, ByBall):
                 return _by_ball(plan, ready)
             if engine == "compiled":
-                raise InputError(Fault("sweep.engine", f"cannot be had: {ready}", engine, 'take engine="numpy"'))
+                raise InputError(Fault(f"{section}.engine", f"cannot be had: {ready}", engine, 'take engine="numpy"'))
             return _by_numpy(plan, None, ready)
         program: Program | None = None
         try:
@@ -125,7 +133,7 @@ class Evaluation:
         except UnknownOperationError as unknown:
             why = f"{unknown} is not known to kernels"
         if engine == "compiled":
-            raise InputError(Fault("sweep.engine", f"cannot be had: {why}", engine, 'take engine="numpy"'))
+            raise InputError(Fault(f"{section}.engine", f"cannot be had: {why}", engine, 'take engine="numpy"'))
         return _by_numpy(plan, program, why)
 
     @functools.cached_property
@@ -252,7 +260,7 @@ def recording_of(plan: Plan, groups: Sequence[int] | None = None) -> Recording:
 
     def key() -> Any:
         by = getattr(plan, "by", ())
-        return type(plan), plan.subject, plan.fixed, plan.varying, plan.outputs, by, groups
+        return type(plan), plan.subject, plan.fixed, plan.varying, plan.outputs, plan.bounded, by, groups
 
     return recording(key, lambda: plan.recorded(groups))
 

@@ -236,6 +236,8 @@ class Plan:
     axes: Mapping[str, xr.DataArray]
     sizes: Mapping[str, int]
     outputs: tuple[str, ...]
+    #: False where values may lie beyond the bounds of their inputs.
+    bounded: bool = dataclasses.field(default=True, kw_only=True)
 
     @classmethod
     def of(
@@ -262,7 +264,8 @@ class Plan:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Fields that other processes need."""
-        return Plan, (self.subject, dict(self.axes), dict(self.sizes), self.outputs)
+        made = functools.partial(Plan, bounded=self.bounded)
+        return made, (self.subject, dict(self.axes), dict(self.sizes), self.outputs)
 
     @functools.cached_property
     def unchecked(self) -> Sequence[str]:
@@ -319,7 +322,7 @@ class Plan:
     def tape(self, groups: Sequence[int] | None = None) -> Tape:
         """A tape with the varying inputs."""
         varying = self.varying
-        return Tape(len(varying), groups, [self.subject.is_nonnegative(name) for name in varying])
+        return Tape(len(varying), groups, [self.bounded and self.subject.is_nonnegative(name) for name in varying])
 
     def traced(self, tape: Tape) -> dict[str, Any]:
         """The varying inputs as values on a tape."""

@@ -1,56 +1,20 @@
 """Distributions of uncertain inputs, each by its quantile function.
 
-The quantile of a uniform random number between 0 and 1 is a random number of the distribution. The
-functions are made of operators and of what ``namespace`` gives, so that they take numbers, arrays
-and values that are being recorded.
+The quantile of a uniform random number between 0 and 1 is a random number of the distribution.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import TypeAlias, get_args
 
-from ballscrew.basis.arrays import namespace
+import numpy as np
+
 from ballscrew.basis.errors import Fault, as_float, is_concrete, nearest, raise_if_any
 from ballscrew.basis.quantities import Array, Info, Quantity
 
-#: Wichura 1988, algorithm AS 241, PPND16: numerator and denominator by rising powers.
-#: In 0.425² − q², q = u − ½, where |q| ≤ 0.425.
-CENTRE = (
-    (
-        3.3871328727963666080, 133.14166789178437745, 1971.5909503065514427, 13731.693765509461125,
-        45921.953931549871457, 67265.770927008700853, 33430.575583588128105, 2509.0809287301226727,
-    ),
-    (
-        1.0, 42.313330701600911252, 687.18700749205790830, 5394.1960214247511077, 21213.794301586595867,
-        39307.895800092710610, 28729.085735721942674, 5226.4952788528545610,
-    ),
-)  # fmt: skip
-#: In r − 1.6, r = √(−ln min(u, 1 − u)), where r ≤ 5.
-TAIL = (
-    (
-        1.42343711074968357734, 4.63033784615654529590, 5.76949722146069140550, 3.64784832476320460504,
-        1.27045825245236838258, 0.241780725177450611770, 0.0227238449892691845833, 7.74545014278341407640e-4,
-    ),
-    (
-        1.0, 2.05319162663775882187, 1.67638483018380384940, 0.689767334985100004550, 0.148103976427480074590,
-        0.0151986665636164571966, 5.47593808499534494600e-4, 1.05075007164441684324e-9,
-    ),
-)  # fmt: skip
-#: In r − 5, beyond.
-FAR_TAIL = (
-    (
-        6.65790464350110377720, 5.46378491116411436990, 1.78482653991729133580, 0.296560571828504891230,
-        0.0265321895265761230930, 0.00124266094738807843860, 2.71155556874348757815e-5, 2.01033439929228813265e-7,
-    ),
-    (
-        1.0, 0.599832206555887937690, 0.136929880922735805310, 0.0148753612908506148525, 7.86869131145613259100e-4,
-        1.84631831751005468180e-5, 1.42151175831644588870e-7, 2.04426310338993978564e-15,
-    ),
-)  # fmt: skip
-HALF_WIDTH, TAIL_START, FAR_TAIL_START = 0.425, 1.6, 5.0
 #: Less than the least share that is ever drawn, 2^-53.
 UNREACHED = 2.0**-64
 
@@ -160,7 +124,7 @@ class LogNormal:
         s is that of :meth:`Normal.quantile`, with the ends of the logarithm.
         """
         share = _share_within(u, *self.in_deviations(self.low, self.high))
-        values = self.median * namespace(share).exp(math.log(self.factor) * standard_normal_quantile(share))
+        values = self.median * np.exp(math.log(self.factor) * standard_normal_quantile(share))
         return _not_beyond(values, self.low, self.high)
 
     def in_deviations(self, *values: float) -> tuple[float, ...]:
@@ -209,11 +173,10 @@ class Triangular:
         ``low + √(u (high − low)(mode − low))`` up to the mode,
         ``high − √((1 − u)(high − low)(high − mode))`` beyond.
         """
-        xp = namespace(u)
         width, below, above = self.high - self.low, self.mode - self.low, self.high - self.mode
-        rising = self.low + xp.sqrt(width * below * u)
-        falling = self.high - xp.sqrt(width * above * (1 - u))
-        return xp.where(u < below / width, rising, falling)[()]
+        rising = self.low + np.sqrt(width * below * u)
+        falling = self.high - np.sqrt(width * above * (1 - u))
+        return np.where(u < below / width, rising, falling)[()]
 
     @property
     def characteristic_values(self) -> tuple[float, ...]:
@@ -284,17 +247,10 @@ def standard_normal_share(x: float) -> float:
 
 
 def standard_normal_quantile(u: Array) -> Array:
-    """Φ⁻¹(u): below which a standard normal number lies with probability u in (0, 1); in the shape of u.
+    """Φ⁻¹(u): below which a standard normal number lies with probability u in (0, 1); in the shape of u."""
+    from scipy.special import ndtri  # for those only who sample
 
-    Wichura, M. J. (1988), "Algorithm AS 241: The percentage points of the normal distribution",
-    Applied Statistics 37(3), 477–484, PPND16: about 1 part in 1e16.
-    """
-    xp = namespace(u)
-    q = u - 0.5
-    centre = q * _ratio(CENTRE, HALF_WIDTH**2 - q * q)
-    r = xp.sqrt(-xp.log(xp.minimum(u, 1 - u)))
-    tail = xp.where(r <= FAR_TAIL_START, _ratio(TAIL, r - TAIL_START), _ratio(FAR_TAIL, r - FAR_TAIL_START))
-    return xp.where(xp.abs(q) <= HALF_WIDTH, centre, xp.where(q < 0, -1.0, 1.0) * tail)[()]
+    return ndtri(u)
 
 
 def normal_half_width(level: float) -> float:
@@ -308,27 +264,13 @@ def _share_within(u: Array, low: float, high: float) -> Array:
     if (below, above) == (0.0, 1.0):  # no end that a number of ours could reach: the same bits as without
         return u
     share = below + (above - below) * u
-    return namespace(share).minimum(share, 1 - 2.0**-53)  # rounding may make it 1, which has no quantile
+    return np.minimum(share, 1 - 2.0**-53)  # rounding may make it 1, which has no quantile
 
 
 def _not_beyond(values: Array, low: float, high: float) -> Array:
     """Values moved to the ends where rounding has carried them beyond."""
-    xp = namespace(values)
-    values = values if low == -math.inf else xp.maximum(values, low)
-    return values if high == math.inf else xp.minimum(values, high)
-
-
-def _ratio(coefficients: tuple[Sequence[float], Sequence[float]], variable: Array) -> Array:
-    """One polynomial over another, each by Horner's scheme."""
-    numerator, denominator = (_polynomial(rising, variable) for rising in coefficients)
-    return numerator / denominator
-
-
-def _polynomial(rising: Sequence[float], variable: Array) -> Array:
-    result: Array = rising[-1]
-    for coefficient in rising[-2::-1]:
-        result = result * variable + coefficient
-    return result
+    values = values if low == -math.inf else np.maximum(values, low)
+    return values if high == math.inf else np.minimum(values, high)
 
 
 def _shown(value: float, unit: str) -> str:

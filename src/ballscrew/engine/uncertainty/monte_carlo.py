@@ -1,56 +1,37 @@
-"""Monte Carlo: what the uncertainty of the inputs makes of the results, without keeping a sample.
+"""Monte Carlo: what the uncertainty of the inputs makes of the results.
 
-The number of a sample is enough to know its random numbers (:mod:`ballscrew.compiler.kernels.random`), and a
-sketch is enough to know how results are distributed (:mod:`ballscrew.compiler.kernels.sketch`). So samples
-are made, evaluated and counted a few thousand at a time, and nothing grows with their number.
+Random numbers are those of NumPy's Philox, whose state follows from the seed and the number of a block: blocks may be
+drawn in any order, on any thread.
 """
 
 from __future__ import annotations
 
-import threading
+import dataclasses
+import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ballscrew.basis.arrays import blocks, map_blocks
-from ballscrew.basis.errors import MISSING, Fault, InputError, raise_if_any
-from ballscrew.compiler.kernels import random
-from ballscrew.compiler.kernels.emission import UnknownOperationError, kernel_text
-from ballscrew.compiler.kernels.kernel import Kernel
-from ballscrew.compiler.kernels.sketch import UNIT, Moments, Sketch
-from ballscrew.compiler.tracing.program import Program, Source
-from ballscrew.compiler.tracing.tape import CannotRecordError, Tape
-from ballscrew.engine.evaluation.by_ball import BLOCK_OF_BALLS, ByBall, by_ball
-from ballscrew.engine.evaluation.engines import (
-    ASKED_FOR,
-    PAYS,
-    Engine,
-    engine_faults,
-    may_be_compiled,
-    why_numpy,
-    worth_compiling,
-)
+from ballscrew.basis.arrays import map_blocks
+from ballscrew.basis.errors import MISSING, Fault, raise_if_any
+from ballscrew.engine.evaluation.engines import Engine, engine_faults
+from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.outputs import OPERATION, attributes_of
 from ballscrew.engine.evaluation.plan import Configuration, Plan
-from ballscrew.engine.uncertainty.distributions import Distribution, distribution_fault
+from ballscrew.engine.uncertainty.distributions import Distribution, distribution_fault, within
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.friction.model import (
-    FrictionModel,
-)
+from ballscrew.physics.friction.model import FrictionModel
 
-#: Samples of a block, which is evaluated on one thread and whose sums are merged in the order of the
-#: blocks; and how many of them NumPy evaluates at a time. Whole units, for the sake of the sums.
-BLOCK = 8 * UNIT
-NUMPY_STEP = 4 * UNIT
+#: Samples of a block, which is drawn and evaluated on one thread.
+BLOCK = 2**16
 #: Seeds are less than this.
 SEEDS = 2**63
-
-#: Evaluates the samples of a slice into arrays of its length.
-_SampleEvaluator = Callable[[slice, Mapping[str, NDArray[Any]]], None]
+#: No share is less: that of zero is no number for most distributions.
+LEAST_SHARE = 2.0**-54
 
 
 def monte_carlo(
@@ -78,11 +59,10 @@ def monte_carlo(
     rounding. ``outputs`` are named as those of a sweep.
 
     Of each output ``x`` that is a number the dataset has ``x_mean``, ``x_standard_deviation``, ``x_minimum``,
-    ``x_maximum``, ``x_quantiles`` along ``quantile`` (the shares ``quantiles``, to 0.05 %, see
-    :meth:`~ballscrew.compiler.kernels.sketch.Sketch.quantile`) and ``x_missing_share``, that of samples which are NaN
-    and left out of the others; of each that is true or not, ``x_share``, where it is true. ``invalid_share`` is that of
-    samples that are not valid; an input beyond its bounds is a reason too. They are counted in all the same, as a sweep
-    returns them.
+    ``x_maximum``, ``x_quantiles`` along ``quantile`` (the shares ``quantiles``) and ``x_missing_share``, that of
+    samples which are NaN and left out of the others; of each that is true or not, ``x_share``, where it is true.
+    ``invalid_share`` is that of samples that are not valid; an input beyond its bounds is a reason too. They are
+    counted in all the same. The values of the outputs are in memory until all are known.
 
     The ``engine`` is chosen by the size of the work; ``done(finished, total)`` is told the progress.
 
@@ -93,10 +73,17 @@ def monte_carlo(
     faults = _faults_of_options(samples, seed, quantiles, engine, threads)
     raise_if_any(faults + _faults_of_inputs(subject, distributions, fixed))
     plan = _planned(subject, outputs, distributions, fixed)
-    evaluate, step, compiled, reason = _by_engine(plan, distributions, samples, seed, engine)
-    tally = _Tally(plan, evaluate, step, compiled=compiled)
+    evaluation = Evaluation.of(plan, engine, max(1, samples // plan.total), section="monte_carlo")
+    results = evaluation.empty(samples)
+
+    def evaluate(block: slice) -> None:
+        drawn = zip(distributions.items(), shares(block, len(distributions), seed), strict=True)
+        points = {name: np.asarray(distribution.quantile(share)) for (name, distribution), share in drawn}
+        here = {name: values[block] for name, values in results.items()}
+        evaluation.at(points).fill(here, slice(0, block.stop - block.start), threads=1)
+
     map_blocks(
-        tally.take,
+        evaluate,
         samples,
         block_size=BLOCK,
         threads=threads,
@@ -109,13 +96,92 @@ def monte_carlo(
     }
     of_quantile = {"long_name": "share of the samples that lies below", "units": "1"}
     coordinates = {name: ((), value, attributes_of(known[name][1])) for name, value in plan.fixed.items()}
+    variables: dict[str, Any] = {}
+    for name, values in results.items():
+        attributes = attributes_of(plan.wanted[name].quantity)
+        if values.dtype == bool:
+            variables |= _truths(name, attributes["long_name"], values)
+        else:
+            variables |= _numbers(name, attributes, Statistics.of(values, quantiles))
     return xr.Dataset(
-        tally.variables(quantiles, samples),
+        variables,
         {"quantile": ("quantile", np.asarray(quantiles, dtype=float), of_quantile), **coordinates},
-        plan.attributes
-        | {"samples": samples, "seed": seed, **words}
-        | {"engine": "compiled" if compiled else "numpy", "engine_reason": reason},
+        plan.attributes | {"samples": samples, "seed": seed, **words} | evaluation.attributes,
     )
+
+
+def shares(block: slice, inputs: int, seed: int) -> NDArray[np.float64]:
+    """Uniform random numbers between 0 and 1, ends excluded, of shape (inputs, samples), for the samples of a block.
+
+    They are the same however long the block is; it begins at a multiple of ``BLOCK``.
+    """
+    random = np.random.Generator(np.random.Philox(key=seed, counter=[0, 0, block.start // BLOCK, 0]))
+    drawn = random.random((block.stop - block.start, inputs))
+    return np.ascontiguousarray(np.maximum(drawn, LEAST_SHARE).T)
+
+
+class Statistics(NamedTuple):
+    """How numbers are distributed; NaN where there are none, and infinite where some are."""
+
+    mean: float
+    #: √(Σ(x − x̄)²/(n − 1)); NaN of one number, and of infinite ones.
+    standard_deviation: float
+    minimum: float
+    maximum: float
+    quantiles: NDArray[np.float64]
+    #: The share of the values that are NaN, which are left out of the others.
+    missing_share: float
+
+    @classmethod
+    def of(cls, values: NDArray[np.float64], quantiles: Sequence[float]) -> Statistics:
+        """The statistics of values, at least one, with quantiles as ``numpy.quantile`` has them."""
+        missing = np.isnan(values)
+        there = values[~missing]
+        share = np.count_nonzero(missing) / values.size
+        if not there.size:
+            return cls(np.nan, np.nan, np.nan, np.nan, np.full(len(quantiles), np.nan), share)
+        least, greatest = float(there.min()), float(there.max())
+        with np.errstate(all="ignore"):  # infinities
+            if least == greatest:  # the sums of equal numbers are rounded
+                mean, deviation = least, 0.0 if there.size > 1 and np.isfinite(least) else np.nan
+            else:
+                mean, deviation = float(there.mean()), float(there.std(ddof=1))
+            # between infinities there is nothing to interpolate
+            method = "linear" if math.isfinite(greatest - least) else "higher"
+            by_share = np.quantile(there, quantiles, method=method, overwrite_input=True)
+        return cls(mean, deviation, least, greatest, by_share, share)
+
+
+#: The names of statistics with their words.
+_STATISTICS = {
+    "mean": "mean of",
+    "standard_deviation": "standard deviation of",
+    "minimum": "least",
+    "maximum": "largest",
+}
+
+
+def _numbers(name: str, attributes: Mapping[str, str], found: Statistics) -> dict[str, tuple[Any, ...]]:
+    """The variables of an output that is a number."""
+    meaning = attributes["long_name"]
+    variables: dict[str, tuple[Any, ...]] = {}
+    for statistic, words in _STATISTICS.items():
+        of_this = {**attributes, "long_name": f"{words} {meaning}", "cell_methods": f"realization: {statistic}"}
+        variables[f"{name}_{statistic}"] = ((), getattr(found, statistic), of_this)
+    of_quantiles = {**attributes, "long_name": f"quantiles of {meaning}"}
+    of_missing = {"long_name": f"share of samples without a value of {meaning}", "units": "1"}
+    variables[f"{name}_quantiles"] = ("quantile", found.quantiles, of_quantiles)
+    variables[f"{name}_missing_share"] = ((), found.missing_share, of_missing)
+    return variables
+
+
+def _truths(name: str, meaning: str, values: NDArray[np.bool_]) -> dict[str, tuple[Any, ...]]:
+    """The variable of an output that is true or not: the share where it is; of ``valid``, where it is not."""
+    share, words = float(np.mean(values)), f"share of samples with {meaning}"
+    if name == "valid":
+        name, share = "invalid", np.count_nonzero(~values) / values.size
+        words = "share of samples where the model is not to be trusted"
+    return {f"{name}_share": ((), share, {"long_name": words, "units": "1"})}
 
 
 def _faults_of_options(samples: Any, seed: Any, quantiles: Any, engine: Any, threads: Any) -> list[Fault]:
@@ -182,174 +248,9 @@ def _planned(
         )
         for name, distribution in distributions.items()
     }
-    return Plan.of(subject, [*named, "valid"] if named else None, {**samples, **fixed}, "monte_carlo")
-
-
-def _by_engine(
-    plan: Plan, distributions: Mapping[str, Distribution], samples: int, seed: int, engine: Engine | None
-) -> tuple[_SampleEvaluator, int, bool, str]:
-    """Evaluator of samples, its batch size, whether it is compiled, and the reason."""
-    if plan.subject.nut.one_by_one:
-        ready = by_ball(plan, engine, max(1, samples // plan.total), varying=list(distributions))
-        if isinstance(ready, ByBall):
-            return _ball_by_ball(plan, distributions, ready, seed), NUMPY_STEP, ready.engine == "compiled", ready.reason
-        if engine == "compiled":
-            raise InputError(Fault("monte_carlo.engine", f"cannot be had: {ready}", engine, 'take engine="numpy"'))
-        return _by_numpy(plan, distributions, None, seed), NUMPY_STEP, False, ready
-    program: Program | None = None
-    try:
-        program = _recorded(plan, distributions)
-        why = why_numpy(engine)
-        if may_be_compiled(program, samples, engine):
-            sources: list[Source] = ["random"] * program.inputs
-            text = kernel_text(program, sources, {name: output.dtype is bool for name, output in plan.wanted.items()})
-            if engine or worth_compiling(program, samples, text):
-                chosen = ASKED_FOR if engine else PAYS
-                return _by_kernel(Kernel.of(text, sources), program, seed), UNIT, True, chosen
-    except CannotRecordError as error:
-        why = f"the model itself, on plain arrays: {error}"
-    except UnknownOperationError as unknown:
-        why = f"{unknown} is not known to kernels"
-    if engine == "compiled":
-        raise InputError(Fault("monte_carlo.engine", f"cannot be had: {why}", engine, 'take engine="numpy"'))
-    return _by_numpy(plan, distributions, program, seed), NUMPY_STEP, False, why
-
-
-def _recorded(plan: Plan, distributions: Mapping[str, Distribution]) -> Program:
-    """The model as a program of uniform numbers."""
-    tape = Tape(len(distributions))
-    drawn = {name: distribution.quantile(tape.value(i)) for i, (name, distribution) in enumerate(distributions.items())}
-    return plan.subject.recorded(tape, plan.fixed | drawn, plan.wanted)
-
-
-def _ball_by_ball(plan: Plan, distributions: Mapping[str, Distribution], ready: ByBall, seed: int) -> _SampleEvaluator:
-    size = max(1, BLOCK_OF_BALLS // plan.subject.balls)
-
-    def evaluate(part: slice, results: Mapping[str, NDArray[Any]]) -> None:
-        for block in blocks(part.stop - part.start, size):
-            numbers = random.uniform(slice(part.start + block.start, part.start + block.stop), len(distributions), seed)
-            drawn = zip(distributions.items(), numbers, strict=True)
-            points = {name: distribution.quantile(u) for (name, distribution), u in drawn}
-            ready.evaluate(plan.subject, plan.fixed | points, {name: held[block] for name, held in results.items()})
-
-    return evaluate
-
-
-def _by_numpy(
-    plan: Plan, distributions: Mapping[str, Distribution], program: Program | None, seed: int
-) -> _SampleEvaluator:
-    interpreter = None if program is None else program.interpreter
-
-    def evaluate(part: slice, results: Mapping[str, NDArray[Any]]) -> None:
-        numbers = random.uniform(part, len(distributions), seed)
-        with np.errstate(all="ignore"):
-            if interpreter is not None:
-                interpreter.run(numbers, results)
-                return
-            drawn = zip(distributions.items(), numbers, strict=True)
-            points = {name: distribution.quantile(u) for (name, distribution), u in drawn}
-            result = plan.subject.at(plan.fixed | points)
-            for name, output in plan.wanted.items():
-                results[name][...] = output.read(result)
-
-    return evaluate
-
-
-def _by_kernel(kernel: Kernel, program: Program, seed: int) -> _SampleEvaluator:
-    names = list(program.outputs)
-
-    def evaluate(part: slice, results: Mapping[str, NDArray[Any]]) -> None:
-        for name, value in program.constants.items():
-            results[name][...] = value
-        if names:
-            blank = [None] * program.inputs
-            here = [results[name] for name in names]
-            kernel(slice(0, 1), part, part.stop, blank, here, first=part.start, seed=seed)
-
-    return evaluate
-
-
-class _Tally:
-    """All that is kept of the samples evaluated so far.
-
-    Counts come in whatever order the threads are done: a few sketches go from hand to hand. Sums wait
-    for those of the blocks before.
-    """
-
-    def __init__(self, plan: Plan, evaluate: _SampleEvaluator, step: int, *, compiled: bool) -> None:
-        self.plan = plan
-        self.numbers = [name for name, output in plan.wanted.items() if output.dtype is not bool]
-        self.truths = [name for name, output in plan.wanted.items() if output.dtype is bool]
-        self.true = np.zeros(len(self.truths), dtype=np.int64)
-        self._evaluate, self._step, self._compiled = evaluate, step, compiled
-        self._lock = threading.Lock()
-        self._idle: list[Sketch] = []
-        self._moments = Moments.empty(len(self.numbers))
-        self._waiting: dict[int, Moments] = {}
-        self._next_start = 0
-
-    def take(self, block: slice) -> None:
-        """Evaluate and count the samples of a block."""
-        with self._lock:
-            sketch = self._idle.pop() if self._idle else Sketch(len(self.numbers), compiled=self._compiled)
-        values = np.empty((len(self.numbers), self._step))
-        masks = np.empty((len(self.truths), self._step), dtype=bool)
-        true = np.zeros_like(self.true)
-        for start in range(block.start, block.stop, self._step):
-            part = slice(start, min(start + self._step, block.stop))
-            count = part.stop - part.start
-            rows = [*values[:, :count], *masks[:, :count]]
-            self._evaluate(part, dict(zip([*self.numbers, *self.truths], rows, strict=True)))
-            if self.numbers:
-                sketch.add(values[:, :count])
-            true += np.count_nonzero(masks[:, :count], axis=1)
-        with self._lock:
-            self._idle.append(sketch)
-            self.true += true
-            self._waiting[block.start] = sketch.take_moments()
-            while self._next_start in self._waiting:
-                self._moments = self._moments.merged(self._waiting.pop(self._next_start))
-                self._next_start += BLOCK
-
-    def variables(self, quantiles: Sequence[float], samples: int) -> dict[str, Any]:
-        """Statistics of each output, in the order of the outputs."""
-        sketch = Sketch(len(self.numbers))
-        for part in self._idle:
-            sketch.merge(part)
-        sketch.moments = self._moments
-        by_share = np.array([sketch.quantile(float(share)) for share in quantiles]).reshape(len(quantiles), -1)
-        parts: list[tuple[str, str, NDArray[np.float64], dict[str, str]]] = [
-            ("mean", "mean of", sketch.mean, {"cell_methods": "realization: mean"}),
-            (
-                "standard_deviation",
-                "standard deviation of",
-                sketch.deviation,
-                {"cell_methods": "realization: standard_deviation"},
-            ),
-            ("minimum", "least", sketch.minimum, {"cell_methods": "realization: minimum"}),
-            ("maximum", "largest", sketch.maximum, {"cell_methods": "realization: maximum"}),
-        ]
-        found: dict[str, Any] = {}
-        for name, output in self.plan.wanted.items():
-            attributes = attributes_of(output.quantity)
-            meaning = attributes["long_name"]
-            if name in self.numbers:
-                i = self.numbers.index(name)
-                for suffix, words, values, more in parts:
-                    found[f"{name}_{suffix}"] = (
-                        (),
-                        values[i],
-                        {**attributes, "long_name": f"{words} {meaning}", **more},
-                    )
-                of_quantiles = {**attributes, "long_name": f"quantiles of {meaning}"}
-                found[f"{name}_quantiles"] = ("quantile", by_share[:, i], of_quantiles)
-                of_missing = {"long_name": f"share of samples without a value of {meaning}", "units": "1"}
-                found[f"{name}_missing_share"] = ((), sketch.missing[i] / samples, of_missing)
-            else:
-                true = int(self.true[self.truths.index(name)])
-                of_share = {"long_name": f"share of samples with {meaning}", "units": "1"}
-                if name == "valid":
-                    name, true = "invalid", samples - true
-                    of_share["long_name"] = "share of samples where the model is not to be trusted"
-                found[f"{name}_share"] = ((), true / samples, of_share)
-        return found
+    plan = Plan.of(subject, [*named, "valid"] if named else None, {**samples, **fixed}, "monte_carlo")
+    known = subject.inputs
+    bounded = all(
+        within(distribution, known[name][1].info) == distribution for name, distribution in distributions.items()
+    )
+    return dataclasses.replace(plan, bounded=bounded)
