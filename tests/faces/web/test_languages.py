@@ -12,11 +12,13 @@ import ballscrew
 from ballscrew.axis.duty_cycle.drive import AS_GIVEN, FULL_BATH
 from ballscrew.cases.schema.schema import json_schema
 from ballscrew.faces.web import languages
+from ballscrew.faces.web.vocabulary import OPTIONS
 from ballscrew.physics.friction.result import QUADRANTS
 from ballscrew.physics.sizing.installation import Ends
 from ballscrew.questions.axis.compute import SPRINGS
 from ballscrew.questions.duty.compute import OF_BATH
 from ballscrew.questions.optimise.need_schema import json_schema as need_schema
+from ballscrew.questions.shared.options import options_of
 from ballscrew.questions.warm_up.compute import AT_END, AT_START
 from ballscrew.questions.warm_up.self_heating import GIVEN, WARM
 
@@ -66,6 +68,8 @@ SAFETY = (
     "verdict.motor", "verdict.no_load", "verdict.preload", "verdict.preload_lost", "verdict.quadrant",
     "verdict.self_locking", "verdict.skid", "verdict.stretch", "warning.bracing", "warning.stopped",
 )  # fmt: skip
+#: Options that cards ask for in a way of their own.
+OF_CARDS = {"fit": {"free", "columns"}, "service": {"tolerance"}}
 #: Numbers of an answer that is starved of oil, by their meaning.
 STARVED = {AT_START.info.meaning, AT_END.info.meaning}
 STARVED |= {WARM.info.meaning, GIVEN.info.meaning}
@@ -187,6 +191,24 @@ def test_translated_fields_are_fields(name):
     translated = {key for key in languages.texts()[name] if key.startswith("field.")}
     assert len(translated) > 150
     assert {key for key in translated if key.removeprefix("field.").rpartition(".")[0] not in known} == set()
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_every_option_is_translated(name):
+    """Those that the page draws from their declarations; a text of an option that is no more is stale."""
+    found = {key for key in languages.texts()[name] if re.fullmatch(r"option\..+\.(label|help)", key)}
+    known = {f"option.{key}.{part}" for key in drawn_options() for part in ("label", "help")}
+    assert found - known == set()
+    for question, options in OPTIONS.items():
+        for option in set(options_of(options)) - OF_CARDS[question]:
+            for part in ("label", "help"):
+                assert {f"option.{option}.{part}", f"option.{question}.{option}.{part}"} & found, (question, option)
+
+
+def drawn_options():
+    """The keys of options: of a question, and of all that have them."""
+    for question, options in OPTIONS.items():
+        yield from (key for name in options_of(options) for key in (name, f"{question}.{name}"))
 
 
 def literals(script):

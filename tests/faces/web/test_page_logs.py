@@ -8,6 +8,9 @@ from .test_page_duty import answered, case_of, number
 #: A page with the card of the service and a nut with preload.
 DOUBLE_NUT = "#A=paper&A.nut.type=double&A.nut.preload=3+kN&A.model.name=olaru2005&band=0&cards=service"
 
+#: The fields of a fit that are drawn from the vocabulary.
+OPTION_IDS = "[...document.querySelectorAll('#calibration details .entry [id^=fit-]')].map((one) => one.id)"
+
 
 def given_logs(here):
     """Put the logs of the example of the API into the card of the service."""
@@ -41,12 +44,18 @@ def test_a_log_is_fitted_and_used(visit, server):
     page.wait_for_selector("#calibrate-fit:enabled")
     page.locator("#free-1").check()
     assert "--free friction.boundary_friction_coefficient,constant_torque" in here.text("#calibration code")
+    drawn = {one["name"] for one in server.get("vocabulary").json()["options"]["fit"]} - {"free", "columns"}
+    assert {one.removeprefix("fit-") for one in here.page.evaluate(OPTION_IDS)} == drawn
+    page.locator("#calibration details:has(#fit-holdout) summary").click()
+    page.locator("#fit-holdout").fill("0.3")
+    page.locator("#fit-seed").fill("3")
+    assert here.text("#calibration code").endswith("--holdout 0.3 --seed 3")
     page.locator("#calibrate-fit").click()
     page.wait_for_selector("#calibrate-use")
     answered(here, "calibration")
     log = server.get("examples").json()["fit"]["logs"][0]
     free = ["friction.boundary_friction_coefficient", "constant_torque"]
-    found = server.post("fit", {"case": case, "log": log, "free": free}).json()
+    found = server.post("fit", {"case": case, "log": log, "free": free, "holdout": 0.3, "seed": 3}).json()
     for name in free:
         assert number(here, "calibration", f"'{name}'") == found["estimates"][name]["value"]
     assert "0.12" in here.text("#calibration table:has(caption:has-text('fitted numbers'))")

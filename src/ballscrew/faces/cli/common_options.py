@@ -36,18 +36,6 @@ SelfHeatingOption = Annotated[
     typer.Option("--self-heating", help="Take the oil as warm as friction makes it in the [surroundings] of the case."),
 ]
 Verbose = Annotated[bool, typer.Option("--verbose", help="Say on the error stream what evaluates the model, and why.")]
-#: Options of logs.
-TorqueKind = Annotated[
-    str | None,
-    typer.Option("--kind", metavar="KIND", help="Of torque: friction or drive; if left out, the model tells."),
-]
-TorqueConstant = Annotated[
-    str | None, typer.Option("--torque-constant", metavar="VALUE", help='Of a motor current: "0.5 N m/A".')
-]
-Inertia = Annotated[
-    str | None,
-    typer.Option("--inertia", metavar="VALUE", help='What the torque accelerates, at the screw: "2e-3 kg m^2".'),
-]
 #: Options of tables of screws.
 Rows = Annotated[
     Path | None,

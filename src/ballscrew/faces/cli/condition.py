@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
-from ballscrew.faces.cli.common_options import (
-    AllowCode,
-    CalibrationName,
-    Inertia,
-    KeepGoing,
-    ModelName,
-    TorqueConstant,
-    TorqueKind,
-)
+from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, ModelName
+from ballscrew.faces.cli.flags import flags_of
+from ballscrew.questions.condition.options import ConditionOptions
 
 
+@flags_of(ConditionOptions)
 def condition(
     tests: Annotated[
         list[Path] | None,
@@ -29,31 +25,8 @@ def condition(
     case: Annotated[
         Path | None, typer.Option("--case", metavar="FILE", help="Case file (TOML) of screw, nut, oil and model.")
     ] = None,
-    speed: Annotated[
-        str | None,
-        typer.Option("--speed", metavar="VALUE", help='Of the tests of a table without speeds: "100 rpm".'),
-    ] = None,
-    at: Annotated[
-        str | None,
-        typer.Option("--at", metavar="VALUE", help='Temperature to reduce the torques to: "20 degC"; else the first.'),
-    ] = None,
-    baseline: Annotated[
-        int, typer.Option("--baseline", metavar="TESTS", help="First tests, which count as healthy.")
-    ] = 5,
-    tolerance: Annotated[
-        float, typer.Option("--tolerance", metavar="SHARE", help="Of the preload, that may be lost.")
-    ] = 0.1,
-    false_alarms: Annotated[
-        float, typer.Option("--false-alarms", metavar="SHARE", help="Of healthy tests, that may give an alarm.")
-    ] = 0.002,
-    kind: TorqueKind = None,
-    column: Annotated[
-        list[str] | None,
-        typer.Option("--column", metavar="NAME=HEADING", help='A heading by hand: torque="M_R [N m]".'),
-    ] = None,
-    torque_constant: TorqueConstant = None,
-    inertia: Inertia = None,
-    keep_going: KeepGoing = False,
+    *,
+    written: Mapping[str, Any],
     model: ModelName = None,
     calibration: CalibrationName = None,
     settings: Annotated[
@@ -74,22 +47,20 @@ def condition(
     """
     from ballscrew.basis.output.json_text import as_json as json_text
     from ballscrew.cases.case_files import case_file
-    from ballscrew.faces.cli.condition_options import check_question, options
     from ballscrew.faces.cli.progress import progress
     from ballscrew.questions.condition import compute, text
     from ballscrew.questions.condition import document as documents
     from ballscrew.questions.shared import chart_files as files
+    from ballscrew.questions.shared.option_values import read
 
-    file = check_question(tests or [], case)
+    file = _check_question(tests or [], case)
     loaded = case_file.load(file, settings or [], model, calibration=calibration, allow_code=allow_code)
     if to is not None:
         files.check_picture(to)
-    chosen = options(
-        loaded, tests or [], speed=speed, at=at, baseline=baseline, tolerance=tolerance, false_alarms=false_alarms,
-        columns=column or [], kind=kind, inertia=inertia, torque_constant=torque_constant, keep_going=keep_going,
-    )  # fmt: skip
+    _check_kind(tests or [], written)
+    options = read(ConditionOptions, written)
     with progress("condition") as done:
-        found = compute.of_files(loaded, tests or [], chosen, done)
+        found = compute.of_files(loaded, tests or [], options, done)
     if as_json:
         typer.echo(json_text(documents.document(loaded, found)))
     else:
@@ -99,3 +70,35 @@ def condition(
 
         files.draw(lambda: figures.picture(loaded, found), to)
         typer.echo(f"{to}: {len(found.states)} tests", err=as_json)
+
+
+def _check_question(tests: Sequence[Path], case: Path | None) -> Path:
+    """The case file. Raises :class:`~ballscrew.basis.errors.InputError` for a question without case or tests."""
+    from ballscrew.basis.errors import Fault, raise_if_any
+
+    faults: list[Fault] = []
+    if case is None:
+        faults.append(Fault("--case", "missing", "", "give the case file of the screw: --case FILE"))
+    if not tests:
+        faults.append(Fault("TABLE", "missing", "", "give a table with a row for each test, or the logs of the tests"))
+    raise_if_any(faults)
+    assert case is not None
+    return case
+
+
+def _check_kind(tests: Sequence[Path], written: Mapping[str, Any]) -> None:
+    """Raise :class:`~ballscrew.basis.errors.InputError` for options of logs beside a table, and of a table beside
+    logs.
+    """
+    from ballscrew.basis.errors import Fault, raise_if_any
+    from ballscrew.questions.shared.options import options_of
+
+    if len(tests) > 1:
+        names, problem, remedy = ["speed"], "is for a table", "leave it out: logs have their speeds"
+    else:
+        names, problem = ["kind", "inertia", "torque_constant"], "is for logs"
+        remedy = "leave it out: a table has mean friction torques"
+    flags = options_of(ConditionOptions)
+    raise_if_any(
+        [Fault(flags[name].flag, problem, written[name], remedy) for name in names if written[name] is not None]
+    )

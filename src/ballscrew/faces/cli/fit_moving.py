@@ -2,26 +2,42 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import typer
 
+from ballscrew.basis.errors import Fault, raise_if_any
 from ballscrew.cases.case_files.case import Case
-from ballscrew.questions.fit_motion.log import MovingOptions, moving_log
+from ballscrew.questions.fit.options import FitOptions
+from ballscrew.questions.fit_motion.log import moving_log
+from ballscrew.questions.fit_motion.options import FitMotionOptions
+from ballscrew.questions.shared.option_values import read
+from ballscrew.questions.shared.options import options_of
 
 
 def fit_moving(
-    case: Case, log: Path, test: Path | None, options: MovingOptions, *, as_json: bool, picture: Path | None
+    case: Case,
+    log: Path,
+    test: Path | None,
+    written: Mapping[str, Any],
+    *,
+    as_json: bool,
+    to: Path | None,
+    picture: Path | None,
 ) -> None:
     """Fit a case to a moving log, and print, or draw, what is found."""
-    read = moving_log(case, log, options)
-    other = None if test is None else moving_log(case, test, options, usual_gain=read.gain)
+    _check_unused(written, to)
+    options = read(FitMotionOptions, written)
+    read_log = moving_log(case, log, options)
+    other = None if test is None else moving_log(case, test, options, usual_gain=read_log.gain)
     # solvers are slow to import: only for a log that can be read
     from ballscrew.basis.output.json_text import as_json as json_text
     from ballscrew.questions.fit_motion import compute, text
     from ballscrew.questions.fit_motion import document as documents
 
-    found = compute.fit(case, read, other, options)
+    found = compute.fit(case, read_log, other, options)
     if as_json:
         typer.echo(json_text(documents.document(case, found)))
     else:
@@ -32,3 +48,20 @@ def fit_moving(
 
         files.draw(lambda: figures.picture(case, found), picture, "--picture")
         typer.echo(f"{picture}: {found.equation.used.size} rows", err=as_json)
+
+
+def _check_unused(written: Mapping[str, Any], to: Path | None) -> None:
+    """Raise :class:`~ballscrew.basis.errors.InputError` for options of logs of torques alone."""
+    of_motion = options_of(FitMotionOptions)
+    unused = [
+        option.flag
+        for name, option in options_of(FitOptions).items()
+        if name not in of_motion and written[name] not in (None, [], option.written_default)
+    ]
+    remedy = "leave it out: the log is of a motion, not of torques at steady speed"
+    raise_if_any(
+        [
+            Fault(flag, "does not go with a moving log", "", remedy)
+            for flag in [*unused, *([] if to is None else ["--to"])]
+        ]
+    )

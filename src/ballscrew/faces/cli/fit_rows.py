@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import typer
 
@@ -15,7 +15,7 @@ from ballscrew.faces.cli.common_options import cases_of_rows, say_of_rows
 if TYPE_CHECKING:
     from ballscrew.cases.case_files.case import Case
     from ballscrew.questions.fit.compute import FitReport
-    from ballscrew.questions.fit.log import Options
+    from ballscrew.questions.fit.options import FitOptions
     from ballscrew.questions.shared.every_row import RowCase
 
 
@@ -23,13 +23,12 @@ def fit_rows(
     case: Path,
     rows: Path,
     row: str | None,
-    options: Callable[[Case], Options],
+    written: Mapping[str, Any],
     *,
     settings: Sequence[str],
     model: str | None,
     calibration: str | None,
     allow_code: bool,
-    keep_going: bool,
     as_json: bool,
     to: Path | None,
 ) -> None:
@@ -40,8 +39,14 @@ def fit_rows(
     from ballscrew.questions.fit import document as documents
     from ballscrew.questions.fit import rows as fit_rows
     from ballscrew.questions.fit import rows_text as text
+    from ballscrew.questions.fit.log import read_options
     from ballscrew.questions.fit.table import of_fits
     from ballscrew.questions.shared import row_tables
+
+    keep_going: bool = written["keep_going"]
+
+    def options(of_row: Case) -> FitOptions:
+        return read_options(of_row, written)
 
     cases = cases_of_rows(
         case, rows, row, settings, model, calibration=calibration, allow_code=allow_code, keep_going=keep_going

@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
-from ballscrew.faces.cli.common_options import (
-    AllowCode,
-    CalibrationName,
-    Inertia,
-    KeepGoing,
-    ModelName,
-    TorqueConstant,
-    TorqueKind,
-)
+from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, ModelName
+from ballscrew.faces.cli.flags import flags_of
+from ballscrew.questions.service.options import ReadingOptions, ServiceOptions
 
 
+@flags_of(ReadingOptions, ServiceOptions)
 def service(
     logs: Annotated[
         list[Path] | None,
@@ -28,31 +24,8 @@ def service(
     case: Annotated[
         Path | None, typer.Option("--case", metavar="FILE", help="Case file (TOML) of screw, nut, oil and model.")
     ] = None,
-    torque: Annotated[
-        str | None,
-        typer.Option("--torque", metavar="VALUE", help='In place of logs: without load, "0.40 ± 0.02 N m".'),
-    ] = None,
-    speed: Annotated[
-        str | None, typer.Option("--speed", metavar="VALUE", help='At which that was measured: "100 rpm".')
-    ] = None,
-    temperature: Annotated[
-        str | None, typer.Option("--temperature", metavar="VALUE", help='Of the nut meanwhile: "35 degC".')
-    ] = None,
-    tolerance: Annotated[
-        float, typer.Option("--tolerance", metavar="SHARE", help="Of the preload, that may be lost.")
-    ] = 0.1,
-    free: Annotated[
-        list[str] | None,
-        typer.Option("--free", metavar="NAMES", help="What to fit beside the preload, with commas: constant_torque."),
-    ] = None,
-    kind: TorqueKind = None,
-    column: Annotated[
-        list[str] | None,
-        typer.Option("--column", metavar="NAME=HEADING", help='A heading by hand, of both logs: load="0 N".'),
-    ] = None,
-    torque_constant: TorqueConstant = None,
-    inertia: Inertia = None,
-    keep_going: KeepGoing = False,
+    *,
+    written: Mapping[str, Any],
     model: ModelName = None,
     calibration: CalibrationName = None,
     settings: Annotated[
@@ -76,22 +49,20 @@ def service(
     from ballscrew.faces.cli.progress import progress
     from ballscrew.questions.service import compute, text
     from ballscrew.questions.service import document as documents
-    from ballscrew.questions.service.options import check_question, fit_options, reading
+    from ballscrew.questions.service.reading import check_question, reading
     from ballscrew.questions.shared import chart_files as files
+    from ballscrew.questions.shared.option_values import read
 
-    file = check_question(logs or [], case, torque, speed, temperature)
+    file = check_question(logs or [], case, written)
     loaded = case_file.load(file, settings or [], model, calibration=calibration, allow_code=allow_code)
     if picture is not None:
         files.check_picture(picture, "--picture")
-    if torque is not None:
-        report = compute.of_torque(loaded, reading(torque, speed or "", temperature))
+    if written["torque"] is not None:
+        report = compute.of_torque(loaded, reading(written))
     else:
-        chosen = fit_options(
-            loaded, free=free or [], columns=column or [], kind=kind, inertia=inertia,
-            torque_constant=torque_constant, keep_going=keep_going,
-        )  # fmt: skip
+        options = read(ServiceOptions, written)
         with progress("service") as done:
-            report = compute.of_logs(loaded, logs or [], chosen, tolerance, done)
+            report = compute.of_logs(loaded, logs or [], options, done)
     if as_json:
         typer.echo(json_text(documents.document(loaded, report)))
     else:

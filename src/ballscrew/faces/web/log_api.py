@@ -18,21 +18,21 @@ from ballscrew.exports import requests
 from ballscrew.faces.web import limits, log_documents, openapi, sent_files, starts
 from ballscrew.faces.web.bodies import case_of, read
 from ballscrew.faces.web.endpoint_parts import as_bytes, as_json, heavy, kept
-from ballscrew.faces.web.log_bodies import FitBody, HandOverBody, LogBody, ServiceBody, assignments
+from ballscrew.faces.web.log_bodies import FitBody, HandOverBody, LogBody, LogsBody, ServiceBody, assignments
 from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.files.torque_logs.preview import preview
 from ballscrew.questions.fit import answer as fit_answers
 from ballscrew.questions.fit import compute as fits
 from ballscrew.questions.fit import log_answer
 from ballscrew.questions.fit import log_document as log_documents_of
-from ballscrew.questions.fit import options as fit_options
-from ballscrew.questions.fit.log import steady_log
+from ballscrew.questions.fit.log import read_options, steady_log
 from ballscrew.questions.fit_motion.log import is_moving
 from ballscrew.questions.hand_over import answer as hand_over_answers
 from ballscrew.questions.hand_over import document as hand_over_documents
 from ballscrew.questions.service import answer as service_answers
 from ballscrew.questions.service import compute as services
-from ballscrew.questions.service import options as service_options
+from ballscrew.questions.service.options import ServiceOptions
+from ballscrew.questions.shared import option_values
 
 router = APIRouter()
 
@@ -47,7 +47,7 @@ async def log(request: Request) -> Response:
     def work(_: Deadline) -> Response:
         case = case_of(body.case)
         with sent_files.written({"log": body.log}) as paths:
-            moving = is_moving(paths["log"], assignments(body.columns))
+            moving = is_moving(paths["log"], body.columns)
             found = preview(paths["log"], body.columns)
         return as_json(log_documents_of.document(found, fits.candidates(case), moving=moving))
 
@@ -59,23 +59,18 @@ async def log(request: Request) -> Response:
 )
 async def fit(request: Request) -> Response:
     """A case fitted to a log of torques: the document of ``ballscrew fit --json``, with words, rows and the case."""
-    body: FitBody = await read(request, FitBody)
+    body: LogBody = await read(request, FitBody)
 
     def work(done: Deadline) -> Response:
         case = case_of(body.case)
-        chosen = fit_options.options(
-            case, free=body.free, bounds=assignments(body.bounds), limits=assignments(body.limits),
-            columns=assignments(body.columns), kind=body.kind, inertia=body.inertia,
-            torque_constant=body.torque_constant, holdout=body.holdout, temperature_error=body.temperature_error,
-            seed=body.seed, keep_going=body.keep_going,
-        )  # fmt: skip
+        chosen = read_options(case, dict(body))
         with sent_files.written({"log": body.log}) as paths:
-            if is_moving(paths["log"], assignments(body.columns)):
+            if is_moving(paths["log"], body.columns):
                 remedy = "give a log of load, speed and torque; this one is for ballscrew fit on the command line"
                 raise InputError(Fault("log", "is of a moving axis", paths["log"].name, remedy))
             steady = steady_log(case, paths["log"], chosen, done)
         assumed: Sequence[str] = ()
-        if body.self_heating:
+        if chosen.self_heating:
             from ballscrew.questions.fit.warm_log import warm_log
 
             steady, assumed = warm_log(case, steady, chosen.kind)
@@ -93,17 +88,14 @@ async def fit(request: Request) -> Response:
 )
 async def service(request: Request) -> Response:
     """The preload left in a nut, by one log or two: the document of ``ballscrew service --json``, with curves."""
-    body: ServiceBody = await read(request, ServiceBody)
+    body: LogsBody = await read(request, ServiceBody)
 
     def work(done: Deadline) -> Response:
         case = case_of(body.case)
-        chosen = service_options.fit_options(
-            case, free=body.free, columns=assignments(body.columns), kind=body.kind, inertia=body.inertia,
-            torque_constant=body.torque_constant, keep_going=body.keep_going,
-        )  # fmt: skip
+        chosen = option_values.read(ServiceOptions, dict(body))
         logs = {name: file for name, file in (("new", body.new), ("worn", body.worn)) if file is not None}
         with sent_files.written(logs) as paths:
-            report = services.of_logs(case, list(paths.values()), chosen, body.tolerance, done)
+            report = services.of_logs(case, list(paths.values()), chosen, done)
         return as_json(log_documents.service(case, report))
 
     return await heavy(request, work)

@@ -5,22 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
-from pydantic import Field
+from pydantic import Field, create_model
 
 from ballscrew.faces.web.bodies import CaseBody, SentFile, Tables
+from ballscrew.questions.fit.options import FitOptions
+from ballscrew.questions.service.options import ServiceOptions
+from ballscrew.questions.shared.options import body_fields
 
 #: Bytes of a request with a log: some 100,000 rows as text.
 MOST_LOG_BYTES = 4_194_304
-
-
-class _LogBody(CaseBody):
-    most_bytes: ClassVar[int] = MOST_LOG_BYTES
-
-    columns: dict[str, str] = Field(default_factory=dict)
-    kind: str | None = Field(default=None, strict=True)
-    torque_constant: str | None = Field(default=None, strict=True)
-    inertia: str | None = Field(default=None, strict=True)
-    keep_going: bool = Field(default=False, strict=True)
 
 
 class LogBody(CaseBody):
@@ -33,30 +26,30 @@ class LogBody(CaseBody):
     columns: dict[str, str] = Field(default_factory=dict)
 
 
-class FitBody(_LogBody):
-    """A case, a log of torques, and the options of ``ballscrew fit``, as text with units."""
-
-    files: ClassVar[tuple[str, ...]] = ("log",)
-
-    log: SentFile
-    free: list[str] = Field(default_factory=list)
-    bounds: dict[str, str] = Field(default_factory=dict)
-    limits: dict[str, str] = Field(default_factory=dict)
-    holdout: float = Field(default=0.2, strict=True)
-    temperature_error: str | None = Field(default=None, strict=True)
-    seed: int = Field(default=0, strict=True)
-    self_heating: bool = Field(default=False, strict=True)
+FitBody = create_model(
+    "FitBody",
+    __base__=LogBody,
+    __doc__="A case, a log of torques, and the options of ``ballscrew fit``, as text with units.",
+    **body_fields(FitOptions),
+)
 
 
-class ServiceBody(_LogBody):
-    """A case, the log of the worn screw, perhaps that of the new one, and the options of ``ballscrew service``."""
+class LogsBody(CaseBody):
+    """A case, the log of a worn screw, and perhaps that of the new one."""
 
+    most_bytes: ClassVar[int] = MOST_LOG_BYTES
     files: ClassVar[tuple[str, ...]] = ("new", "worn")
 
     new: SentFile | None = None
     worn: SentFile
-    tolerance: float = Field(default=0.1, strict=True)
-    free: list[str] = Field(default_factory=list)
+
+
+ServiceBody = create_model(
+    "ServiceBody",
+    __base__=LogsBody,
+    __doc__="A case, the log of the worn screw, perhaps that of the new one, and the options of ``ballscrew service``.",
+    **body_fields(ServiceOptions),
+)
 
 
 class HandOverBody(CaseBody):

@@ -34,7 +34,10 @@ from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.physics.sizing.installation import Installation, Limits
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.duty.compute import CAUSES, IF_ANY, NUMBERS, slug_of
+from ballscrew.questions.fit.options import FitOptions
+from ballscrew.questions.service.options import ServiceOptions
 from ballscrew.questions.shared.chart_colours import CAUSE_COLOURS, MECHANISM_COLOURS
+from ballscrew.questions.shared.options import Kind, vocabulary_of
 from ballscrew.questions.warm_up.compute import SERIES
 
 #: Units of inches and pounds, by the metric units that they replace; other units are the same in both.
@@ -42,6 +45,9 @@ _INCHES: Mapping[str, str] = {
     "mm": "in", "um": "uin", "N": "lbf", "kN": "lbf", "N m": "lbf in", "N mm": "lbf in", "MPa": "psi", "GPa": "psi",
     "degC": "degF", "m": "in", "m/min": "in/min",
 }  # fmt: skip
+
+#: The options of the questions, of which the page draws fields.
+OPTIONS: Mapping[str, type] = {"fit": FitOptions, "service": ServiceOptions}
 
 
 class _Table(BaseModel):
@@ -76,6 +82,18 @@ class Mechanism(_Table):
 
     words: str
     colour: str
+
+
+class OptionOfQuestion(_Table):
+    """An option of a question: its flag on the command line, what it is as it is written, and what it means."""
+
+    name: str
+    flag: str
+    kind: Kind
+    meaning: str
+    unit: str | None
+    default: float | bool | str | list[str] | dict[str, str] | None
+    choices: list[str]
 
 
 class NutKind(_Table):
@@ -120,6 +138,7 @@ class Vocabulary(_Table):
     limits: dict[str, float | None]
     nuts: dict[str, NutKind]
     motions: dict[str, list[str]]
+    options: dict[str, list[OptionOfQuestion]]
     starts: dict[str, Start]
     rows: list[StartRow]
 
@@ -146,6 +165,7 @@ def vocabulary() -> dict[str, Any]:
             for name, kind in NUTS.items()
         },
         "motions": {kind: list(fields_of_motion(kind)) for kind in MOTIONS},
+        "options": {question: vocabulary_of(options) for question, options in OPTIONS.items()},
         "starts": starts(),
         "rows": [{"name": row.name, "source": row.source, "nut": row.nut or "single"} for row in catalogue().values()],
     }

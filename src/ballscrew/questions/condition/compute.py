@@ -10,44 +10,30 @@ from typing import Any
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.errors import Fault, InputError, fault_of
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.uncertain_inputs import all_of, joint_of
-from ballscrew.evidence.service.condition import BASELINE, FALSE_ALARMS, condition
+from ballscrew.evidence.service.condition import condition
 from ballscrew.evidence.service.condition_values import Condition
 from ballscrew.files.torque_logs import reading, torque_series
-from ballscrew.files.torque_logs.log_rows import Kind
+from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.questions.condition.options import ConditionOptions
 from ballscrew.questions.service.compute import distributions
+from ballscrew.questions.shared.options import options_of
 
-#: Options of the command line by the fields in which a condition finds faults.
-_OPTIONS: Mapping[str, str] = {
-    "condition.tolerance": "--tolerance", "condition.baseline": "--baseline", "condition.screw_speed": "--speed",
-    "condition.false_alarms": "--false-alarms", "condition.reference_temperature": "--at",
+#: Flags of the command line by the fields in which a condition finds faults.
+_FLAGS: Mapping[str, str] = {
+    **{f"condition.{name}": option.flag for name, option in options_of(ConditionOptions).items()},
+    "condition.screw_speed": "--speed",
     "lubricant.temperature": "--at",
-}  # fmt: skip
-
-
-@dataclasses.dataclass(frozen=True, kw_only=True)
-class Options:
-    """Settings of a condition; numbers in SI."""
-
-    columns: Mapping[str, str] = dataclasses.field(default_factory=dict[str, str])
-    #: Speed of the tests of a table without speeds; that of the case is of another motion.
-    speed: float | None = None
-    reference_temperature: float | None = None
-    baseline: int = BASELINE
-    false_alarms: float = FALSE_ALARMS
-    tolerance: float = 0.1
-    kind: Kind = "unknown"
-    inertia: float | None = None
-    torque_constant: float | None = None
-    keep_going: bool = False
+}
 
 
 def of_files(
-    case: Case, paths: Sequence[Path], options: Options, done: Callable[[int, int], None] | None = None
+    case: Case, paths: Sequence[Path], options: ConditionOptions, done: Callable[[int, int], None] | None = None
 ) -> Condition:
     """The condition from the table in one file, or from logs in several, in their order."""
+    _check_temperature(options.reference_temperature)
     tests: Any
     if len(paths) == 1:
         tests = torque_series.read(paths[0], options.columns, options.keep_going)
@@ -75,13 +61,21 @@ def of_files(
     return dataclasses.replace(found, warning_records=records)
 
 
-def _speed(series: torque_series.TorqueSeries, options: Options) -> float | None:
+def _speed(series: torque_series.TorqueSeries, options: ConditionOptions) -> float | None:
     """The speed of tests that have none in the table; without one the condition refuses them."""
     if options.speed is not None and series.screw_speed is not None and np.isfinite(series.screw_speed).all():
         raise InputError(Fault("--speed", "is given beside a column of speeds", "", "leave one of them out"))
     return options.speed
 
 
+def _check_temperature(temperature: float | None) -> None:
+    """Raise :class:`~ballscrew.basis.errors.InputError` for a temperature that no oil has a viscosity at."""
+    if temperature is not None:
+        fault = fault_of("lubricant", TEMPERATURE, temperature, units.shown(temperature, TEMPERATURE))
+        if fault is not None:
+            raise InputError(_with_option(fault))
+
+
 def _with_option(fault: Fault) -> Fault:
     """The fault, with the option of the command line that it is in."""
-    return dataclasses.replace(fault, where=_OPTIONS.get(fault.where, fault.where))
+    return dataclasses.replace(fault, where=_FLAGS.get(fault.where, fault.where))

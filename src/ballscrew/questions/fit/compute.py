@@ -26,12 +26,11 @@ from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
 from ballscrew.evidence.calibration.response import resolve_input
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 from ballscrew.physics.components.materials import TEMPERATURE
-from ballscrew.questions.fit.log import DEFAULT_FREE, Options
+from ballscrew.questions.fit.options import DEFAULT_FREE, FitOptions
+from ballscrew.questions.shared.options import options_of
 
 #: Options of the command line by the fields in which the fit finds faults.
-_OPTIONS: Mapping[str, str] = {f"fit.{name}": f"--{name}" for name in ("free", "holdout", "kind", "seed")} | {
-    "fit.temperature_error": "--temperature-error"
-}
+_FLAGS: Mapping[str, str] = {f"fit.{name}": option.flag for name, option in options_of(FitOptions).items()}
 _LIMITS = "fit.limits."
 
 
@@ -47,7 +46,7 @@ class FitReport:
     assumed: Sequence[str] = ()
 
 
-def fit(case: Case, log: TorqueLog, options: Options, done: Callable[[int, int], None] | None = None) -> FitReport:
+def fit(case: Case, log: TorqueLog, options: FitOptions, done: Callable[[int, int], None] | None = None) -> FitReport:
     """Fit of a case to a log. Raises ``InputError`` that names options of the command line.
 
     A distribution that the case gives a free number is its prior. :mod:`~ballscrew.questions.fit.log` reads the log.
@@ -104,7 +103,7 @@ def _rating(case: Case) -> float | None:
         return None
 
 
-def _temperature_error(case: Case, log: TorqueLog, options: Options) -> float | None:
+def _temperature_error(case: Case, log: TorqueLog, options: FitOptions) -> float | None:
     """Half the width of the 95 % interval of the oil temperature, K; None for the usual one.
 
     Where the log has no temperatures, it is that of the case, and so is its distribution if the case gives one.
@@ -131,7 +130,7 @@ def _with_option(fault: Fault) -> Fault:
     where = fault.where
     if where.startswith(_LIMITS):
         return dataclasses.replace(fault, where=f"--limits {where.removeprefix(_LIMITS)}")
-    return dataclasses.replace(fault, where=_OPTIONS.get(where, where))
+    return dataclasses.replace(fault, where=_FLAGS.get(where, where))
 
 
 def _full_name(subject: Configuration, name: str) -> str | None:

@@ -5,43 +5,39 @@ Nothing here needs the solvers of the fit, which are slow to import: a log that 
 
 from __future__ import annotations
 
-import dataclasses
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
+from ballscrew.basis.quantities import Quantity
 from ballscrew.cases.case_files.case import Case
+from ballscrew.engine.evaluation.outputs import inputs_of
 from ballscrew.files.torque_logs import reading
-from ballscrew.files.torque_logs.log_rows import Kind
 from ballscrew.files.torque_logs.torque_log import TorqueLog
+from ballscrew.questions.fit.options import FitOptions
+from ballscrew.questions.shared.option_values import read
 
-#: The number that is fitted by default.
-DEFAULT_FREE = "boundary_friction_coefficient"
 #: The quantities that describe a test.
 CONDITIONS = ("axial_load", "screw_speed", "temperature")
-Range = tuple[float, float]
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
-class Options:
-    """Settings of a fit; numbers in SI."""
+def read_options(case: Case, written: Mapping[str, Any]) -> FitOptions:
+    """The options of a fit as numbers in SI. Raises :class:`~ballscrew.basis.errors.InputError` with all faults."""
 
-    free: Sequence[str]
-    bounds: Mapping[str, Range] = dataclasses.field(default_factory=dict[str, Range])
-    #: Ranges for the next test, by condition.
-    limits: Mapping[str, Range] = dataclasses.field(default_factory=dict[str, Range])
-    #: Headings of the log by column.
-    columns: Mapping[str, str] = dataclasses.field(default_factory=dict[str, str])
-    kind: Kind = "unknown"
-    inertia: float | None = None
-    torque_constant: float | None = None
-    holdout: float = 0.2
-    #: Half the width of the 95 % interval of the oil temperature, K; None for the usual one.
-    temperature_error: float | None = None
-    seed: int = 0
-    keep_going: bool = False
+    def quantities(name: str, found: Mapping[str, Any]) -> Mapping[str, Quantity]:
+        if name == "bounds":
+            from ballscrew.questions.fit.compute import free_quantities  # slow to import: only where bounds are given
+
+            return free_quantities(case, found["free"])
+        inputs = inputs_of(case.model, case.screw, case.lubricant)
+        return {name: inputs[name][1] for name in CONDITIONS if name in inputs}
+
+    return read(FitOptions, written, quantities)
 
 
-def steady_log(case: Case, path: Path, options: Options, done: Callable[[int, int], None] | None = None) -> TorqueLog:
+def steady_log(
+    case: Case, path: Path, options: FitOptions, done: Callable[[int, int], None] | None = None
+) -> TorqueLog:
     """The rows of the log in a file at which the motion is steady. ``done`` gets the bytes read and those of the file.
 
     Raises :class:`~ballscrew.basis.errors.InputError` for a case that cannot be fitted, and for a log that cannot be

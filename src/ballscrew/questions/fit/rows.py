@@ -11,14 +11,15 @@ from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.cases.case_files.case import Case
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 from ballscrew.questions.fit.compute import FitReport, fit
-from ballscrew.questions.fit.log import Options, steady_log
+from ballscrew.questions.fit.log import steady_log
+from ballscrew.questions.fit.options import FitOptions
 from ballscrew.questions.shared import every_row
 from ballscrew.questions.shared.every_row import Done, OfRows, RowCase
 
 #: What file names have not.
 _ODD = re.compile(r"[^\w.+-]+")
 #: The options of a fit of a case; they depend on what the nut of the case has.
-OptionsOf = Callable[[Case], Options]
+OptionsOf = Callable[[Case], FitOptions]
 
 
 def logs(

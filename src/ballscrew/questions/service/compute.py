@@ -23,15 +23,19 @@ from ballscrew.files.torque_logs import reading
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.questions.fit.compute import Options as FitOptions
+from ballscrew.questions.service.options import ReadingOptions, ServiceOptions
+from ballscrew.questions.shared.options import options_of
 
 TORQUE: Quantity = quantities_of(FrictionResult)["screw_torque"]
 _OF_PRELOAD = Message("so with the preload found; in a full bath the same torque asks for a smaller one")
-#: Options of the command line by the fields in which a service finds faults.
-_OPTIONS: Mapping[str, str] = {
-    "service.tolerance": "--tolerance", "service.torque": "--torque", "service.screw_speed": "--speed",
-    "service.free": "--free", "lubricant.temperature": "--temperature",
-}  # fmt: skip
+#: Flags of the command line by the fields in which a service finds faults.
+_FLAGS: Mapping[str, str] = {
+    **{
+        f"service.{name}": one.flag for cls in (ServiceOptions, ReadingOptions) for name, one in options_of(cls).items()
+    },
+    "service.screw_speed": "--speed",
+    "lubricant.temperature": "--temperature",
+}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -71,8 +75,7 @@ class ServiceReport:
 def of_logs(
     case: Case,
     paths: Sequence[Path],
-    options: FitOptions,
-    tolerance: float,
+    options: ServiceOptions,
     done: Callable[[int, int], None] | None = None,
 ) -> ServiceReport:
     """The change between the logs of two files, or from the case to that of one."""
@@ -91,7 +94,7 @@ def of_logs(
         change = preload_change(
             case.model, case.screw, case.lubricant, new, worn,
             free=[PRELOAD, *(name for name in options.free if name not in (PRELOAD, "preload"))],
-            uncertain=uncertain, joint=joint_of(case, all_of(case)), tolerance=tolerance,
+            uncertain=uncertain, joint=joint_of(case, all_of(case)), tolerance=options.tolerance,
             kind=options.kind, inertia=options.inertia,
             dynamic_load_rating=case.listed.get("dynamic_load_rating"), done=done,
         )  # fmt: skip
@@ -137,4 +140,4 @@ def distributions(case: Case) -> dict[str, Distribution]:
 
 def _with_option(fault: Fault) -> Fault:
     """The fault, with the option of the command line that it is in."""
-    return dataclasses.replace(fault, where=_OPTIONS.get(fault.where, fault.where))
+    return dataclasses.replace(fault, where=_FLAGS.get(fault.where, fault.where))

@@ -1,94 +1,41 @@
-"""The options of a service: text from the command line or a request as numbers in SI."""
+"""The options of a service: of logs, and of a torque without load in their place."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from pathlib import Path
+import dataclasses
+from collections.abc import Mapping, Sequence
+from typing import Annotated
 
-from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, raise_if_any
-from ballscrew.basis.quantities import Quantity, fields_of
-from ballscrew.cases.case_files.case import Case
-from ballscrew.engine.uncertainty.distributions import Normal
-from ballscrew.engine.uncertainty.uncertain_value import parse_uncertain
-from ballscrew.evidence.service.posterior import PRELOAD
-from ballscrew.physics.components.materials import TEMPERATURE
-from ballscrew.physics.components.operating_state import OperatingState
-from ballscrew.questions.fit.compute import Options
-from ballscrew.questions.fit.options import options
-from ballscrew.questions.service.compute import TORQUE, Reading
+from ballscrew.questions.shared.log_options import Inertia, KeepGoing, TorqueConstant, TorqueKind, headings
+from ballscrew.questions.shared.options import Option
 
 
-def check_question(
-    logs: Sequence[Path], case: Path | None, torque: str | None, speed: str | None, temperature: str | None
-) -> Path:
-    """The case file. Raises :class:`~ballscrew.basis.errors.InputError` for a question that is none, or two."""
-    faults: list[Fault] = []
-    if case is None:
-        faults.append(Fault("--case", "missing", "", "give the case file of the screw: --case FILE"))
-    if torque is None:
-        if not logs:
-            remedy = 'give NEW.csv WORN.csv, or WORN.csv alone, or --torque "0.4 N m" --speed "100 rpm"'
-            faults.append(Fault("WORN", "missing", "", remedy))
-        faults += [
-            Fault(option, "is for a torque without a log", given, "leave it out, or give --torque")
-            for option, given in (("--speed", speed), ("--temperature", temperature))
-            if given is not None
-        ]
-    else:
-        if logs:
-            faults.append(Fault("--torque", "is given beside a log", torque, "leave one of them out"))
-        if speed is None:
-            faults.append(Fault("--speed", "missing", "", 'say at which speed: --speed "100 rpm"'))
-    if len(logs) > 2:
-        faults.append(Fault("WORN", "more than two logs", str(len(logs)), "give the new one and the worn one"))
-    raise_if_any(faults)
-    assert case is not None
-    return case
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class ServiceOptions:
+    """What is asked of a service by logs; numbers in SI."""
+
+    tolerance: Annotated[float, Option("Of the preload, that may be lost.", metavar="SHARE")] = 0.1
+    free: Annotated[
+        Sequence[str], Option("What to fit beside the preload, with commas: constant_torque.", metavar="NAMES")
+    ] = ()
+    kind: TorqueKind = "unknown"
+    columns: Annotated[Mapping[str, str], headings('A heading by hand, of both logs: load="0 N".')] = dataclasses.field(
+        default_factory=dict[str, str]
+    )
+    torque_constant: TorqueConstant = None
+    inertia: Inertia = None
+    keep_going: KeepGoing = False
 
 
-def fit_options(
-    case: Case,
-    *,
-    free: Sequence[str],
-    columns: Sequence[str],
-    kind: str | None,
-    inertia: str | None,
-    torque_constant: str | None,
-    keep_going: bool,
-) -> Options:
-    """The options of both fits."""
-    return options(
-        case, free=[PRELOAD, *free], bounds=[], limits=[], columns=columns, kind=kind, inertia=inertia,
-        torque_constant=torque_constant, holdout=0.0, seed=0, keep_going=keep_going,
-    )  # fmt: skip
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class ReadingOptions:
+    """A torque without load in place of logs: as text with its interval; speed and temperature in SI."""
 
-
-def reading(torque: str, speed: str, temperature: str | None) -> Reading:
-    """A torque without load. Raises :class:`~ballscrew.basis.errors.InputError` with all faults in the three texts."""
-    faults: list[Fault] = []
-
-    def number(option: str, text: str, quantity: Quantity) -> float:
-        found = units.parse(option, text, quantity)
-        if isinstance(found, Fault):
-            faults.append(found)
-            return 0.0
-        return found
-
-    deviation = 0.0
-    uncertain = parse_uncertain(torque, TORQUE)
-    if isinstance(uncertain, Fault):
-        faults.append(Fault("--torque", uncertain.problem, uncertain.given or torque, uncertain.remedy))
-        value = 0.0
-    elif uncertain is None:
-        value = number("--torque", torque, TORQUE)
-    else:
-        value = uncertain.central
-        if isinstance(uncertain.distribution, Normal):
-            deviation = uncertain.distribution.deviation
-        elif uncertain.distribution is not None:
-            faults.append(Fault("--torque", "must be a value ± its 95 % interval", torque, '"0.40 ± 0.02 N m"'))
-    of_speed = number("--speed", speed, fields_of(OperatingState)["screw_speed"])
-    warm = None if temperature is None else number("--temperature", temperature, TEMPERATURE)
-    raise_if_any(faults)
-    return Reading(value, of_speed, deviation, warm)
+    torque: Annotated[str | None, Option('In place of logs: without load, "0.40 ± 0.02 N m".', metavar="VALUE")] = None
+    speed: Annotated[
+        float | None,
+        Option('At which that was measured: "100 rpm".', metavar="VALUE", unit="rad/s", shown_in="rpm"),
+    ] = None
+    temperature: Annotated[
+        float | None, Option('Of the nut meanwhile: "35 degC".', metavar="VALUE", unit="K", shown_in="degC")
+    ] = None

@@ -9,6 +9,7 @@ import * as units from "../units.js";
 import * as charts from "./calibrate_charts.js";
 import { choices, columns, meaningOf } from "./log_columns.js";
 import { button, caseFile, commandLine, dropZone, exampleButton, faultLines } from "./log_parts.js";
+import { flags, optionFields } from "./option_fields.js";
 import { quantity, TORQUE } from "./quantities.js";
 import { question } from "./question.js";
 import { lines } from "./records.js";
@@ -18,6 +19,8 @@ const WANDER = "torque_wander";
 const DIGITS = 4;
 /** Milliseconds after the last key until the server is asked about a log, which may be long. */
 const REST = 400;
+/** Options that have a place of their own. */
+const OF_COLUMNS = ["free", "columns"];
 /** Sections that a calibration changes. */
 const CHANGED = ["model", "lubricant", "screw", "nut", "losses", "calibration"];
 
@@ -51,6 +54,14 @@ export function setUp(holder, page) {
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let timer;
 
+  const options = page.vocabulary.options.fit.filter(({ name }) => !OF_COLUMNS.includes(name));
+  /** What is given of them. @type {import("./option_fields.js").Given} */
+  const chosen = {};
+  const more = optionFields("fit", options, chosen, () => {
+    showCommand();
+    fit.compare(body());
+  });
+  const command = element("div");
   const inspected = element("div", { class: "card-inputs" });
   const problems = element("div");
   const words = element("div");
@@ -88,7 +99,7 @@ export function setUp(holder, page) {
   });
 
   function body() {
-    return { case: tables, log, columns: given, free };
+    return { case: tables, log, columns: given, free, ...chosen };
   }
 
   /** Ask what the columns of the log are taken for. */
@@ -128,21 +139,29 @@ export function setUp(holder, page) {
       fit.follow(body(), 0);
     });
     start.disabled = !isReady;
-    const column = Object.entries(given).flatMap(([name, heading]) => ["--column", `${name}=${heading}`]);
     inspected.replaceChildren(
       columns(seen, given, (changed) => {
         given = changed;
         inspect();
       }),
-      choices(seen.free, free, (chosen) => {
-        free = chosen;
+      choices(seen.free, free, (names) => {
+        free = names;
         showColumns();
         fit.compare(body());
       }),
+      more,
       element("p", { class: "card-start" }, start),
-      commandLine(["ballscrew", "fit", log.name, "--case", caseFile(), "--free", free.join(","), ...column]),
+      command,
     );
+    showCommand();
     if (focused) document.getElementById(focused)?.focus({ preventScroll: true });
+  }
+
+  function showCommand() {
+    const column = Object.entries(given).flatMap(([name, heading]) => ["--column", `${name}=${heading}`]);
+    const others = [...column, ...flags(options, chosen)];
+    const words = ["ballscrew", "fit", log?.name ?? "", "--case", caseFile(), "--free", free.join(","), ...others];
+    command.replaceChildren(commandLine(words));
   }
 
   /** @param {FitAnswer} found */

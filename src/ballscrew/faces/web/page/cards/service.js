@@ -6,6 +6,7 @@ import { draw, layout, watch } from "../plot.js";
 import { ofServer, text } from "../texts.js";
 import * as units from "../units.js";
 import { button, caseFile, commandLine, dropZone, exampleButton, faultLines } from "./log_parts.js";
+import { flags, optionFields } from "./option_fields.js";
 import { data, FORCE, TEMPERATURE, TORQUE, TURNING } from "./quantities.js";
 import { question } from "./question.js";
 import { lines } from "./records.js";
@@ -62,6 +63,10 @@ export function setUp(holder, page) {
   });
   start.disabled = true;
   const command = element("div");
+  const options = page.vocabulary.options.service.filter(({ name }) => name !== "tolerance"); // it has its own place
+  /** What is given of them. @type {import("./option_fields.js").Given} */
+  const chosen = {};
+  const more = optionFields("service", options, chosen, () => follow());
   holder.replaceChildren(
     ...zones.map(({ zone }) => zone),
     example,
@@ -73,6 +78,7 @@ export function setUp(holder, page) {
       "%",
       start,
     ),
+    more,
     command,
     asked.line,
     problems,
@@ -86,7 +92,7 @@ export function setUp(holder, page) {
   }
 
   function body() {
-    return { case: tables, ...logs, tolerance: Number.isFinite(share()) ? share() : -1 };
+    return { case: tables, ...logs, tolerance: Number.isFinite(share()) ? share() : -1, ...chosen };
   }
 
   async function follow() {
@@ -94,7 +100,7 @@ export function setUp(holder, page) {
     start.disabled = !logs.worn;
     const names = ["new", "worn"].flatMap((name) => (logs[name] ? [logs[name].name] : []));
     const option = tolerance.value === TOLERANCE ? [] : ["--tolerance", String(share())];
-    const said = ["ballscrew", "service", ...names, "--case", caseFile(), ...option];
+    const said = ["ballscrew", "service", ...names, "--case", caseFile(), ...option, ...flags(options, chosen)];
     command.replaceChildren(...(logs.worn ? [commandLine(said)] : []));
     if (answer && system !== units.currentSystem()) show(answer);
     asked.compare(body());

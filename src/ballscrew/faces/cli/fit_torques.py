@@ -1,0 +1,89 @@
+"""``ballscrew fit`` on a log of torques."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from ballscrew.basis.atomic_files import check_writable
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.cases.case_files.case import Case
+from ballscrew.faces.cli.common_options import say_engine
+from ballscrew.faces.cli.progress import progress
+from ballscrew.questions.fit.log import read_options, steady_log
+
+if TYPE_CHECKING:
+    from ballscrew.questions.fit.compute import FitReport
+
+
+@dataclasses.dataclass(frozen=True)
+class Shown:
+    """How a fit is shown, and the files that are written of it."""
+
+    as_json: bool
+    to: Path | None
+    picture: Path | None
+    verbose: bool
+
+
+def fit_torques(
+    path: Path, tables: Mapping[str, Any], case: Case, log: Path, written: Mapping[str, Any], shown: Shown
+) -> None:
+    """Fit a case to a log of torques, print what is found, and write the files asked for.
+
+    ``tables`` are those of the case file at ``path``, with the settings of the command line.
+    """
+    if shown.to is not None:
+        _check_to(shown.to, path)
+    options = read_options(case, written)
+    with progress("fit") as done:
+        steady = steady_log(case, log, options, done)
+        # solvers are slow to import: only for a log that can be fitted to
+        from ballscrew.questions.fit import compute
+
+        assumed: Sequence[str] = ()
+        if options.self_heating:
+            from ballscrew.questions.fit.warm_log import warm_log
+
+            steady, assumed = warm_log(case, steady, options.kind)
+        report = dataclasses.replace(compute.fit(case, steady, options), assumed=assumed)
+    _show(case, report, shown)
+    if shown.to is not None:
+        from ballscrew.cases.case_files import fitted_case
+
+        fitted_case.save(shown.to, tables, path.parent, case, report.model)
+        typer.echo(f"{shown.to}: the calibrated model", err=shown.as_json)
+    if shown.picture is not None:
+        from ballscrew.questions.fit import figure as figures  # matplotlib is slow to import
+        from ballscrew.questions.shared import chart_files as files
+
+        files.draw(lambda: figures.picture(case, report), shown.picture, "--picture")
+        typer.echo(f"{shown.picture}: {len(report.model.rows.log)} rows", err=shown.as_json)
+
+
+def _show(case: Case, report: FitReport, shown: Shown) -> None:
+    from ballscrew.basis.output.json_text import as_json as json_text
+    from ballscrew.questions.fit import document as documents
+    from ballscrew.questions.fit import text
+
+    if shown.verbose:
+        say_engine(report.model.response.evaluation.attributes)
+    if shown.as_json:
+        typer.echo(json_text(documents.document(case, report)))
+    else:
+        text.print_fit(case, report)
+
+
+def _check_to(to: Path, case: Path) -> None:
+    """Raise ``InputError`` if no case file can be written there, or if it is the case itself."""
+    if to.resolve() == case.resolve():
+        raise InputError(
+            Fault("--to", "is the case itself", str(to), "choose another name: its comments would be lost")
+        )
+    if to.suffix.lower() != ".toml":
+        raise InputError(Fault("--to", "is no case file", str(to), "end it in .toml; a picture is --picture"))
+    check_writable("--to", to)

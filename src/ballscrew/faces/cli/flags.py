@@ -1,0 +1,56 @@
+"""Flags of the command line from options that are declared once."""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from collections.abc import Callable, Mapping
+from typing import Annotated, Any
+
+import typer
+
+from ballscrew.questions.shared.options import OptionField, options_of
+
+#: The parameter in whose place the flags stand, and which gets their values.
+WRITTEN = "written"
+_TYPES: Mapping[str, Any] = {"switch": bool, "whole": int, "number": float}
+_TABLES = ("names", "texts", "ranges")
+
+
+def flags_of(*classes: type) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Decorator that gives a command a flag for each option of some dataclasses, in place of its parameter ``written``.
+
+    The command gets a mapping of what was written, by the names of the options. Of an option that several classes have,
+    the first one says what the help says.
+    """
+
+    def decorated(command: Callable[..., None]) -> Callable[..., None]:
+        options = {name: option for cls in reversed(classes) for name, option in options_of(cls).items()}
+        names = dict.fromkeys(name for cls in classes for name in options_of(cls))
+
+        @functools.wraps(command)
+        def called(**given: Any) -> None:
+            written = {name: given.pop(name) for name in names}
+            command(**given, written=written)
+
+        signature = inspect.signature(command, eval_str=True)
+        parameters: list[inspect.Parameter] = []
+        for parameter in signature.parameters.values():
+            flags = [_flag(options[name]) for name in names] if parameter.name == WRITTEN else [parameter]
+            parameters += [one.replace(kind=inspect.Parameter.KEYWORD_ONLY) for one in flags]
+        # typer makes the parameters of a command from its signature
+        setattr(called, "__signature__", signature.replace(parameters=parameters))  # noqa: B010  (functions have none)
+        return called
+
+    return decorated
+
+
+def _flag(option: OptionField) -> inspect.Parameter:
+    """The parameter of a command for an option, as typer reads it."""
+    said, default = option.option, option.written_default
+    names = [option.flag, *([said.short] if said.short else [])]
+    kind: Any = list[str] if option.kind in _TABLES else _TYPES.get(option.kind, str)
+    if default is None or option.kind in _TABLES:
+        kind, default = kind | None, None
+    annotation = Annotated[kind, typer.Option(*names, metavar=said.metavar or None, help=said.meaning)]
+    return inspect.Parameter(option.name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)

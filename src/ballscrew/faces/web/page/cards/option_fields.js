@@ -1,0 +1,114 @@
+// Fields for the options of a question, drawn from their declarations in the vocabulary.
+
+import { element } from "../dom.js";
+import { words } from "../fields.js";
+import { text, textOr } from "../texts.js";
+import * as units from "../units.js";
+
+/** @typedef {Vocabulary["options"][string][number]} Option */
+/** What is given, by name, as the body of a request has it; what is not given is not in it. @typedef {Record<string, any>} Given */
+
+/** What parts the entries of a table, which has a line for itself. */
+const BETWEEN = ";";
+
+/**
+ * The options of a question, behind "more"; what is chosen goes into ``given``.
+ *
+ * @param {string} question
+ * @param {Option[]} options
+ * @param {Given} given
+ * @param {() => void} change is told that it has changed
+ */
+export function optionFields(question, options, given, change) {
+  const fields = options.map((option) => {
+    const control = controlOf(option, (value) => {
+      if (value === undefined) delete given[option.name];
+      else given[option.name] = value;
+      change();
+    });
+    control.id = `${question}-${option.name}`;
+    control.setAttribute("aria-describedby", `${control.id}-about`);
+    const help = ofOption(question, option, "help", option.meaning);
+    return element(
+      "div",
+      { class: "field", title: help },
+      element("label", { for: control.id }, ofOption(question, option, "label", words(option.name))),
+      element("div", { class: "entry" }, control),
+      element("p", { id: `${control.id}-about`, class: "hidden" }, help),
+    );
+  });
+  return element(
+    "details",
+    { class: "card-fields" },
+    element("summary", {}, text("card.options")),
+    element("div", { class: "grid" }, ...fields),
+  );
+}
+
+/**
+ * The label or the help of an option in the language of the page: that of the question, or of all that have the option.
+ *
+ * @param {string} question
+ * @param {Option} option
+ * @param {"label" | "help"} part
+ * @param {string} other
+ */
+function ofOption(question, { name }, part, other) {
+  return textOr(`option.${question}.${name}.${part}`, textOr(`option.${name}.${part}`, other));
+}
+
+/**
+ * @param {Option} option
+ * @param {(value: any) => void} take nothing where it is left empty
+ */
+function controlOf(option, take) {
+  if (option.kind === "switch") {
+    const box = element("input", { type: "checkbox" });
+    box.addEventListener("change", () => take(box.checked || undefined));
+    return box;
+  }
+  if (option.kind === "choice") {
+    const one = (/** @type {string} */ name) => element("option", { value: name }, textOr(`option.${name}`, name));
+    const menu = element(
+      "select",
+      {},
+      element("option", { value: "" }, text("form.not_given")),
+      ...option.choices.map(one),
+    );
+    menu.addEventListener("change", () => take(menu.value || undefined));
+    return menu;
+  }
+  const input = element("input", { type: "text", placeholder: units.inLanguage(String(option.default ?? "")) });
+  input.addEventListener("input", () => take(input.value.trim() ? fromText(option, input.value.trim()) : undefined));
+  return input;
+}
+
+/** What was typed, as the body of a request has it. @param {Option} option @param {string} typed */
+function fromText({ kind }, typed) {
+  if (kind === "whole" || kind === "number") {
+    const found = Number(units.withPoint(units.ofLanguage(typed)));
+    return Number.isFinite(found) ? found : typed;
+  }
+  if (kind === "quantity") return units.ofLanguage(typed);
+  if (kind === "names") return typed.split(",").map((name) => name.trim());
+  if (kind !== "texts" && kind !== "ranges") return typed;
+  const entries = typed.split(BETWEEN).filter((entry) => entry.trim());
+  return Object.fromEntries(entries.map((entry) => entry.split(/=(.*)/s, 2).map((part) => part.trim())));
+}
+
+/**
+ * What is given, as flags of a command line.
+ *
+ * @param {Option[]} options
+ * @param {Given} given
+ */
+export function flags(options, given) {
+  return options.flatMap(({ name, flag, kind }) => {
+    const value = given[name];
+    if (value === undefined) return [];
+    if (kind === "switch") return [flag];
+    if (kind === "names") return [flag, value.join(",")];
+    if (kind !== "texts" && kind !== "ranges") return [flag, String(value)];
+    return Object.entries(value).flatMap(([key, one]) => [flag, `${key}=${one}`]);
+  });
+}

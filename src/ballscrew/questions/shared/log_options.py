@@ -1,0 +1,29 @@
+"""Options of logs, which several questions have."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Literal
+
+from ballscrew.questions.shared.options import Option
+
+
+def headings(meaning: str) -> Option:
+    """Columns of a log by their headings, with an example of them in its meaning."""
+    example = 'torque="M_ist [N m]"'
+    return Option(meaning, metavar="NAME=HEADING", flag="column", noun="heading", example=example)
+
+
+Columns = Annotated[Mapping[str, str], headings('A heading by hand: torque="M_ist [N m]".')]
+TorqueKind = Annotated[
+    Literal["friction", "drive", "unknown"],
+    Option("Of torque: friction or drive; if left out, the model tells.", metavar="KIND", noun="kind of torque"),
+]
+TorqueConstant = Annotated[
+    float | None, Option('Of a motor current: "0.5 N m/A".', metavar="VALUE", unit="N m/A", above=0)
+]
+Inertia = Annotated[
+    float | None,
+    Option('What the torque accelerates, at the screw: "2e-3 kg m^2".', metavar="VALUE", unit="kg m^2", above=0),
+]
+KeepGoing = Annotated[bool, Option("Leave faulty rows out, and say how many.")]

@@ -1,0 +1,132 @@
+"""The values of options from what was written on the command line, in a request or on the page: numbers in SI.
+
+Faults name the flags of the command line.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, TypeVar, cast
+
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, nearest, raise_if_any
+from ballscrew.basis.quantities import Info, Quantity, out_of_bounds
+from ballscrew.questions.shared.options import OptionField, Range, options_of
+
+T = TypeVar("T")
+#: The quantities that ranges may be given for: from the name of the option, and the options before it.
+QuantitiesOf = Callable[[str, Mapping[str, Any]], Mapping[str, Quantity]]
+
+
+def read(cls: type[T], written: Mapping[str, Any], quantities_of: QuantitiesOf | None = None) -> T:
+    """The options as values. Raises :class:`~ballscrew.basis.errors.InputError` with all faults in them.
+
+    ``written`` has each option as :data:`~ballscrew.questions.shared.options.Kind` says, of a table also the texts
+    ``name=text`` of a command line; one that is None, or not there, has its default. ``quantities_of`` says which
+    ranges there may be.
+    """
+    faults: list[Fault] = []
+    found: dict[str, Any] = {}
+    for name, option in options_of(cls).items():
+        given = written.get(name)
+        if given is None or given == option.written_default:
+            found[name] = option.default
+        elif option.kind == "ranges":
+            known = {} if quantities_of is None else quantities_of(name, found)
+            found[name] = _ranges(option.flag, assignments(given), known, faults)
+        else:
+            found[name] = _READERS.get(option.kind, _as_it_is)(option, given, faults)
+    raise_if_any(faults)
+    return cls(**found)
+
+
+def assignments(given: Mapping[str, str] | Sequence[str]) -> list[str]:
+    """``name=text`` of each entry of a table, as on the command line."""
+    return [f"{name}={text}" for name, text in given.items()] if isinstance(given, Mapping) else list(given)
+
+
+def _as_it_is(_option: OptionField, given: Any, _faults: list[Fault]) -> Any:
+    return given
+
+
+def _choice(option: OptionField, given: str, faults: list[Fault]) -> str:
+    if given not in option.choices:
+        known = " or ".join(each for each in option.choices if each != option.default)
+        faults.append(Fault(option.flag, f"unknown {option.option.noun or option.name}", given, known))
+    return given
+
+
+def _names(option: OptionField, given: Sequence[str], faults: list[Fault]) -> Sequence[str]:
+    names = [name.strip() for text in given for name in text.split(",") if name.strip()]
+    if not names and option.default:
+        usual = ",".join(option.default)
+        faults.append(Fault(option.flag, "has no names", ", ".join(given), f"write {option.flag} {usual}"))
+    return names
+
+
+def _texts(option: OptionField, given: Mapping[str, str] | Sequence[str], faults: list[Fault]) -> dict[str, str]:
+    found: dict[str, str] = {}
+    for text in assignments(given):
+        name, equals, value = text.partition("=")
+        if not equals or not name.strip() or not value.strip():
+            noun = option.option.noun or "text"
+            remedy = f"write {option.flag} {option.option.example}"
+            faults.append(Fault(option.flag, f"is not name={noun}", text, remedy))
+        found[name.strip()] = value.strip()
+    return found
+
+
+def _quantity(option: OptionField, text: str, faults: list[Fault]) -> float | None:
+    """A number in SI within its bounds; None where it is a fault."""
+    said, flag = option.option, option.flag
+    if said.is_difference and units.unit_in(text) not in ("K", "kelvin", ""):
+        number = text.replace(units.unit_in(text), "").strip()
+        faults.append(Fault(flag, "is a difference of temperatures, in K", text, f'write {flag} "{number} K"'))
+        return None
+    info = Info("", said.meaning, said.shown_in, above=said.above, at_least=said.at_least)
+    found = units.parse(flag, text, Quantity(option.name, said.unit, info))
+    if isinstance(found, Fault):
+        faults.append(found)
+        return None
+    beyond = out_of_bounds(info, found)
+    if beyond is not None:
+        faults.append(Fault(flag, beyond[0], text, said.hint, beyond[1], said.unit))
+    return found
+
+
+_READERS: Mapping[str, Callable[[OptionField, Any, list[Fault]], Any]] = {
+    "choice": _choice, "names": _names, "texts": _texts, "quantity": _quantity,
+}  # fmt: skip
+
+
+def _ranges(flag: str, given: Sequence[str], known: Mapping[str, Quantity], faults: list[Fault]) -> dict[str, Range]:
+    """``name=low:high unit`` in SI."""
+    found: dict[str, Range] = {}
+    for text in given:
+        name, equals, values = text.partition("=")
+        name, (low, colon, high) = name.strip(), values.strip().partition(":")
+        if not equals or not colon:
+            faults.append(Fault(flag, "is not name=low:high", text, f'write {flag} name="low:high unit"'))
+        elif name not in known:
+            faults.append(Fault(f"{flag} {name}", "unknown name", "", nearest(name, known)))
+        else:
+            unit = units.unit_in(high)
+            texts = (end.strip() if units.unit_in(end) else f"{end.strip()} {unit}".strip() for end in (low, high))
+            ends = [_end(f"{flag} {name}", end, known[name]) for end in texts]
+            wrong = [end for end in ends if isinstance(end, Fault)]
+            faults += wrong
+            if not wrong:
+                found[name] = cast("Range", tuple(ends))
+                if found[name][0] >= found[name][1]:
+                    faults.append(Fault(f"{flag} {name}", "leaves no room", values, "put the lower end first"))
+    return found
+
+
+def _end(where: str, text: str, quantity: Quantity) -> float | Fault:
+    plain: Any = text
+    if quantity.unit == "1":
+        try:
+            plain = float(text)
+        except ValueError:
+            plain = text
+    return units.parse(where, plain, quantity)

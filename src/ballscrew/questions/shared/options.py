@@ -1,0 +1,158 @@
+"""Options that are declared once: flags, bodies of the API and fields of the page follow from their annotations.
+
+The options of a question are a frozen dataclass. Each field has a type, a default, and an :class:`Option`:
+
+    torque_constant: Annotated[float | None, Option('Of a motor current: "0.5 N m/A".', unit="N m/A", above=0)] = None
+
+An instance has what is computed with, numbers in SI. What people write follows from the type, see :data:`Kind`.
+Nothing here is slow to import: the command line needs it for every help.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal, TypeAlias, get_args, get_origin, get_type_hints
+
+#: The ends of a range, SI.
+Range = tuple[float, float]
+#: What an option is as it is written, by the type of its field:
+#:
+#: - ``switch`` (``bool``): true or false; a flag without a value
+#: - ``whole`` (``int``), ``number`` (``float``): a number
+#: - ``quantity`` (``float`` with a unit): text, ``"35 N/V"``
+#: - ``choice`` (``Literal``): one of its texts
+#: - ``text`` (``str``)
+#: - ``names`` (``Sequence[str]``): texts, also several in one with commas
+#: - ``texts`` (``Mapping[str, str]``): a text for each name; a flag ``name=text``, repeated
+#: - ``ranges`` (``Mapping[str, Range]``): ``low:high unit`` for each name
+Kind: TypeAlias = Literal["switch", "whole", "number", "quantity", "choice", "text", "names", "texts", "ranges"]
+_SIMPLE: Mapping[Any, Kind] = {bool: "switch", int: "whole", float: "number", str: "text"}
+_WRITTEN: Mapping[Kind, Any] = {
+    "switch": bool, "whole": int, "number": float, "quantity": str, "choice": str, "text": str,
+    "names": list[str], "texts": dict[str, str], "ranges": dict[str, str],
+}  # fmt: skip
+
+
+@dataclasses.dataclass(frozen=True)
+class Option:
+    """Everything that is said of an option beside its type and its default."""
+
+    #: The help of the flag, and the description in the API and on the page.
+    meaning: str
+    _: dataclasses.KW_ONLY
+    #: What stands for the value in the help of a command.
+    metavar: str = ""
+    #: The SI unit of a number that is written with a unit, and the unit that messages name.
+    unit: str = ""
+    shown_in: str = ""
+    above: float | None = None
+    at_least: float | None = None
+    #: True for a difference of temperatures, which is in K: "2 degC" would be 275 K.
+    is_difference: bool = False
+    #: The remedy for a number beyond its bounds.
+    hint: str = ""
+    #: The name of the flag, where it is not that of the field; a short one.
+    flag: str = ""
+    short: str = ""
+    #: Of a choice, for the message on one that is unknown; an example of a table.
+    noun: str = ""
+    example: str = ""
+
+
+@dataclasses.dataclass(frozen=True)
+class OptionField:
+    """An option of a question: a field of its dataclass with what is said of it."""
+
+    name: str
+    type: Any
+    default: Any
+    option: Option
+
+    @property
+    def flag(self) -> str:
+        """The flag of the command line."""
+        return f"--{self.option.flag or self.name.replace('_', '-')}"
+
+    @property
+    def kind(self) -> Kind:
+        """What it is as it is written."""
+        bare = get_origin(self.type) or self.type
+        if bare is Literal:
+            return "choice"
+        if bare is Sequence:
+            return "names"
+        if bare is Mapping:
+            return "texts" if get_args(self.type)[1] is str else "ranges"
+        return "quantity" if self.option.unit else _SIMPLE[bare]
+
+    @property
+    def choices(self) -> tuple[str, ...]:
+        """The texts of a choice."""
+        return get_args(self.type) if self.kind == "choice" else ()
+
+    @property
+    def written_type(self) -> Any:
+        """The type of what is written, as JSON."""
+        return _WRITTEN[self.kind] | None if self.written_default is None else _WRITTEN[self.kind]
+
+    @property
+    def written_default(self) -> Any:
+        """What stands for the default as it is written: an empty list or table, null, or the number itself."""
+        if self.kind == "names":
+            return []
+        if self.kind in ("texts", "ranges"):
+            return {}
+        return self.default if self.kind in ("switch", "whole", "number") else None
+
+
+@functools.cache
+def options_of(cls: type) -> Mapping[str, OptionField]:
+    """The options of a dataclass by name, in its order."""
+    hints = get_type_hints(cls, include_extras=True)
+    found: dict[str, OptionField] = {}
+    for field in dataclasses.fields(cls):
+        annotation, *said = get_args(hints[field.name])
+        option = next(one for one in said if isinstance(one, Option))
+        default = field.default if field.default_factory is dataclasses.MISSING else field.default_factory()
+        found[field.name] = OptionField(field.name, _without_none(annotation), default, option)
+    return found
+
+
+def _without_none(annotation: Any) -> Any:
+    several = [one for one in get_args(annotation) if one is not type(None)]
+    return several[0] if type(None) in get_args(annotation) and len(several) == 1 else annotation
+
+
+def body_fields(cls: type) -> dict[str, Any]:
+    """The fields of a body of the API, as ``pydantic.create_model`` takes them."""
+    from pydantic import Field  # the command line does not need it
+
+    found: dict[str, Any] = {}
+    for name, one in options_of(cls).items():
+        unit: Any = {"x-si-unit": one.option.unit} if one.option.unit else None
+        if isinstance(one.written_default, list | dict):
+            field = Field(default_factory=type(one.written_default), description=one.option.meaning)
+        else:
+            field = Field(
+                default=one.written_default, strict=True, description=one.option.meaning, json_schema_extra=unit
+            )
+        found[name] = (one.written_type, field)
+    return found
+
+
+def vocabulary_of(cls: type) -> list[dict[str, Any]]:
+    """The options as the page gets them, to draw a field for each."""
+    return [
+        {
+            "name": name,
+            "flag": one.flag,
+            "kind": one.kind,
+            "meaning": one.option.meaning,
+            "unit": one.option.unit or None,
+            "default": one.written_default,
+            "choices": [each for each in one.choices if each != one.default],
+        }
+        for name, one in options_of(cls).items()
+    ]
