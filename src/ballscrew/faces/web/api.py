@@ -80,10 +80,11 @@ from ballscrew.questions.sweep.band import with_band
 from ballscrew.questions.validate import answer as validate_answers
 from ballscrew.questions.validate import compute as validation
 from ballscrew.questions.validate import document as validation_documents
-from ballscrew.questions.warm_up import answer as warm_up_answers
 from ballscrew.questions.warm_up import band as warm_up_bands
 from ballscrew.questions.warm_up import compute as warm_ups
 from ballscrew.questions.warm_up import document as warm_up_documents
+from ballscrew.questions.warm_up.answer import WarmUpResults
+from ballscrew.questions.warm_up.band_answer import BesideWarmUp
 
 #: Media types of a report, by its ``kind``.
 KINDS: Mapping[str, str] = {"pdf": "application/pdf", "html": "text/html; charset=utf-8"}
@@ -202,7 +203,7 @@ async def duty(request: Request) -> Response:
 @router.post(
     "/warm-up",
     openapi_extra=openapi.body(WarmUpBody),
-    response_model=warm_up_answers.WarmUp,
+    response_model=response(WarmUpResults, "WarmUp", beside=BesideWarmUp),
     responses=openapi.problems_of(),
 )
 async def warm_up(request: Request) -> Response:

@@ -169,8 +169,8 @@ def _units(part: Part, value: Any) -> Any:
 
 def units_of(cls: type) -> dict[str, Any]:
     """The SI units of the numbers of an answer of a class."""
-    found = {name: part.unit for name, part in parts_of(cls).items()}
-    return {name: unit for name, unit in found.items() if unit is not None}
+    found = {name: _units(part, None) for name, part in parts_of(cls).items()}
+    return {name: unit for name, unit in found.items() if unit}
 
 
 # -- schema ---------------------------------------------------------------------------------------
@@ -190,15 +190,18 @@ def schema(cls: type) -> Any:
 
 
 @functools.cache
-def response(cls: type, name: str, *, judged: bool = False) -> Any:
-    """The response model of a document whose results are an answer; ``judged`` where its checks are of a screw."""
+def response(cls: type, name: str, *, judged: bool = False, beside: type | None = None) -> Any:
+    """The response model of a document whose results are an answer; ``judged`` where its checks are of a screw.
+
+    ``beside`` is a model of what it has besides.
+    """
     from ballscrew.questions.shared import answer_parts as parts
 
     checks = parts.JudgedCheck if judged else parts.Record
     return parts.model(
         name,
         _first_line(cls),
-        parts.Closed,
+        parts.Closed if beside is None else beside,
         inputs=(parts.Tables, ...),
         results=(schema(cls), ...),
         units=(parts.Tables, ...),

@@ -1,95 +1,129 @@
-"""Response models of the API for warming up."""
+"""The results of warming up, declared once: JSON, its units and its schema follow from the annotations."""
 
 from __future__ import annotations
 
-from typing import Any, Literal
+import dataclasses
+from collections.abc import Sequence
+from typing import Annotated, Any, Literal, NamedTuple
 
-from ballscrew.basis.quantities import Quantity
-from ballscrew.questions.shared.answer_parts import (
-    Closed,
-    Number,
-    Open,
-    Provenance,
-    Record,
-    Tables,
-    field,
-    model,
-    quantities,
-)
-from ballscrew.questions.warm_up.compute import EQUILIBRIUM, SERIES
+from ballscrew.basis.quantities import (
+    AngularSpeed,
+    Conductance,
+    Duration,
+    HeatTransfer,
+    Info,
+    Length,
+    Mass,
+    Torque,
+    Unit,
+    fields_of,
+)  # fmt: skip
+from ballscrew.questions.warm_up.compute import AT_START, PLACE, Equilibrium, Heat, OverTime, WarmUpReport
 
-
-def _lists(quantity: Quantity) -> Any:
-    return list[Number], field(f"{quantity.info.meaning} at each instant, SI", quantity.unit)
-
-
-Equilibrium = model(
-    "Equilibrium",
-    "The steady state; null where there is none.",
-    Open,
-    exists=(bool, ...),
-    margin=(Number, field("stability margin of the thermal loop: 1 less its gain; thermal runaway at 0")),
-    **quantities(EQUILIBRIUM),
-)
+_Places = Annotated[Sequence[float], Unit("m"), PLACE.info]
+_GROWTH = Info(r"\Delta L", "growth there", "um")
 
 
-class Heat(Closed):
-    """Heat until the end; generated is stored and lost."""
+@dataclasses.dataclass(frozen=True, eq=False)
+class FullBath(OverTime):
+    """Numbers over time in a full bath of oil, and where they end."""
 
-    generated: Number = field("heat of friction, SI", "J")
-    stored: Number = field("heat stored, SI", "J")
-    lost: Number = field("heat lost to the surroundings, SI", "J")
-
-
-FullBath = model(
-    "FullBath",
-    "Numbers over time in a full bath of oil, and where they end.",
-    Open,
-    **{name: _lists(quantity) for name, quantity in SERIES.items() if not name.startswith("heat_")},
-    equilibrium=(Equilibrium, ...),
-)
+    #: Time after which oil or preload are outside what is known; null where they stay inside.
+    stopped: Duration | None
+    #: The steady state.
+    equilibrium: Equilibrium
 
 
-WarmUpResults = model(
-    "WarmUpResults",
-    "Numbers over time, where they end, and what heat does at places.",
-    Open,
-    **{name: _lists(quantity) for name, quantity in SERIES.items() if not name.startswith("heat_")},
-    flooded_torque=(Number, field("mean friction torque of the screw at the start, in a full bath of oil, SI", "N m")),
-    full_bath=(FullBath | None, field("the same in a full bath of oil; null where nothing is starved of oil")),
-    works=(list[bool], ...),
-    stopped=(Number, field("time after which oil or preload are outside what is known, SI", "s")),
-    source=(Literal["spread", "moving"], field("whether the heat is spread over the stroke, or goes with the nut")),
-    equilibrium=(Equilibrium, ...),
-    heat=(Heat, ...),
-    drift=(Tables, ...),
-    compensation=(Tables, ...),
-    shaft=(Tables, ...),
-    stretch_left=(list[Number] | None, field("stretch left of a shaft between fixed ends, SI", "m")),
-    network=(dict[str, Number | list[Number]], ...),
-)
+class Drift(NamedTuple):
+    """Growth over time at the ends of the stroke and in its middle: instants by places."""
+
+    place: _Places
+    growth: Annotated[Sequence[Sequence[float]], Unit("m"), _GROWTH]
 
 
-class WarmUpBands(Open):
-    """Bands over time and in the steady state."""
+class Compensation(NamedTuple):
+    """Growth along the shaft at the last instant of work."""
 
-    level: float
-    samples: int
-    time: list[float] = field("instants, SI", "s")
-    known_share: list[float] = field("share of the samples whose friction is known at each instant")
-    equilibrium: Tables
-    inputs: Tables
+    place: _Places
+    growth: Annotated[Sequence[float], Unit("m"), _GROWTH]
 
 
-class WarmUp(Closed):
-    """How a case warms up."""
+class Shaft(NamedTuple):
+    """Temperatures along the shaft over time: instants by places."""
 
-    inputs: Tables
-    results: WarmUpResults  # pyright: ignore[reportInvalidTypeForm]  (a model made from the annotations)
-    units: Tables
-    assumed: list[str]
-    verdicts: list[Record]
-    checks: list[Record]
-    warnings: list[Record]
-    provenance: Provenance
-    band: WarmUpBands = field(optional=True)
+    place: _Places
+    temperature: Annotated[Sequence[Sequence[float]], Unit("K"), Info("T", "temperature of the shaft", "degC")]
+
+
+class Network(NamedTuple):
+    """Numbers that the network of heat was made with."""
+
+    #: Conductance from nut to shaft.
+    ball_conductance: Conductance
+    #: Heat transfer from the shaft to the air.
+    shaft_convection: HeatTransfer
+    #: Mass of the nut.
+    nut_mass: Mass
+    #: Length of the shaft.
+    shaft_length: Length
+    #: Mean speed of the screw.
+    mean_speed: AngularSpeed
+    #: Stroke of the nut.
+    stroke: Length
+    #: Mean friction power of the fixed and of the other bearing.
+    bearing_power: Annotated[Sequence[float], Unit("W")]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class WarmUpResults(FullBath):
+    """Numbers over time, where they end, and what heat does at places."""
+
+    flooded_torque: Annotated[Torque, Info("M_f", f"{AT_START.info.meaning}, in a full bath of oil")]
+    #: The same in a full bath of oil; null where nothing is starved of oil.
+    full_bath: FullBath | None
+    #: True at instants of work, false while the axis stands.
+    works: Sequence[bool]
+    #: Heat is spread over the stroke, or goes with the nut.
+    source: Literal["spread", "moving"]
+    #: Heat until the end.
+    heat: Heat
+    #: Growth of places in the stroke.
+    drift: Drift
+    #: Growth along the shaft at the last instant of work.
+    compensation: Compensation
+    #: Temperatures along the shaft.
+    shaft: Shaft
+    stretch_left: Annotated[Sequence[float] | None, Unit("m"), Info("", "stretch left of a shaft between fixed ends")]
+    #: The network of heat.
+    network: Network
+
+
+def results(report: WarmUpReport) -> WarmUpResults:
+    """The results of a case that warms up."""
+    found, network, full = report.warm_up, report.warm_up.network, report.full_bath
+    return WarmUpResults(
+        **_over_time(report),
+        flooded_torque=found.flooded_torque,
+        full_bath=None if full is None else FullBath(**_over_time(full)),
+        works=found.works,
+        source="spread" if found.along is None else "moving",
+        heat=Heat(**{name: float(values[-1]) for name, values in found.heat.items()}),
+        drift=Drift(*report.drift),
+        compensation=Compensation(*report.compensation),
+        shaft=Shaft(found.places.tolist(), found.shaft_temperature.tolist()),
+        stretch_left=found.stretch_left,
+        network=Network(
+            network.ball_conductance, network.shaft.convection, network.nut_mass, network.shaft.length,
+            report.duty.mean_speed, report.duty.states.stroke, network.bearing_power,
+        ),
+    )  # fmt: skip
+
+
+def _over_time(report: WarmUpReport) -> dict[str, Any]:
+    """The fields of :class:`FullBath`, in a full bath of oil or not."""
+    end = report.warm_up.equilibrium
+    return {
+        **{name: report.series[name] for name in fields_of(OverTime)},
+        "stopped": report.warm_up.stopped,
+        "equilibrium": Equilibrium(end.exists, end.margin, **report.equilibrium),
+    }

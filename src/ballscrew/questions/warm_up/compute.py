@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 
@@ -22,7 +22,19 @@ from ballscrew.basis import units
 from ballscrew.basis.arrays import lazy
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.basis.overflow import overflow_as_input_error
-from ballscrew.basis.quantities import Info, Length, Quantity, fields_of
+from ballscrew.basis.quantities import (
+    Energy,
+    Force,
+    Info,
+    Length,
+    Power,
+    Quantity,
+    Ratio,
+    Temperature,
+    Torque,
+    Unit,
+    fields_of,
+)  # fmt: skip
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 from ballscrew.physics.components.materials import Lubricant
@@ -39,45 +51,66 @@ FEED_SHARE, REST, USUAL_ACCELERATION = 0.5, 1.0, 1.0
 #: Distance of the places of a compensation table, m.
 STEP = 0.05
 _OF, _VISCOSITY = fields_of(Surroundings), fields_of(Lubricant)["viscosity"]
+_Temperatures = Annotated[Sequence[float], Unit("K")]
+_Lengths = Annotated[Sequence[float], Unit("m")]
 
 
-def _quantity(name: str, unit: str, symbol: str, meaning: str, shown_in: str = "") -> Quantity:
-    return Quantity(name, unit, Info(symbol, meaning, shown_in))
+@dataclasses.dataclass(frozen=True, eq=False)
+class OverTime:
+    """Numbers at each instant: all faces have them from here, in this order."""
+
+    time: Annotated[Sequence[float], Unit("s"), Info("t", "time", "h")]
+    nut_temperature: Annotated[_Temperatures, Info("T_n", "temperature of the nut", "degC")]
+    oil_temperature: Annotated[_Temperatures, Info("T_o", "temperature of the oil", "degC")]
+    shaft_temperature: Annotated[_Temperatures, Info("T_s", "mean temperature of the shaft", "degC")]
+    first_bearing_temperature: Annotated[_Temperatures, Info("T_1", "temperature of the fixed bearing", "degC")]
+    last_bearing_temperature: Annotated[_Temperatures, Info("T_2", "temperature of the other bearing", "degC")]
+    shaft_growth: Annotated[_Lengths, Info(r"\Delta L", "growth of the shaft between its bearings", "um")]
+    preload: Annotated[Sequence[float], Unit("N"), Info("F_{pr}", "preload")]
+    screw_torque: Annotated[Sequence[float], Unit("N m"), Info("M", "mean friction torque of the screw")]
+    friction_power: Annotated[Sequence[float], Unit("W"), Info("P", "mean friction power of the nut")]
 
 
-#: What is known at each instant.
+@dataclasses.dataclass(frozen=True)
+class Heat:
+    """Heat until the end; generated is stored and lost."""
+
+    generated: Annotated[Energy, Info("Q", "heat of friction", "kJ")]
+    stored: Annotated[Energy, Info(r"\Delta U", "heat stored", "kJ")]
+    lost: Annotated[Energy, Info("Q_a", "heat lost to the surroundings", "kJ")]
+
+
+#: What is known at each instant; of the heat, that until then.
 SERIES: Mapping[str, Quantity] = {
-    quantity.name: quantity
-    for quantity in (
-        _quantity("time", "s", "t", "time", "h"),
-        _quantity("nut_temperature", "K", "T_n", "temperature of the nut", "degC"),
-        _quantity("oil_temperature", "K", "T_o", "temperature of the oil", "degC"),
-        _quantity("shaft_temperature", "K", "T_s", "mean temperature of the shaft", "degC"),
-        _quantity("first_bearing_temperature", "K", "T_1", "temperature of the fixed bearing", "degC"),
-        _quantity("last_bearing_temperature", "K", "T_2", "temperature of the other bearing", "degC"),
-        _quantity("shaft_growth", "m", r"\Delta L", "growth of the shaft between its bearings", "um"),
-        _quantity("preload", "N", "F_{pr}", "preload"),
-        _quantity("screw_torque", "N m", "M", "mean friction torque of the screw"),
-        _quantity("friction_power", "W", "P", "mean friction power of the nut"),
-        _quantity("heat_generated", "J", "Q", "heat of friction", "kJ"),
-        _quantity("heat_stored", "J", r"\Delta U", "heat stored", "kJ"),
-        _quantity("heat_lost", "J", "Q_a", "heat lost to the surroundings", "kJ"),
-    )
+    **fields_of(OverTime),
+    **{f"heat_{name}": quantity for name, quantity in fields_of(Heat).items()},
 }
-#: The steady state.
-EQUILIBRIUM: Mapping[str, Quantity] = {
-    **{
-        name: SERIES[name]
-        for name in ("nut_temperature", "oil_temperature", "shaft_temperature", "preload", "screw_torque")
-    },
-    "growth": SERIES["shaft_growth"],
-    "power": SERIES["friction_power"],
-}
+
+
+@dataclasses.dataclass(frozen=True)
+class Equilibrium:
+    """The steady state; its numbers are null where there is none."""
+
+    #: True where there is one within the range of oil and preload.
+    exists: bool
+    #: Stability margin of the thermal loop: 1 less its gain; thermal runaway at 0.
+    margin: Ratio
+    nut_temperature: Annotated[Temperature, SERIES["nut_temperature"].info]
+    oil_temperature: Annotated[Temperature, SERIES["oil_temperature"].info]
+    shaft_temperature: Annotated[Temperature, SERIES["shaft_temperature"].info]
+    preload: Annotated[Force, SERIES["preload"].info]
+    screw_torque: Annotated[Torque, SERIES["screw_torque"].info]
+    growth: Annotated[Length, SERIES["shaft_growth"].info]
+    power: Annotated[Power, SERIES["friction_power"].info]
+
+
+#: The numbers of the steady state.
+EQUILIBRIUM: Mapping[str, Quantity] = fields_of(Equilibrium)
 #: The mean friction torque at the two ends of warming up.
-AT_START = _quantity("screw_torque", "N m", "M", "mean friction torque of the screw at the start")
-AT_END = _quantity("screw_torque", "N m", "M", "mean friction torque of the screw in the steady state")
+AT_START = Quantity("screw_torque", "N m", Info("M", "mean friction torque of the screw at the start"))
+AT_END = Quantity("screw_torque", "N m", Info("M", "mean friction torque of the screw in the steady state"))
 #: Places on the shaft.
-PLACE = _quantity("place", "m", "x", "distance from the fixed bearing", "mm")
+PLACE = Quantity("place", "m", Info("x", "distance from the fixed bearing", "mm"))
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

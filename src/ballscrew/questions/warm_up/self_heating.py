@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from ballscrew.axis.thermal.steady_heat import steady_heat
 from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.quantities import Info, Quantity, quantities_of
+from ballscrew.basis.quantities import Force, Info, Length, Quantity, Ratio, Temperature, Torque, quantities_of
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.physics.components.materials import TEMPERATURE
@@ -46,6 +46,30 @@ WARM, GIVEN = (
 )
 
 
+class SelfHeatingNumbers(NamedTuple):
+    """The steady state that self-heating ends in, beside what the case gives."""
+
+    oil_temperature: Temperature
+    oil_temperature_given: Temperature
+    nut_temperature: Temperature
+    #: In the mean.
+    shaft_temperature: Temperature
+    #: 1 less the gain of the thermal loop.
+    margin: Ratio
+    gain: Ratio
+    preload: Force
+    preload_given: Force
+    #: Friction torque at the operating point.
+    screw_torque: Torque
+    screw_torque_given: Torque
+    #: The same in a full bath of oil, in the steady state of its own.
+    flooded_torque: Torque
+    flooded_torque_given: Torque
+    flooded_oil_temperature: Temperature
+    #: Of the shaft between its bearings.
+    growth: Length
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class SelfHeating:
     """A case as it was given, and as it is once it is warm."""
@@ -70,25 +94,25 @@ class SelfHeating:
         return assumed_of(self.given, network.surroundings, network, self.stroke)
 
     @property
-    def numbers(self) -> Mapping[str, float]:
-        """Temperatures in K, margin and gain of the loop, preloads in N and torques in N m."""
-        end = self.equilibrium
-        return {
-            "oil_temperature": end.oil_temperature,
-            "oil_temperature_given": float(self.given.lubricant.temperature or float("nan")),
-            "nut_temperature": end.nut_temperature,
-            "shaft_temperature": end.shaft_temperature,
-            "margin": end.margin,
-            "gain": 1 - end.margin,
-            "preload": end.preload,
-            "preload_given": end.network.preload_set,
-            "screw_torque": self.torque,
-            "screw_torque_given": self.torque_given,
-            "flooded_torque": self.flooded_torque,
-            "flooded_torque_given": self.flooded_torque_given,
-            "flooded_oil_temperature": self.flooded.oil_temperature,
-            "growth": end.growth,
-        }
+    def numbers(self) -> SelfHeatingNumbers:
+        """What was taken, and what it stands for."""
+        end, oil = self.equilibrium, self.given.lubricant.temperature
+        return SelfHeatingNumbers(
+            oil_temperature=end.oil_temperature,
+            oil_temperature_given=float(oil or "nan"),
+            nut_temperature=end.nut_temperature,
+            shaft_temperature=end.shaft_temperature,
+            margin=end.margin,
+            gain=1 - end.margin,
+            preload=end.preload,
+            preload_given=end.network.preload_set,
+            screw_torque=self.torque,
+            screw_torque_given=self.torque_given,
+            flooded_torque=self.flooded_torque,
+            flooded_torque_given=self.flooded_torque_given,
+            flooded_oil_temperature=self.flooded.oil_temperature,
+            growth=end.growth,
+        )
 
     @property
     def records(self) -> list[Record]:
@@ -112,7 +136,7 @@ class SelfHeating:
     @property
     def _record(self) -> Record:
         end, found = self.equilibrium, self.numbers
-        oil, given = (units.shown(found[name], TEMPERATURE) for name in ("oil_temperature", "oil_temperature_given"))
+        oil, given = (units.shown(value, TEMPERATURE) for value in (found.oil_temperature, found.oil_temperature_given))
         nut = units.shown(end.nut_temperature, TEMPERATURE)
         warm, cold = (units.shown(value, _TORQUE) for value in (self.torque, self.torque_given))
         preload = ""

@@ -7,16 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 from ballscrew.basis.records import documents
 from ballscrew.cases.case_files import case_file
+from ballscrew.questions.shared import declared
 
 if TYPE_CHECKING:  # its solvers are slow to import, and seldom asked for
     from ballscrew.questions.warm_up.self_heating import SelfHeating
-
-_UNITS: Mapping[str, str] = {
-    "oil_temperature": "K", "oil_temperature_given": "K", "nut_temperature": "K", "shaft_temperature": "K",
-    "margin": "1", "gain": "1", "preload": "N", "preload_given": "N", "screw_torque": "N m",
-    "screw_torque_given": "N m", "flooded_torque": "N m", "flooded_torque_given": "N m", "flooded_oil_temperature": "K",
-    "growth": "m",
-}  # fmt: skip
 
 
 def with_self_heating(document: Mapping[str, Any], heating: SelfHeating | None) -> dict[str, Any]:
@@ -26,8 +20,8 @@ def with_self_heating(document: Mapping[str, Any], heating: SelfHeating | None) 
     return {
         **document,
         "inputs": case_file.inputs(heating.given),
-        "results": {**document.get("results", {}), "self_heating": dict(heating.numbers)},
-        "units": {**document.get("units", {}), "self_heating": dict(_UNITS)},
+        "results": {**document.get("results", {}), "self_heating": declared.document(heating.numbers)},
+        "units": {**document.get("units", {}), "self_heating": declared.units(heating.numbers)},
         "assumed": [*document.get("assumed", ()), *heating.assumed],
         "verdicts": [*documents(heating.records), *document["verdicts"]],
     }

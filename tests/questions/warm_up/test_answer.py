@@ -1,0 +1,84 @@
+"""The answer of warming up: declared once, and the same on every face."""
+
+import math
+
+import pytest
+
+from ballscrew.faces.report import warm_up_section
+from ballscrew.faces.web.vocabulary import vocabulary
+from ballscrew.questions.shared import declared
+from ballscrew.questions.warm_up import document, table, text
+from ballscrew.questions.warm_up.answer import WarmUpResults
+from ballscrew.questions.warm_up.band_answer import BesideWarmUp
+from ballscrew.questions.warm_up.compute import EQUILIBRIUM, SERIES, load, warmed_up
+from ballscrew.questions.warm_up.self_heating import self_heating
+from ballscrew.questions.warm_up.self_heating_document import with_self_heating
+from support.answers import undescribed, without_unit
+from support.commands import ROOT
+
+EXAMPLE = ROOT / "examples" / "warm_up.toml"
+WARM, COLD = ["surroundings.ambient=45 degC"], ["surroundings.ambient=-5 degC", "lubricant.temperature=-5 degC"]
+
+
+@pytest.fixture(scope="module")
+def report():
+    return warmed_up(load(EXAMPLE, [], None), hours=1.0, cool_down=1.0)
+
+
+def test_every_number_over_time_is_on_every_face(report):
+    """A number is one field: nothing else has to name it."""
+    answer, schema = document.document(report), declared.schema(WarmUpResults).model_json_schema()["properties"]
+    headings = " ".join(table.series(report).headings)
+    for name, quantity in SERIES.items():
+        meaning = quantity.info.meaning
+        assert meaning in headings
+        assert vocabulary()["of_warm_up"][name]["meaning"] == meaning
+        part, _, heat = name.partition("_") if name.startswith("heat_") else (name, "", "")
+        results, unit = answer["results"][part], answer["units"][part]
+        if heat:
+            assert math.isfinite(results[heat])
+            assert unit[heat] == quantity.unit
+        else:
+            assert len(results) == len(report.warm_up.time)
+            assert unit == quantity.unit == schema[name].get("x-si-unit", "1")
+            assert schema[name]["description"].startswith(meaning)
+
+
+def test_every_number_of_the_steady_state_is_on_every_face(report):
+    answer, schema = document.document(report), declared.schema(WarmUpResults).model_json_schema()
+    described = schema["$defs"]["Equilibrium"]["properties"]
+    words, rows = text.text(report), {row[0] for row in table.steady(report).rows}
+    of_report = {row[0] for row in warm_up_section._steady(report).rows}
+    for name, quantity in EQUILIBRIUM.items():
+        meaning = quantity.info.meaning
+        assert math.isfinite(answer["results"]["equilibrium"][name])
+        assert answer["units"]["equilibrium"][name] == quantity.unit == described[name]["x-si-unit"]
+        assert described[name]["description"].startswith(meaning)
+        assert meaning in words
+        assert meaning in rows
+        assert meaning in of_report
+
+
+@pytest.mark.parametrize(("settings", "starved"), [(WARM, False), (COLD, True)], ids=["warm", "starved of oil"])
+def test_answers_are_valid_by_their_schema(settings, starved):
+    report = warmed_up(load(EXAMPLE, settings, None), hours=0.5)
+    found = document.document(report)
+    declared.response(WarmUpResults, "WarmUp", beside=BesideWarmUp).model_validate(found)
+    assert (found["results"]["full_bath"] is not None) == starved
+
+
+def test_every_number_has_a_unit(report):
+    found = document.document(report)
+    assert list(without_unit(found["results"], found["units"])) == []
+
+
+def test_every_part_is_described():
+    assert list(undescribed(WarmUpResults)) == []
+
+
+def test_self_heating_has_units():
+    heating = self_heating(load(EXAMPLE, [], None))
+    found = with_self_heating({"verdicts": []}, heating)
+    assert found["results"]["self_heating"]["oil_temperature"] == heating.equilibrium.oil_temperature
+    assert found["results"]["self_heating"].keys() == found["units"]["self_heating"].keys()
+    assert found["units"]["self_heating"]["flooded_torque_given"] == "N m"
