@@ -72,9 +72,10 @@ def test_dimensional_fits_are_not_consistent(registry, name):
     (unit,) = equation.return_units
     try:
         (result,) = equation(*quantities(registry, equation, columns))
+        dimensionality = registry.Quantity(result).dimensionality
     except pint.DimensionalityError:
-        return
-    assert registry.Quantity(result).dimensionality != registry.Quantity(1.0, unit).dimensionality
+        dimensionality = None  # its parts do not even add up
+    assert dimensionality != registry.Quantity(1.0, unit).dimensionality
 
 
 @pytest.mark.parametrize("name", CONSISTENT)

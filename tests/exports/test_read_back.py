@@ -41,9 +41,17 @@ ALL = [
     for model in MODELS
     if model == "reference" or case not in ("oversize", "deviations")
 ]
-every = pytest.mark.parametrize(
-    ("name", "model"), [pytest.param(*one, marks=() if one in SHORT else pytest.mark.long) for one in ALL]
-)
+
+
+def of_cases(cases):
+    """A test of each of these cases with its model."""
+    found = [pytest.param(*one, marks=() if one in SHORT else pytest.mark.long) for one in cases]
+    return pytest.mark.parametrize(("name", "model"), found)
+
+
+every = of_cases(ALL)
+#: Balls that deviate are solved in Python, in no formula.
+every_of_formulas = of_cases([one for one in ALL if one[0] != "deviations"])
 FORMULAS = ("c", "program", "fmu", "mujoco")
 LARGEST_LOAD, LARGEST_SPEED = 8e3, 150.0
 RANGES = [f"axial_load=-{LARGEST_LOAD}:{LARGEST_LOAD} N", f"screw_speed=-{LARGEST_SPEED}:{LARGEST_SPEED} rad/s"]
@@ -95,16 +103,17 @@ def compare(found, case, load, speed, temperature=None):
 # -- targets that are the model -----------------------------------------------------------------------
 
 
+@pytest.mark.parametrize("to", FORMULAS)
+def test_balls_that_deviate_are_in_no_formula(case_of, to):
+    options = ["mass=10 kg"] if to == "mujoco" else ()
+    with pytest.raises(bs.InputError, match="balls or a lead that deviate are solved in Python only · take a table"):
+        exported(case_of("deviations", "reference"), to, options)
+
+
 @needs_a_compiler
-@every
+@every_of_formulas
 def test_the_source_is_the_model(case_of, tmp_path, name, model):
     case = case_of(name, model)
-    if name == "deviations":
-        with pytest.raises(
-            bs.InputError, match="balls or a lead that deviate are solved in Python only · take a table"
-        ):
-            exported(case, "c")
-        return
     exported(case, "c").write(tmp_path)
     made = library(tmp_path, tmp_path / "ballscrew.c")
     inputs, outputs = (names(made, f"ballscrew_{kind}") for kind in ("inputs", "outputs"))
@@ -117,14 +126,9 @@ def test_the_source_is_the_model(case_of, tmp_path, name, model):
     compare(found, case, load, speed, temperature)
 
 
-@every
+@every_of_formulas
 def test_the_program_and_the_fmu_are_the_model(case_of, name, model):
     case = case_of(name, model)
-    if name == "deviations":
-        for to in ("program", "fmu", "mujoco"):
-            with pytest.raises(bs.InputError, match="balls or a lead that deviate are solved in Python only"):
-                exported(case, to, ["mass=10 kg"] if to == "mujoco" else ())
-        return
     content = exported(case, "program").files["program.bin"]
     with zipfile.ZipFile(io.BytesIO(exported(case, "fmu").files["ballscrew.fmu"])) as archive:
         assert archive.read("resources/program.bin") == content
