@@ -218,15 +218,15 @@ def test_self_heating_says_what_a_full_bath_would_end_in():
     cold = self_heating.self_heating(warm_up.load(ROOT / "examples" / "warm_up.toml", settings, None))
     bath = self_heating.self_heating(warm_up.load(ROOT / "examples" / "warm_up.toml", [*settings, BATH], None))
     found = cold.numbers
-    assert found["flooded_torque"] == pytest.approx(bath.numbers["screw_torque"], rel=1e-6)
-    assert found["flooded_torque_given"] == pytest.approx(bath.numbers["screw_torque_given"], rel=1e-9)
-    assert found["flooded_oil_temperature"] == pytest.approx(bath.numbers["oil_temperature"], abs=1e-3)
+    assert found.flooded_torque == pytest.approx(bath.numbers.screw_torque, rel=1e-6)
+    assert found.flooded_torque_given == pytest.approx(bath.numbers.screw_torque_given, rel=1e-9)
+    assert found.flooded_oil_temperature == pytest.approx(bath.numbers.oil_temperature, abs=1e-3)
     document = with_self_heating(run_documents.document(run(cold.warm)), cold)
     (record,) = [r for r in document["verdicts"] if r["subject"] == "self_heating.screw_torque"]
     assert record["id"] == "lubricant.starved"
-    assert (record["value"], record["limit"]) == (found["flooded_torque"], found["screw_torque"])
+    assert (record["value"], record["limit"]) == (found.flooded_torque, found.screw_torque)
     assert [r.id for r in bath.records] == ["verdict.self_heating"]
-    assert bath.numbers["flooded_torque"] == bath.numbers["screw_torque"]
+    assert bath.numbers.flooded_torque == bath.numbers.screw_torque
 
 
 def log_of(case, temperatures):
