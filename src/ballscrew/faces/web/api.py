@@ -49,9 +49,9 @@ from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.faces.web.sent_files import written
 from ballscrew.faces.web.templates import template
 from ballscrew.physics.sizing.catalogue import catalogue as shipped
-from ballscrew.questions.axis import answer as axis_answers
 from ballscrew.questions.axis import compute as chains
 from ballscrew.questions.axis import document as chain_documents
+from ballscrew.questions.axis.answer import ChainResults
 from ballscrew.questions.band import answer as band_answers
 from ballscrew.questions.band import compute as bands
 from ballscrew.questions.catalogue import answer as catalogue_answers
@@ -276,7 +276,10 @@ async def select_plan(request: Request) -> Response:
 
 
 @router.post(
-    "/axis", openapi_extra=openapi.body(DutyBody), response_model=axis_answers.Chain, responses=openapi.problems_of()
+    "/axis",
+    openapi_extra=openapi.body(DutyBody),
+    response_model=response(ChainResults, "Chain", beside=answer_parts.Assumed),  # pyright: ignore[reportArgumentType]
+    responses=openapi.problems_of(),
 )
 async def axis(request: Request) -> Response:
     """What gives way between motor and table: the document of ``ballscrew axis --json``."""

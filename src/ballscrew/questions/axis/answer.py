@@ -1,39 +1,43 @@
-"""Response models of the API for the stiffness of an axis over its stroke."""
+"""The results of the stiffness of an axis over its stroke, declared once: JSON, units and schema follow from them."""
 
 from __future__ import annotations
 
-from ballscrew.questions.axis.compute import FRICTION, LOAD, SERIES, SPEED
-from ballscrew.questions.shared.answer_parts import (
-    Closed,
-    Number,
-    Open,
-    Provenance,
-    Record,
-    Tables,
-    field,
-    model,
-    quantities,
-)
+import dataclasses
+from collections.abc import Mapping, Sequence
+from typing import Annotated
 
-ChainResults = model(
-    "ChainResults",
-    "Rigidity, lost motion, critical speed and buckling load over the place of the nut.",
-    Open,
-    **{name: (list[Number], field(f"{q.info.meaning}, SI", q.unit)) for name, q in SERIES.items()},
-    shares=(dict[str, list[Number]], field("share of each spring in what gives way")),
-    travel=(list[float], field("places of the nut at the ends of its travel, SI", "m")),
-    **quantities({q.name: q for q in (LOAD, SPEED, FRICTION)}),
-)
+from ballscrew.basis.quantities import AngularSpeed, Force, Info, Unit
+from ballscrew.questions.axis.compute import FRICTION, LOAD, SERIES, SPEED, ChainReport
+from ballscrew.questions.shared.declared import FINITE, table_of
+
+AtPlaces = table_of("AtPlaces", "Numbers at places of the nut.", SERIES, lists=True)
+AtPlace = table_of("AtPlace", "Numbers at one place of the nut.", SERIES)
 
 
-class Chain(Closed):
-    """What gives way between the motor and the table of an axis, over its stroke."""
+@dataclasses.dataclass(frozen=True, eq=False)
+class ChainResults(AtPlaces):
+    """Rigidity, lost motion, critical speed and buckling load over the place of the nut."""
 
-    inputs: Tables
-    results: ChainResults  # pyright: ignore[reportInvalidTypeForm]  (a model made from the annotations)
-    units: Tables
-    assumed: list[str]
-    verdicts: list[Record]
-    checks: list[Record]
-    warnings: list[Record]
-    provenance: Provenance
+    shares: Annotated[Mapping[str, Sequence[float]], Unit("1"), Info("", "share of each spring in what gives way")]
+    travel: Annotated[Sequence[float], Unit("m"), Info("", "places of the nut at the ends of its travel", "mm"), FINITE]
+    #: False where the places are those of the whole shaft.
+    travel_is_known: bool
+    #: The place in the travel where the chain gives way most.
+    softest: AtPlace  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
+    largest_load: Annotated[Force, LOAD.info]
+    largest_speed: Annotated[AngularSpeed, SPEED.info]
+    guide_friction: Annotated[Force, FRICTION.info]
+
+
+def results(report: ChainReport) -> ChainResults:
+    """The results of a chain; a spring that is not known is null."""
+    return ChainResults(
+        **report.series,
+        shares=report.chain.shares,
+        travel=report.travel,
+        travel_is_known=report.travel_is_known,
+        softest=AtPlace(**{name: values[report.softest] for name, values in report.series.items()}),
+        largest_load=report.largest_load,
+        largest_speed=report.largest_speed,
+        guide_friction=report.guide_friction,
+    )

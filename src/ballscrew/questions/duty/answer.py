@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Literal, NamedTuple
 
@@ -37,7 +36,7 @@ from ballscrew.questions.duty.compute import (
     SpeedSmoothing,
     slug_of,
 )  # fmt: skip
-from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, Answer
+from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, Answer, table_of
 
 #: States of a cycle in a document; of more, each second, third … one: all of them are in a table in a file.
 MOST_STATES = 2000
@@ -48,9 +47,7 @@ def _by_slug(parts: Mapping[str, Any]) -> dict[str, float]:
 
 
 #: The numbers of the cycle in a full bath of oil, as :data:`~ballscrew.questions.duty.compute.OF_BATH` names them.
-FullBath: Any = dataclasses.make_dataclass(
-    "FullBath", [(name, Annotated[float, Unit(each.unit), each.info]) for name, each in OF_BATH.items()], frozen=True
-)
+FullBath = table_of("FullBath", "Numbers of the cycle in a full bath of oil.", OF_BATH)
 
 
 class Life(Answer):

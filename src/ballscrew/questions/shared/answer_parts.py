@@ -77,6 +77,12 @@ class Problem(Closed):
     faults: list[FaultLine]
 
 
+class Assumed(Closed):
+    """What is assumed, in words."""
+
+    assumed: list[str]
+
+
 class Provenance(Closed):
     """Version, model and sources of an answer."""
 

@@ -20,7 +20,7 @@ from typing import Annotated, Any, NamedTuple, Union, get_args, get_origin, get_
 import numpy as np
 
 from ballscrew.basis.field_docs import comments_of
-from ballscrew.basis.quantities import info_of, unit_of
+from ballscrew.basis.quantities import Quantity, Unit, info_of, unit_of
 
 #: A part that is left out where it is None.
 LEFT_OUT = "left out"
@@ -115,6 +115,13 @@ def is_answer(annotation: Any) -> bool:
 
 class Answer:
     """An answer whose parts are annotated properties."""
+
+
+def table_of(name: str, meaning: str, quantities: Mapping[str, Quantity], *, lists: bool = False) -> Any:
+    """An answer of that name with numbers, or lists of numbers, that are declared elsewhere."""
+    kind: Any = Sequence[float] if lists else float
+    fields = [(each, Annotated[kind, Unit(one.unit), one.info]) for each, one in quantities.items()]
+    return dataclasses.make_dataclass(name, fields, frozen=True, eq=False, namespace={"__doc__": meaning})
 
 
 # -- document and units ---------------------------------------------------------------------------
@@ -237,7 +244,7 @@ def _kind(part: Part) -> Any:
     if kind is Mapping:
         return dict[str, _kind(Part("", inner[1]))]
     if kind is Sequence:
-        return list[part.number if unit_of(inner[0]) else _kind(Part("", inner[0]))]
+        return list[part.number if unit_of(inner[0]) or inner[0] is float else _kind(Part("", inner[0]))]
     if _is_union(part.bare):
         return Union[tuple(_kind(Part("", each)) for each in inner)]  # noqa: UP007  (made at run time)
     if part.unit is not None or kind is float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ballscrew.questions.shared.answer_parts import Closed, Open, Tables, field
+from ballscrew.questions.shared.answer_parts import Assumed, Open, Tables, field
 
 
 class WarmUpBands(Open):
@@ -16,8 +16,7 @@ class WarmUpBands(Open):
     inputs: Tables
 
 
-class BesideWarmUp(Closed):
+class BesideWarmUp(Assumed):
     """What is assumed, and the bands where they are asked for."""
 
-    assumed: list[str]
     band: WarmUpBands = field(optional=True)
