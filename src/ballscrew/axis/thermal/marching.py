@@ -19,7 +19,6 @@ from ballscrew.axis.thermal.modes import Modes, Step
 from ballscrew.axis.thermal.network import FrictionFactor, Network
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.quantities import Duration
-from ballscrew.physics.equations.preload import backward_half_load
 
 #: Steps in the time in which the nut warms up, and in the time that has passed: friction then changes little in one.
 PER_NUT, PER_TIME = 8.0, 30.0
@@ -66,37 +65,30 @@ class Slot(ByValue):
         return np.array([getattr(network, name) for network in self.networks])
 
     @functools.cached_property
-    def _factor(self) -> FrictionFactor:
-        found = [network.friction_factor or _AS_IT_IS for network in self.networks]
-        ends = [np.array(pairs).T for pairs in ([one.temperatures for one in found], [one.factors for one in found])]
-        return FrictionFactor((ends[0][0], ends[0][1]), (ends[1][0], ends[1][1]))
+    def _nuts(self) -> Network:
+        """The first network with the nuts of all in it: arrays of what their preload and friction follow from."""
+        factors = [network.friction_factor or _AS_IT_IS for network in self.networks]
+        cold, warm = np.array([one.temperatures for one in factors]).T
+        of_cold, of_warm = np.array([one.factors for one in factors]).T
+        numbers = {name: self._array(name) for name in ("preload_set", "approach_set", "approach_per_kelvin")}
+        factor = FrictionFactor((cold, warm), (of_cold, of_warm))
+        return dataclasses.replace(self.networks[0], friction_factor=factor, **numbers)
 
     @functools.cached_property
     def _in_modes(self) -> tuple[Numbers, Numbers]:
         return self.modes.weights(self._array("of_oil")), self.modes.weights(self._array("of_excess"))
 
-    def preload(self, excess: Numbers) -> Numbers:
-        """Preload of each network whose shaft is so much warmer than its nut, N."""
-        return backward_half_load(self._array("preload_set"), -self._per_kelvin * excess)
-
-    @functools.cached_property
-    def _per_kelvin(self) -> Numbers:
-        return self._array("approach_per_kelvin") / self._array("approach_set")
-
-    def power(self, oil: Numbers, preload: Numbers) -> Numbers:
-        """Friction power of each network, W; NaN where it is not known."""
-        return self.networks[0].friction.at_all(oil, preload) * self._factor.at(oil)
-
     def power_of_modes(self, modes: Numbers) -> Numbers:
-        """The same by the modes."""
+        """Friction power of each network by its modes, W; NaN where it is not known."""
         of_oil, of_excess = self._in_modes
-        return self.power(np.sum(of_oil * modes, axis=1), self.preload(np.sum(of_excess * modes, axis=1)))
+        preload = self._nuts.preload(np.sum(of_excess * modes, axis=1))
+        return self._nuts.power_at(np.sum(of_oil * modes, axis=1), preload)
 
     def power_of(self, temperatures: Numbers, spread: Numbers) -> tuple[Numbers, Numbers]:
         """Preload and friction power of each network with its nut over cells of those shares: N and W."""
         nut, shaft = temperatures[:, -3], temperatures[:, :-3] @ spread
-        preload = self.preload(shaft - nut)
-        return preload, self.power((nut + shaft) / 2, preload)
+        preload = self._nuts.preload(shaft - nut)
+        return preload, self._nuts.power_at((nut + shaft) / 2, preload)
 
 
 def marched(

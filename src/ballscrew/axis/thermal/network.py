@@ -179,10 +179,13 @@ class Network(ByValue):
 
     def preload(self, excess: Any) -> Any:
         """Preload where the shaft is so much warmer than the nut, N; zero where it is lost."""
-        if not self.preload_set:
-            return 0.0 * excess
         # heat adds to the approach what a displacement would take
         return backward_half_load(self.preload_set, -(self.approach_per_kelvin * excess / self.approach_set))
+
+    def power_at(self, oil: Numbers, preload: Numbers) -> Numbers:
+        """Mean friction power of the nut at temperatures of the oil and preloads, W; NaN where it is not known."""
+        found = self.friction.at_all(oil, preload)
+        return found if self.friction_factor is None else found * self.friction_factor.at(oil)
 
     def power(self, temperatures: Numbers) -> Power:
         """Mean friction power of the nut, W."""
@@ -192,9 +195,7 @@ class Network(ByValue):
 
     def powers(self, temperatures: Numbers) -> Numbers:
         """The same of many temperatures, W: one row each; NaN where friction is not known."""
-        oil = temperatures @ self.of_oil
-        found = self.friction.at_all(oil, self.preload(temperatures @ self.of_excess))
-        return found if self.friction_factor is None else found * self.friction_factor.at(oil)
+        return self.power_at(temperatures @ self.of_oil, self.preload(temperatures @ self.of_excess))
 
     def inside(self, temperatures: Numbers) -> bool:
         """True where the friction is known: oil and preload within the map."""
