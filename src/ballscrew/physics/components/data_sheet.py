@@ -68,7 +68,7 @@ class DataSheet(ByValue):
     The viscosity follows the line of ASTMD341 through both points, in the full form that holds for thin oils too; the
     density follows ASTMD1250; the pressure–viscosity coefficient is an estimate from the viscosity (Jungnickel2010,
     mineral oils: others lie off it). Data sheets state typical values: an oil may lie 10 % off. The default density is
-    that of Jungnickel2010's oils. ``data["name"].lubricant(temperature)`` is the oil at a temperature.
+    that of Jungnickel2010's oils. ``Lubricant.from_sheet(sheet, temperature)`` is the oil at a temperature.
 
     Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds, and for an oil that is not thinner at
     100 °C.

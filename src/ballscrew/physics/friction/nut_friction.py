@@ -1,4 +1,4 @@
-"""The friction of a nut as it was called before a ball screw had its nut: kept for one release, with a warning."""
+"""The friction of a nut as it was called before a ball screw had its nut: it warns, and calls the model."""
 
 from __future__ import annotations
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ballscrew.basis import units
-from ballscrew.basis.output.wrapping import beside, wrapped
+from ballscrew.basis.output.wrapping import aligned_beside, wrapped
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.cases.case_files import descriptions, nut_tables
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
@@ -101,18 +101,7 @@ def _ratings(found: Checked) -> list[str]:
 
 def list_text(found: Sequence[Checked]) -> str:
     """One line a screw; a long verdict goes on below itself."""
-    lines = [list(_HEADINGS), *map(_cells, found)]
-    widths = [max(len(line[place]) for line in lines) for place in range(len(_HEADINGS))]
-    return "\n".join(
-        beside(
-            "".join(
-                (cell.rjust(width) if place else cell.ljust(width)) + "  "
-                for place, (cell, width) in enumerate(zip(numbers, widths, strict=False))
-            ),
-            verdict,
-        )
-        for *numbers, verdict in lines
-    )
+    return "\n".join(aligned_beside([_HEADINGS, *map(_cells, found)]))
 
 
 def _cells(found: Checked) -> list[str]:

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 
 from rich.console import Console
 
+from ballscrew.basis.output.wrapping import aligned
 from ballscrew.cases.case_files import case_file, descriptions
 from ballscrew.cases.case_files.spelling import THOUSANDS
 from ballscrew.cases.schema.schema import LAWS, name_of_law
@@ -108,13 +109,13 @@ def mechanisms_in(found: Comparison) -> list[str]:
 def _table(case: case_file.Case, found: Comparison) -> list[tuple[str, str | None]]:
     """The lines of the table and their styles. Headings run over all columns, which Rich's tables cannot."""
     columns = _Columns.of(found)
-    groups = [(title, [(row, columns.cells(row)) for row in rows]) for title, rows in row_groups(case, found)]
-    lines = [columns.heading, *(line for _, rows in groups for _, line in rows)]
-    widths = [max(len(line[column]) for line in lines) for column in range(len(columns.heading))]
-    table: list[tuple[str, str | None]] = [(_aligned(columns.heading, widths), "bold")]
+    groups = row_groups(case, found)
+    heading, *lines = aligned([columns.heading, *(columns.cells(row) for _, rows in groups for row in rows)], gap=1)
+    following = iter(lines)
+    table: list[tuple[str, str | None]] = [(heading, "bold")]
     for title, rows in groups:
         table.append((title, "dim"))
-        table += [(_aligned(line, widths), "bold" if row is found.case else None) for row, line in rows]
+        table += [(next(following), "bold" if row is found.case else None) for row in rows]
     return table
 
 
@@ -163,15 +164,6 @@ class _Columns:
         return f"{value * self.scale:.{self.decimals}f}" if math.isfinite(value) else "–"
 
 
-def _aligned(line: Sequence[str], widths: Sequence[int]) -> str:
-    """A line of cells, the first to the left and the others to the right."""
-    first, *others = (
-        cell.ljust(width) if i == 0 else cell.rjust(width)
-        for i, (cell, width) in enumerate(zip(line, widths, strict=True))
-    )
-    return " ".join([first, *others]).rstrip()
-
-
 def rules_table(found: Comparison) -> list[tuple[str, str | None]]:
     """Rules of one line beside the case: friction torque, efficiency, and the torque of the nut without load."""
     unit, scale, decimals = _scale(found)
@@ -195,16 +187,8 @@ def rules_table(found: Comparison) -> list[tuple[str, str | None]]:
         changes = percent(rule.change), percent(rule.drag_change)
         numbers = cells(rule.screw_torque, changes[0], rule.efficiency, rule.drag_torque, changes[1])
         lines.append([rule.title, *numbers])
-    widths = [max(len(line[column]) for line in lines) for column in range(len(lines[0]))]
-    table: list[tuple[str, str | None]] = []
-    for place, (title, *numbers) in enumerate(lines):
-        aligned = [cell.rjust(width) for cell, width in zip(numbers, widths[1:], strict=True)]
-        table.append(
-            (
-                "  ".join([title.ljust(widths[0]), *aligned]).rstrip(),
-                "bold" if place < 2 + (balls is not None) else None,
-            )
-        )
+    bold = 2 if balls is None else 3
+    table = [(line, "bold" if place < bold else None) for place, line in enumerate(aligned(lines))]
     return [*table, *((f"{rule.title}: {rule.formula}; {rule.source}", "dim") for rule in found.rules)]
 
 

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from ballscrew.basis import units
-from ballscrew.basis.output.wrapping import wrapped
+from ballscrew.basis.output.wrapping import aligned, wrapped
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.cases.case_files import descriptions
 from ballscrew.physics.friction.result import FrictionResult
@@ -22,8 +20,6 @@ def text(found: SideBySide) -> str:
     """The table, the verdicts of the checks, and load and speed."""
     first = found.designs[0]
     rows = [list(_HEADINGS), *([one.name, *_cells(one, first)] for one in found.designs)]
-    widths = [max(len(row[place]) for row in rows) for place in range(len(_HEADINGS))]
-    lines = [_line(row, widths) for row in rows]
     if found.own:
         at = [f"{one.name}: {descriptions.operating_point(one.case)}" for one in found.designs]
     else:
@@ -33,12 +29,7 @@ def text(found: SideBySide) -> str:
         f"{one.name}: beware {record.name}: {record.text}" for one in found.designs for record in one.run.warnings
     ]
     changes = f"changes are against {first.name}"
-    return "\n".join([*lines, "", *map(wrapped, [*at, changes]), "", *map(wrapped, [*checks, *beware])])
-
-
-def _line(cells: Sequence[str], widths: Sequence[int]) -> str:
-    name, *numbers = zip(cells, widths, strict=True)
-    return "  ".join([name[0].ljust(name[1]), *(cell.rjust(width) for cell, width in numbers)]).rstrip()
+    return "\n".join([*aligned(rows), "", *map(wrapped, [*at, changes]), "", *map(wrapped, [*checks, *beware])])
 
 
 def _cells(one: Checked, first: Checked) -> list[str]:

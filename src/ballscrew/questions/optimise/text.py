@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ballscrew.basis import units
-from ballscrew.basis.output.wrapping import beside, wrapped
+from ballscrew.basis.output.wrapping import aligned_beside, wrapped
 from ballscrew.questions.optimise.compute import Member, Optimisation, Plan
 from ballscrew.questions.optimise.design_model import OF_MODEL
 from ballscrew.questions.optimise.design_space import VARIABLES, DesignSpace
@@ -65,12 +65,7 @@ def table(members: Sequence[Member], space: DesignSpace) -> list[str]:
     with_quantile = () if quantile is None else tuple(name for name in objectives if name in OF_MODEL)
     heading = ["", *(_HEADINGS[name] for name in names), *(LABELS[name] for name in objectives)]
     heading += [*(f"{LABELS[name]}, q {quantile:g}" for name in with_quantile), "near its limit"]
-    cells = [heading, *(_cells(each, names, objectives, with_quantile) for each in members)]
-    widths = [max(len(line[place]) for line in cells) for place in range(len(heading))]
-    return [
-        beside("".join(cell.rjust(width) + "  " for cell, width in zip(numbers, widths, strict=False)), words)
-        for *numbers, words in cells
-    ]
+    return aligned_beside([heading, *(_cells(each, names, objectives, with_quantile) for each in members)])
 
 
 def _cells(found: Member, names: Sequence[str], objectives: Sequence[str], with_quantile: Sequence[str]) -> list[str]:

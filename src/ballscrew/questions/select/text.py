@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 
 from ballscrew.basis import units
-from ballscrew.basis.output.wrapping import beside, wrapped
+from ballscrew.basis.output.wrapping import aligned_beside, wrapped
 from ballscrew.basis.quantities import fields_of
 from ballscrew.questions.duty.compute import NUMBERS, DutyReport
 from ballscrew.questions.select.candidates import Candidate
@@ -138,15 +138,7 @@ def table(ranked: Sequence[Ranked], objectives: Sequence[str], with_oil: bool, *
             for each in ranked
         ),
     ]
-    widths = [max(len(line[place]) for line in cells) for place in range(len(heading))]
-    lines: list[str] = []
-    for *numbers, words in cells:
-        prefix = "".join(
-            (cell.ljust(width) if place == 2 else cell.rjust(width)) + "  "
-            for place, (cell, width) in enumerate(zip(numbers, widths, strict=False))
-        )
-        lines.append(beside(prefix, words))
-    return lines
+    return aligned_beside(cells, (2,))
 
 
 def _cells(found: Candidate, names: Sequence[str], with_oil: bool) -> list[str]:
