@@ -23,7 +23,7 @@ from ballscrew.physics.components.mixed_friction import LoadSharing, RunInSharin
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.questions.shared import chart_files as files
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 
 DENSITY = 870.0
 SPEEDS, VISCOSITIES, SHARES = (30.0, 100.0, 300.0, 1000.0, 3000.0), (20.0, 68.0, 200.0), (0.02, 0.05, 0.10)
@@ -115,14 +115,14 @@ def picture() -> Figure:
         "Ratio of this model to that of SKF2018, bearings 7205 BE and 7212 BE, axial load 2, 5 and 10 % of C, "
         "20 to 200 mm²/s, 30 to 3000 rpm; geometry inside the bearings assumed."
     )
-    figure, panels = style.new_figure(caption, sharey=True)
+    figure, panels = charts.new_figure(caption, sharey=True)
     lam = np.array([point.film_parameter for point in points()])
     rolling, slip, _ = _ratios(list(points()))
     for panel, values, words in zip(np.ravel(panels), (rolling, slip), ("rolling", "slip"), strict=False):
         for bearing, marker in zip(BEARINGS, ("o", "s"), strict=True):
             own = np.array([point.bearing == bearing.name for point in points()])
             panel.plot(lam[own], values[own], marker, markersize=4, linestyle="none", label=bearing.name)
-        panel.axhline(1.0, color=style.GREY, linewidth=0.8)
+        panel.axhline(1.0, color=charts.GREY, linewidth=0.8)
         panel.set_xscale("log")
         panel.set_xlabel("film parameter λ")
         panel.set_title(words)

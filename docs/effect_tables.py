@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import MECHANISMS
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 from effect_study import curves, law_figures
 from effect_study import effect_figures as figures
 from effect_study.cases import CASES, RPM, effects, sensitivities
@@ -17,9 +17,9 @@ def write(folder: Path) -> None:
     """Figures as SVG and PNG, tables as Markdown."""
     folder.mkdir(parents=True, exist_ok=True)
     cases = figures.drawn_cases()
-    with style.house_style():
+    with charts.house_style():
         for plot in (*figures.PLOTS, *law_figures.PLOTS):
-            style.save_as(plot.draw(cases), folder / f"{plot.name}.svg", "svg")
+            charts.save_as(plot.draw(cases), folder / f"{plot.name}.svg", "svg")
     for case in cases.values():
         (folder / f"steps_{case.name}.md").write_text(steps_table(case), encoding="utf-8")
     (folder / "sensitivities.md").write_text(sensitivity_table(), encoding="utf-8")

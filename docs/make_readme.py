@@ -10,7 +10,7 @@ import textwrap
 from pathlib import Path
 
 from ballscrew.faces.cli.reproduction import claims_table
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 
 HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "tests")]
@@ -86,8 +86,8 @@ def main() -> None:
     README.write_text(text, encoding="utf-8")
     IMAGES.mkdir(exist_ok=True)
     plot = next(plot for plot in figures.PLOTS if plot.name == PICTURE)
-    with style.house_style():
-        style.save(plot.draw(figures.drawn_cases()), IMAGES, "parts_over_speed")
+    with charts.house_style():
+        charts.save(plot.draw(figures.drawn_cases()), IMAGES, "parts_over_speed")
     (IMAGES / "parts_over_speed.svg").unlink()
     print(README, *IMAGES.iterdir(), sep="\n")
 

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from accuracy_table import printed
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 from effect_study import nut_figures
 
 #: Random screws of the table: a quarter of those of the benchmark tell the same, in a quarter of its 40 s.
@@ -13,7 +13,7 @@ CASES = "150"
 def write(folder: Path) -> None:
     """Figures as SVG and PNG, the table as Markdown."""
     folder.mkdir(parents=True, exist_ok=True)
-    with style.house_style():
+    with charts.house_style():
         for name, draw in nut_figures.DRAWN.items():
-            style.save_as(draw(), folder / f"{name}.svg", "svg")
+            charts.save_as(draw(), folder / f"{name}.svg", "svg")
     (folder / "four_point.md").write_text(printed("four_point.py", "--markdown", "--cases", CASES), encoding="utf-8")

@@ -8,7 +8,7 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.questions.sensitivity import compute as sensitivity
 from ballscrew.questions.sensitivity import figure as figures
 from ballscrew.questions.sensitivity import text
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "feed_drive.toml"
 
@@ -22,5 +22,5 @@ def write(folder: Path) -> None:
     with contextlib.redirect_stdout(said):
         text.print_sensitivity(case, report)
     (folder / "feed_drive.txt").write_text(said.getvalue(), encoding="utf-8")
-    with style.house_style():
-        style.save_as(figures.picture(case, report), folder / "feed_drive.svg", "svg")
+    with charts.house_style():
+        charts.save_as(figures.picture(case, report), folder / "feed_drive.svg", "svg")

@@ -16,7 +16,7 @@ from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.mixed_friction import LoadSharing
 from ballscrew.physics.equations import film, geometry, hertz, kinematics, rheology, rolling
 from ballscrew.physics.friction.model import PAPER_FRICTION, FrictionModel
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 from effect_study.cases import CASES, CATALOGUE, PAPER, RPM, Case
 from effect_study.effect_figures import SPEED, case_caption, mathtext, titled
 
@@ -27,9 +27,9 @@ GIGA, MICRO, MILLI = 1e9, 1e-6, 1e-3
 def write(folder: Path) -> None:
     """Write all figures as SVG and PNG."""
     folder.mkdir(parents=True, exist_ok=True)
-    with style.house_style():
+    with charts.house_style():
         for name, draw in {**FIGURES, **theory_screw_figures.FIGURES}.items():
-            style.save_as(draw(), folder / f"{name}.svg", "svg")
+            charts.save_as(draw(), folder / f"{name}.svg", "svg")
 
 
 # -- geometry -------------------------------------------------------------------------------------
@@ -39,7 +39,7 @@ def section() -> Figure:
     """The ball between its grooves, across its path; and the helix, unrolled."""
     case = CATALOGUE
     screw = case.screw
-    figure, (across, unrolled) = style.new_figure(
+    figure, (across, unrolled) = charts.new_figure(
         case_caption(
             {"catalogue": case},
             "Left: section across the path of the ball, to scale. Dashed: the circles of the grooves, of radius f d_w; "
@@ -49,18 +49,18 @@ def section() -> Figure:
     )
     _grooves(across, screw.ball_diameter / MILLI, screw.screw_conformity, float(screw.contact_angle))
     turn, lead = math.pi * screw.pitch_circle_diameter / MILLI, screw.lead / MILLI
-    unrolled.plot([0, turn], [0, lead], color=style.BLUE, label="path of the ball centres")
-    unrolled.plot([0, turn, turn], [0, 0, lead], color=style.GREY, linewidth=1.2)
+    unrolled.plot([0, turn], [0, lead], color=charts.BLUE, label="path of the ball centres")
+    unrolled.plot([0, turn, turn], [0, 0, lead], color=charts.GREY, linewidth=1.2)
     unrolled.text(turn / 2, -3.5, mathtext(f"π d_m = {turn:.0f} mm"), ha="center", va="top", fontsize=9)
     unrolled.text(turn + 2, lead / 2, mathtext(f"P_h\n{lead:.0f} mm"), ha="left", va="center", fontsize=9)
     angle = math.degrees(float(geometry.lead_angle(screw.lead, screw.pitch_circle_diameter)))
-    unrolled.add_patch(Arc((0, 0), 110, 110, theta1=0, theta2=angle, color=style.INK, linewidth=1))
+    unrolled.add_patch(Arc((0, 0), 110, 110, theta1=0, theta2=angle, color=charts.INK, linewidth=1))
     unrolled.annotate(
         f"φ = {angle:.2f}°",
         (54.5, 1.9),
         xytext=(40, 22),
         fontsize=9,
-        arrowprops={"arrowstyle": "-", "color": style.GREY},
+        arrowprops={"arrowstyle": "-", "color": charts.GREY},
     )
     unrolled.set_xlim(-4, turn + 20)
     unrolled.set_ylim(-22, 42)
@@ -77,8 +77,8 @@ def _grooves(panel: Axes, diameter: float, conformity: float, angle: float) -> N
     radius, groove = diameter / 2, conformity * diameter
     offset = groove - radius
     panel.set_title("Ball, grooves and contact angle")
-    panel.add_patch(Circle((0, 0), radius, facecolor=style.LIGHT_SHADE, edgecolor=style.INK, linewidth=1.4))
-    for sign, words, colour in ((-1, "screw", style.BLUE), (1, "nut", style.RED)):
+    panel.add_patch(Circle((0, 0), radius, facecolor=charts.LIGHT_SHADE, edgecolor=charts.INK, linewidth=1.4))
+    for sign, words, colour in ((-1, "screw", charts.BLUE), (1, "nut", charts.RED)):
         # contact of the screw at the lower right, of the nut opposite
         normal = np.array([-sign * math.sin(angle), sign * math.cos(angle)])
         centre = -normal * offset
@@ -94,13 +94,13 @@ def _grooves(panel: Axes, diameter: float, conformity: float, angle: float) -> N
         panel.plot(*centre, "+", color=colour, markersize=8, markeredgewidth=1.6, zorder=5)
         panel.text(*(contact * 1.32), words, ha="center", va="center", fontsize=9.5, color=colour)
     line = np.array([math.sin(angle), -math.cos(angle)]) * radius
-    panel.plot([-line[0], line[0]], [-line[1], line[1]], color=style.GREY, linewidth=1)
-    panel.plot([0, 0], [-radius, radius], color=style.GREY, linewidth=1, linestyle=":")
-    panel.add_patch(Arc((0, 0), radius, radius, theta1=-90, theta2=-90 + math.degrees(angle), color=style.INK))
+    panel.plot([-line[0], line[0]], [-line[1], line[1]], color=charts.GREY, linewidth=1)
+    panel.plot([0, 0], [-radius, radius], color=charts.GREY, linewidth=1, linestyle=":")
+    panel.add_patch(Arc((0, 0), radius, radius, theta1=-90, theta2=-90 + math.degrees(angle), color=charts.INK))
     panel.text(0.3 * radius, -0.72 * radius, "α", ha="center", va="center", fontsize=11)
     panel.annotate(
         "A", (0.0, 0.0), xytext=(-0.62 * radius, -0.2 * radius), fontsize=10,
-        arrowprops={"arrowstyle": "-", "color": style.GREY, "linewidth": 0.8, "shrinkB": 1},
+        arrowprops={"arrowstyle": "-", "color": charts.GREY, "linewidth": 0.8, "shrinkB": 1},
     )  # fmt: skip
     reach = 1.62 * radius
     panel.set_xlim(-reach, reach)
@@ -114,7 +114,7 @@ def _grooves(panel: Axes, diameter: float, conformity: float, angle: float) -> N
 def speeds() -> Figure:
     """Speeds across the ball, and the effect of the lead."""
     case = PAPER
-    figure, (profile, leads) = style.new_figure(
+    figure, (profile, leads) = charts.new_figure(
         case_caption(
             {"paper": case},
             "Left: speed along the path over the distance from the screw axis, in the section of the contacts; nut at "
@@ -132,13 +132,13 @@ def speeds() -> Figure:
     omega_c = float(kinematics.orbital_rotation(v, R_n))
     centre = float(kinematics.orbital_speed(omega_c, frame.path_radius))
     r = np.linspace(0, R_s, 2)
-    profile.plot(r / MILLI, case.screw_speed * r, color=style.BLUE, label="screw")
+    profile.plot(r / MILLI, case.screw_speed * r, color=charts.BLUE, label="screw")
     ball = np.linspace(R_s, R_n, 2)
     profile.plot(
-        ball / MILLI, np.interp(ball, [R_s, R_n], [case.screw_speed * R_s, 0.0]), color=style.ORANGE, label="ball"
+        ball / MILLI, np.interp(ball, [R_s, R_n], [case.screw_speed * R_s, 0.0]), color=charts.ORANGE, label="ball"
     )
-    profile.plot([R_n / MILLI, (R_n + 4e-3) / MILLI], [0, 0], color=style.RED, label="nut")
-    profile.plot(L / MILLI, centre, "o", color=style.INK, markersize=5)
+    profile.plot([R_n / MILLI, (R_n + 4e-3) / MILLI], [0, 0], color=charts.RED, label="nut")
+    profile.plot(L / MILLI, centre, "o", color=charts.INK, markersize=5)
     profile.annotate(
         f"ball centre\n{centre:.2f} m/s", (L / MILLI, centre), xytext=(6, 8), textcoords="offset points", fontsize=9
     )
@@ -157,9 +157,9 @@ def speeds() -> Figure:
     entrainment = kinematics.entrainment_speed(case.screw_speed, path, gamma)
     lateral = kinematics.torsion_speed(case.screw_speed, case.screw.ball_diameter, phi)
     leads.plot(
-        lead / MILLI, 100 * (entrainment / entrainment[0] - 1), color=style.BLUE, label="more entrainment speed v"
+        lead / MILLI, 100 * (entrainment / entrainment[0] - 1), color=charts.BLUE, label="more entrainment speed v"
     )
-    leads.plot(lead / MILLI, 100 * lateral / entrainment, color=style.RED, ls="--", label="lateral slip D, of v")
+    leads.plot(lead / MILLI, 100 * lateral / entrainment, color=charts.RED, ls="--", label="lateral slip D, of v")
     leads.set_xlabel(mathtext("lead P_h (mm)"))
     leads.set_ylabel("per cent")
     leads.set_title("What the helix changes")
@@ -174,7 +174,7 @@ def speeds() -> Figure:
 
 def ellipses() -> Figure:
     """Contact ellipses to scale, and the pressure across them."""
-    figure, panels = style.new_figure(
+    figure, panels = charts.new_figure(
         case_caption(CASES, "Above: contact ellipses, to scale; below: pressure across them, in the middle."),
         rows=2, height=2.7, sharex=True,
     )  # fmt: skip
@@ -182,8 +182,8 @@ def ellipses() -> Figure:
         result = case.result(REFERENCE)
         shape.set_title(case.title)
         for words, contact, colour, side in (
-            ("screw", result.screw, style.BLUE, 1),
-            ("nut", result.nut, style.RED, -1),
+            ("screw", result.screw, charts.BLUE, 1),
+            ("nut", result.nut, charts.RED, -1),
         ):
             a, b = (float(axis) / MILLI for axis in (contact.semi_major_axis, contact.semi_minor_axis))
             shape.add_patch(
@@ -213,28 +213,28 @@ def fits() -> Figure:
     major = hertz.semi_major_axis_coefficient(k, kappa, hertz.elliptic_integrals(kappa).E)
     power = hertz.ellipticity_brewe_hamrock(k)
     by_power = hertz.semi_major_axis_coefficient(k, power, hertz.second_integral_brewe_hamrock(k))
-    figure, (axes, shape) = style.new_figure(
+    figure, (axes, shape) = charts.new_figure(
         mathtext(
             "Left: power laws for the semi-axes against the exact ones; dotted: the radii ratio of the paper's screw "
             "(f 0.515) and of a catalogue screw (f 0.54), at the screw. Right: the exact ellipticity a/b."
         )
     )
     for words, values, exact, colour, line in (
-        ("a, (18) of the paper", hertz.semi_major_axis_coefficient_houpert(k), major, style.ORANGE, "-"),
-        ("b, (19) of the paper", hertz.semi_minor_axis_coefficient_houpert(k), major / kappa, style.BLUE, "-"),
-        ("a, Brewe and Hamrock", by_power, major, style.ORANGE, "--"),
-        ("b, Brewe and Hamrock", by_power / power, major / kappa, style.BLUE, "--"),
+        ("a, (18) of the paper", hertz.semi_major_axis_coefficient_houpert(k), major, charts.ORANGE, "-"),
+        ("b, (19) of the paper", hertz.semi_minor_axis_coefficient_houpert(k), major / kappa, charts.BLUE, "-"),
+        ("a, Brewe and Hamrock", by_power, major, charts.ORANGE, "--"),
+        ("b, Brewe and Hamrock", by_power / power, major / kappa, charts.BLUE, "--"),
     ):
         axes.semilogx(k, 100 * (values / exact - 1), color=colour, ls=line, label=words)
     for case in CASES.values():
         at = float(case.result(REFERENCE).screw.radii_ratio)
         for panel in (axes, shape):
-            panel.axvline(at, color=style.GREY, linestyle=":", linewidth=1.1)
+            panel.axvline(at, color=charts.GREY, linestyle=":", linewidth=1.1)
     axes.set_ylabel("error of the semi-axis (%)")
     axes.set_title("Fits")
     axes.legend(loc="upper left")
-    shape.loglog(k, kappa, color=style.INK, label="exact")
-    shape.loglog(k, power, color=style.ORANGE, ls="--", label="Brewe and Hamrock")
+    shape.loglog(k, kappa, color=charts.INK, label="exact")
+    shape.loglog(k, power, color=charts.ORANGE, ls="--", label="Brewe and Hamrock")
     shape.set_ylabel("ellipticity κ = a/b (1)")
     shape.set_title("Slender contacts")
     shape.legend(loc="upper left")
@@ -256,7 +256,7 @@ CELSIUS = 273.15
 
 def films() -> Figure:
     """Film over speed, as printed and as cited; film parameter over temperature."""
-    figure, (speed_panel, heat_panel) = style.new_figure(
+    figure, (speed_panel, heat_panel) = charts.new_figure(
         mathtext(
             "Minimum film and film parameter at the screw. Left: the paper's screw; dotted: the combined roughness. "
             f"{PAPER.caption('screw_speed')} Right: a catalogue screw. {CATALOGUE.caption('oil')}"
@@ -264,16 +264,16 @@ def films() -> Figure:
     )
     speed = np.geomspace(1, 3000, 121)
     for words, model, colour, line in (
-        ("exponent 0.66, as printed", FrictionModel.olaru2005(), style.GREY, ":"),
-        ("exponent 0.68, as cited", FrictionModel.corrected(), style.ORANGE, "--"),
-        ("and the inlet warms", REFERENCE, style.BLUE, "-"),
+        ("exponent 0.66, as printed", FrictionModel.olaru2005(), charts.GREY, ":"),
+        ("exponent 0.68, as cited", FrictionModel.corrected(), charts.ORANGE, "--"),
+        ("and the inlet warms", REFERENCE, charts.BLUE, "-"),
     ):
         contact = PAPER.result(model, screw_speed=speed * RPM).screw
         speed_panel.loglog(
             speed, np.asarray(contact.minimum_film_thickness) / MICRO, color=colour, ls=line, label=words
         )
     rough = float(film.combined_roughness(PAPER.screw.ball_roughness, PAPER.screw.screw_roughness)) / MICRO
-    speed_panel.axhline(rough, color=style.INK, linestyle=(0, (1, 2)), linewidth=1)
+    speed_panel.axhline(rough, color=charts.INK, linestyle=(0, (1, 2)), linewidth=1)
     speed_panel.set_xlabel(SPEED)
     speed_panel.set_ylabel("minimum film h (µm)")
     speed_panel.set_title("Film over speed")
@@ -282,8 +282,8 @@ def films() -> Figure:
     temperature = np.linspace(0, 90, 91)
     for grade, line in GRADES.items():
         values = [_film_parameter(CATALOGUE, grade, t + CELSIUS) for t in temperature]
-        heat_panel.semilogy(temperature, values, color=style.BLUE, ls=line, label=grade)
-    heat_panel.axhline(1, color=style.GREY, linewidth=1)
+        heat_panel.semilogy(temperature, values, color=charts.BLUE, ls=line, label=grade)
+    heat_panel.axhline(1, color=charts.GREY, linewidth=1)
     heat_panel.set_xlim(0, 90)
     heat_panel.set_yticks([0.1, 0.2, 0.5, 1, 2, 5], ["0.1", "0.2", "0.5", "1", "2", "5"])
     heat_panel.minorticks_off()
@@ -304,7 +304,7 @@ def _with_oil(case: Case, grade: str, temperature: float) -> Case:
 
 def rolling_parts() -> Figure:
     """The two asymptotes of the rolling force and their blend; the elastic resistance by two laws."""
-    figure, (oil, steel) = style.new_figure(
+    figure, (oil, steel) = charts.new_figure(
         case_caption(
             {"paper": PAPER},
             "At the screw. Left: force of the inlet flow without its heating. Right: shaded, the loss of steel with "
@@ -319,15 +319,15 @@ def rolling_parts() -> Figure:
     U = rheology.speed_parameter(PAPER.oil.viscosity, PAPER.result(REFERENCE).entrainment_speed, E, R_x)
     rigid, elastic = rolling.rigid_rolling_force(E, R_x, k, W, U), rolling.elastic_rolling_force(E, R_x, k, W, U)
     blend = rolling.blended_rolling_force(rigid, elastic, rolling.rigid_regime_share(k, W, U))
-    oil.loglog(Q, rigid, color=style.ORANGE, ls="--", label="rigid, constant viscosity")
-    oil.loglog(Q, elastic, color=style.GREEN, ls="--", label="elastic, viscosity grows")
-    oil.loglog(Q, blend, color=style.BLUE, label="blend")
+    oil.loglog(Q, rigid, color=charts.ORANGE, ls="--", label="rigid, constant viscosity")
+    oil.loglog(Q, elastic, color=charts.GREEN, ls="--", label="elastic, viscosity grows")
+    oil.loglog(Q, blend, color=charts.BLUE, label="blend")
     oil.set_ylabel(mathtext("rolling force F_R (N)"))
     oil.set_title("The oil of the inlet")
     low, high = (rolling.hysteresis_moment(loss, Q, contact.semi_minor_axis) * 1e3 for loss in (0.02, 0.04))
-    steel.fill_between(Q, low, high, color=style.SHADE, label="(3/16) α Q b")
+    steel.fill_between(Q, low, high, color=charts.SHADE, label="(3/16) α Q b")
     steel.loglog(
-        Q, rolling.elastic_resistance_moment(PAPER.screw.ball_diameter, Q, k) * 1e3, color=style.BLUE, label="(20)"
+        Q, rolling.elastic_resistance_moment(PAPER.screw.ball_diameter, Q, k) * 1e3, color=charts.BLUE, label="(20)"
     )
     steel.set_ylabel(mathtext("elastic moment M_ER (N mm)"))
     steel.set_title("The steel")
@@ -339,7 +339,7 @@ def rolling_parts() -> Figure:
 
 def mixed_friction() -> Figure:
     """The friction coefficient over speed, cold and warm, by two laws."""
-    figure, panels = style.new_figure(
+    figure, panels = charts.new_figure(
         case_caption(
             CASES,
             "Friction coefficient of the contact at the screw, ISO VG 100. Clamped: the law of the paper, with its µ_0 "
@@ -352,7 +352,7 @@ def mixed_friction() -> Figure:
     clamped = dataclasses.replace(REFERENCE, friction=PAPER_FRICTION)
     shared = dataclasses.replace(REFERENCE, friction=LoadSharing())
     for panel, case in titled(panels, CASES):
-        for celsius, colour in ((10, style.BLUE), (40, style.PURPLE), (70, style.RED)):
+        for celsius, colour in ((10, charts.BLUE), (40, charts.PURPLE), (70, charts.RED)):
             warm = _with_oil(case, "ISO VG 100", celsius + CELSIUS)
             for words, model, line in (("clamped", clamped, "--"), ("shared", shared, "-")):
                 values = warm.result(model, screw_speed=speed * RPM).screw.friction_coefficient

@@ -14,7 +14,7 @@ from ballscrew.physics.equations import life, preload, slip, transmission
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import MECHANISMS
 from ballscrew.physics.solvers.line_slip import creep_of_lines, pure_rolling_lines
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 from effect_study.cases import CASES, CATALOGUE, PAPER, RPM
 from effect_study.curves import over_lead
 from effect_study.effect_figures import case_caption, mathtext
@@ -25,7 +25,7 @@ CELSIUS = 273.15
 
 def slip_lines() -> Figure:
     """Slip across the contact for increasing spin, and the lines of pure rolling."""
-    figure, (profile, lines) = style.new_figure(
+    figure, (profile, lines) = charts.new_figure(
         mathtext(
             "Slip on the line across the contact, from curvature (C at the rim) and spin (E_s times as much), with the "
             "creep at which no net force is left. Right: where the slip is zero, without a net force and with half of "
@@ -33,7 +33,7 @@ def slip_lines() -> Figure:
         )
     )
     t = np.linspace(-1, 1, 201)
-    for E_s, colour, line in zip((0.0, 0.5, 1.0, 1.5), style.GROWING, style.LINE_STYLES, strict=False):
+    for E_s, colour, line in zip((0.0, 0.5, 1.0, 1.5), charts.GROWING, charts.LINE_STYLES, strict=False):
         found = pure_rolling_lines(np.asarray(E_s), np.asarray(0.0))
         creep = float(creep_of_lines(found, 1.0, E_s))
         profile.plot(
@@ -41,7 +41,7 @@ def slip_lines() -> Figure:
         )
         at = [float(found.upper), *([float(found.lower)] if found.are_two else [])]
         profile.plot(at, [0.0] * len(at), "o", color=colour, markersize=5)
-    profile.axhline(0, color=style.GREY, linewidth=0.9)
+    profile.axhline(0, color=charts.GREY, linewidth=0.9)
     profile.set_xlabel("height in the contact t = y/a (1)")
     profile.set_ylabel("slip s/C (1)")
     profile.set_title("Slip with spin")
@@ -49,7 +49,7 @@ def slip_lines() -> Figure:
     profile.set_xticks([-1, -0.5, 0, 0.5, 1])
     profile.legend(loc="upper left")
     spin = np.linspace(0, 2.5, 501)
-    for T, colour, line in ((0.0, style.BLUE, "-"), (0.5, style.RED, "--")):
+    for T, colour, line in ((0.0, charts.BLUE, "-"), (0.5, charts.RED, "--")):
         found = pure_rolling_lines(spin, np.full_like(spin, T))
         lines.plot(spin, found.upper, color=colour, ls=line, label=f"T = {T:g}")
         lines.plot(spin, np.where(found.are_two, found.lower, np.nan), color=colour, ls=line)
@@ -64,7 +64,7 @@ def slip_lines() -> Figure:
 
 def power() -> Figure:
     """Input power against dissipated power, by model."""
-    figure, panels = style.new_figure(
+    figure, panels = charts.new_figure(
         case_caption(
             CASES,
             "Black: what friction takes from the shaft, its torque times the speed. Coloured: what the mechanisms "
@@ -79,9 +79,9 @@ def power() -> Figure:
         for row, model in enumerate(models):
             result = case.result(model)
             given = float(result.screw_torque) * case.screw_speed
-            panel.barh(row - 0.2, given, height=0.36, color=style.INK, label="into the shaft" if row == 0 else None)
+            panel.barh(row - 0.2, given, height=0.36, color=charts.INK, label="into the shaft" if row == 0 else None)
             left = 0.0
-            for mechanism, colour in style.MECHANISM_COLOURS.items():
+            for mechanism, colour in charts.MECHANISM_COLOURS.items():
                 part = float(result.dissipation[mechanism])
                 panel.barh(
                     row + 0.2,
@@ -107,7 +107,7 @@ def power() -> Figure:
 
 def quadrants() -> Figure:
     """The torque on the shaft in the four quadrants, and efficiencies over the lead angle."""
-    figure, (four, leads) = style.new_figure(
+    figure, (four, leads) = charts.new_figure(
         case_caption(
             {"catalogue": CATALOGUE},
             "Left: torque on the shaft; blue, the part of the load. Right: grey, screws as inclined planes with a "
@@ -120,12 +120,12 @@ def quadrants() -> Figure:
     for place, quadrant in enumerate(result.quadrants.values()):
         shaft, of_load = float(quadrant.shaft_torque), quadrant.load_sign * ideal
         first = place == 0
-        four.bar(place, of_load, width=0.6, color=style.SKY, label="of the load" if first else None)
+        four.bar(place, of_load, width=0.6, color=charts.SKY, label="of the load" if first else None)
         ends = [place - 0.38, place + 0.38]
-        four.plot(ends, [shaft, shaft], color=style.RED, label="on the shaft" if first else None)
+        four.plot(ends, [shaft, shaft], color=charts.RED, label="on the shaft" if first else None)
         beyond = np.sign(shaft) * (max(abs(shaft), ideal) + 0.9)
         four.text(place, beyond, f"{shaft:+.2f}".replace("-", "−"), ha="center", va="center", fontsize=9)
-    four.axhline(0, color=style.INK, linewidth=1)
+    four.axhline(0, color=charts.INK, linewidth=1)
     names = ["screw drives\nforward", "load drives\nin reverse", "screw drives\nin reverse", "load drives\nforward"]
     four.set_xticks(range(4), names, fontsize=8.5)
     four.set_ylabel("torque on the shaft (N m)")
@@ -143,17 +143,17 @@ def _efficiencies(panel: Axes) -> None:
         angle = np.radians(rho)
         drives = transmission.classical_efficiency(phi, angle)
         driven = transmission.classical_back_driving_efficiency(phi, angle)
-        panel.plot(np.degrees(phi), drives, color=style.GREY, linewidth=1.2)
-        panel.plot(np.degrees(phi), np.where(driven > -0.3, driven, np.nan), color=style.GREY, ls="--", linewidth=1.2)
-        panel.text(20.2, height, words, fontsize=8.5, va="center", color=style.GREY)
+        panel.plot(np.degrees(phi), drives, color=charts.GREY, linewidth=1.2)
+        panel.plot(np.degrees(phi), np.where(driven > -0.3, driven, np.nan), color=charts.GREY, ls="--", linewidth=1.2)
+        panel.text(20.2, height, words, fontsize=8.5, va="center", color=charts.GREY)
     oil = Lubricant.from_grade("ISO VG 100", temperature=CELSIUS)
     lead, _ = over_lead(CATALOGUE)
     found = dataclasses.replace(CATALOGUE, oil=oil).result(REFERENCE, lead=lead, screw_speed=10 * RPM)
     angle = np.degrees(np.asarray(found.ball_screw.lead_angle))
-    panel.plot(angle, found.efficiency, color=style.BLUE, label="screw drives")
-    panel.plot(angle, found.back_driving_efficiency, color=style.BLUE, ls="--", label="load drives")
-    panel.axhspan(-0.3, 0, color=style.LIGHT_SHADE, zorder=0)
-    panel.text(10, -0.15, "the screw locks itself", fontsize=9, color=style.GREY, ha="center", va="center")
+    panel.plot(angle, found.efficiency, color=charts.BLUE, label="screw drives")
+    panel.plot(angle, found.back_driving_efficiency, color=charts.BLUE, ls="--", label="load drives")
+    panel.axhspan(-0.3, 0, color=charts.LIGHT_SHADE, zorder=0)
+    panel.text(10, -0.15, "the screw locks itself", fontsize=9, color=charts.GREY, ha="center", va="center")
     panel.set_xlabel("lead angle φ (°)")
     panel.set_ylabel("efficiency (1)")
     panel.set_title("Over the lead angle")
@@ -166,20 +166,20 @@ def halves() -> Figure:
     """The loads of the halves of a double nut over their deflection, and over the load."""
     x = np.linspace(-1.2, 1.6, 281)
     forward, backward = preload.forward_half_load(1.0, np.maximum(x, -1)), preload.backward_half_load(1.0, x)
-    figure, (springs, shares) = style.new_figure(
+    figure, (springs, shares) = charts.new_figure(
         mathtext(
             "Two halves of a double nut as springs of Hertz contacts; loads in units of the preload, displacement in "
             "units of what the preload alone approaches either half. Left: between the curves stands the load on the "
             "nut. Right: what it leaves on either half; dotted: lift-off."
         )
     )
-    springs.plot(x, forward, color=style.BLUE, label="half that is loaded")
-    springs.plot(x, backward, color=style.RED, ls="--", label="half that is relieved")
+    springs.plot(x, forward, color=charts.BLUE, label="half that is loaded")
+    springs.plot(x, backward, color=charts.RED, ls="--", label="half that is relieved")
     at = 0.5
     low, high = float(preload.backward_half_load(1.0, at)), float(preload.forward_half_load(1.0, at))
-    springs.annotate("", (at, high), (at, low), arrowprops={"arrowstyle": "<->", "color": style.INK})
+    springs.annotate("", (at, high), (at, low), arrowprops={"arrowstyle": "<->", "color": charts.INK})
     springs.text(at + 0.06, (low + high) / 2, "load on the nut F", fontsize=9, va="center")
-    springs.plot(0, 1, "o", color=style.INK, markersize=5)
+    springs.plot(0, 1, "o", color=charts.INK, markersize=5)
     springs.annotate("preload", (0, 1), xytext=(-52, -4), textcoords="offset points", fontsize=9, va="center")
     springs.set_xlabel("displacement of the nut x (1)")
     springs.set_ylabel("load of the half / preload (1)")
@@ -190,10 +190,10 @@ def halves() -> Figure:
     x = np.linspace(0, 1.4, 281)
     loads = preload.forward_half_load(1.0, x), preload.backward_half_load(1.0, x)
     outside = loads[0] - loads[1]
-    shares.plot(outside, loads[0], color=style.BLUE, label="half that is loaded")
-    shares.plot(outside, loads[1], color=style.RED, ls="--", label="half that is relieved")
-    shares.plot(outside, outside, color=style.GREY, linewidth=1, label="without preload")
-    shares.axvline(float(preload.lift_off_load(1.0)), color=style.GREY, linestyle=":", linewidth=1.2)
+    shares.plot(outside, loads[0], color=charts.BLUE, label="half that is loaded")
+    shares.plot(outside, loads[1], color=charts.RED, ls="--", label="half that is relieved")
+    shares.plot(outside, outside, color=charts.GREY, linewidth=1, label="without preload")
+    shares.axvline(float(preload.lift_off_load(1.0)), color=charts.GREY, linestyle=":", linewidth=1.2)
     shares.set_xlabel("load on the nut / preload (1)")
     shares.set_ylabel("load of the half / preload (1)")
     shares.set_title("Who carries the load")
@@ -206,14 +206,14 @@ def halves() -> Figure:
 def lives() -> Figure:
     """The life of a double nut over its load, with more and less preload."""
     rating = 1.0
-    figure, (by_load, by_preload) = style.new_figure(
+    figure, (by_load, by_preload) = charts.new_figure(
         mathtext(
             "Double nut; loads and preloads as shares of the dynamic load rating C_a; revolutions that nine of ten "
             "nuts outlive, both halves together. ISO 3408-5 as recalled."
         )
     )
     load = np.linspace(0.02, 0.4, 191)
-    for share, colour, line in zip((0.0, 0.03, 0.07, 0.12), style.GROWING, style.LINE_STYLES, strict=False):
+    for share, colour, line in zip((0.0, 0.03, 0.07, 0.12), charts.GROWING, charts.LINE_STYLES, strict=False):
         by_load.semilogy(
             load,
             double_nut_life(rating, load, share),
@@ -227,7 +227,7 @@ def lives() -> Figure:
     by_load.set_xlim(0, 0.4)
     by_load.legend(loc="upper right")
     share = np.linspace(0.005, 0.2, 196)
-    for at, colour, line in zip((0.05, 0.1, 0.2), style.GROWING[1:], style.LINE_STYLES, strict=False):
+    for at, colour, line in zip((0.05, 0.1, 0.2), charts.GROWING[1:], charts.LINE_STYLES, strict=False):
         kept = double_nut_life(rating, np.full_like(share, at), share) / life.basic_life(rating, at)
         by_preload.plot(share, kept, color=colour, ls=line, label=f"load {at:.0%}".replace("%", " %"))
     by_preload.set_xlabel(mathtext("preload F_pr/C_a (1)"))
@@ -253,7 +253,7 @@ def double_nut_life(rating, load, preload_force):
 def repair_steps() -> Figure:
     """Torque and efficiency of the paper's case after each repair."""
     found = repairs()
-    figure, (alone, together) = style.new_figure(
+    figure, (alone, together) = charts.new_figure(
         case_caption({"paper": PAPER}, "Left: the printed model with one repair. Right: with all so far."),
         height=3.3, sharey=True,
     )  # fmt: skip
@@ -261,10 +261,10 @@ def repair_steps() -> Figure:
         (alone, [step.torque_alone for step in found], "One repair alone"),
         (together, [step.torque_so_far for step in found], "One after the other"),
     ):
-        panel.barh(range(len(found)), torques, height=0.62, color=[style.GREY, *[style.SKY] * (len(found) - 1)])
+        panel.barh(range(len(found)), torques, height=0.62, color=[charts.GREY, *[charts.SKY] * (len(found) - 1)])
         for row, torque in enumerate(torques):
             panel.text(torque, row, f" {torque:.4f}", va="center", fontsize=9)
-        panel.axvline(torques[0], color=style.INK, linestyle=":", linewidth=1)
+        panel.axvline(torques[0], color=charts.INK, linestyle=":", linewidth=1)
         panel.set_title(title)
         panel.set_xlabel(mathtext("friction torque M_S (N m)"))
         panel.set_xlim(0, 1.22 * max(torques))

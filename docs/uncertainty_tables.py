@@ -25,7 +25,7 @@ from ballscrew.physics.friction.calibrations import calibrated, calibration
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.questions.band import compute as band
 from ballscrew.questions.band import figure as figures
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 from ballscrew.questions.validate.compute import shipped_rows
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -41,10 +41,10 @@ def write(folder: Path) -> None:
     """The picture as SVG and PNG, tables as Markdown."""
     folder.mkdir(parents=True, exist_ok=True)
     case = case_file.load(EXAMPLES / "feed_drive.toml")
-    with style.house_style():
+    with charts.house_style():
         options = band.Options()
         report = band.band(case, options)
-        style.save_as(figures.picture(case, report, band.curve(case, report, options)), folder / "band.svg", "svg")
+        charts.save_as(figures.picture(case, report, band.curve(case, report, options)), folder / "band.svg", "svg")
     (folder / "assumed.md").write_text(assumed_table(), encoding="utf-8")
 
 

@@ -11,8 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
-from ballscrew.questions.shared import chart_style as style
-from ballscrew.questions.shared.chart_style import Columns, Plot
+from ballscrew.questions.shared import charts
+from ballscrew.questions.shared.charts import Columns, Plot
 from effect_study import curves
 from effect_study.cases import CASES, Case, Effect, effects
 from effect_study.cases import steps as reference_steps
@@ -23,7 +23,7 @@ SPEED, TORQUE = "screw speed n (rpm)", "friction torque M$_S$ (N m)"
 LOAD, LEAD = "axial load F (N)", "lead P$_h$ (mm)"
 #: Parts of the torque, from bottom to top of a stack.
 STACK: Mapping[str, str] = {
-    mechanism: style.MECHANISM_COLOURS[mechanism]
+    mechanism: charts.MECHANISM_COLOURS[mechanism]
     for mechanism in (
         "ball_to_ball",
         "chain_braking",
@@ -35,9 +35,9 @@ STACK: Mapping[str, str] = {
     )
 }
 MODEL_LINES: Mapping[str, tuple[str, Any, str]] = {
-    "olaru2005": ("as printed", ":", style.GREY),
-    "corrected": ("corrected", "--", style.ORANGE),
-    "reference": ("reference", "-", style.BLUE),
+    "olaru2005": ("as printed", ":", charts.GREY),
+    "corrected": ("corrected", "--", charts.ORANGE),
+    "reference": ("reference", "-", charts.BLUE),
 }
 
 
@@ -116,7 +116,7 @@ def steps(cases: Cases) -> Figure:
         cases,
         "Reference model built up: each bar has all effects above it; at its end the torque, and what the effect adds.",
     )
-    figure, panels = style.new_figure(caption, height=3.9, sharey=True)
+    figure, panels = charts.new_figure(caption, height=3.9, sharey=True)
     for panel, case in titled(panels, cases):
         found = effects(case)
         _bars(panel, found)
@@ -160,12 +160,12 @@ def _steps_table(cases: Cases) -> Columns:
 
 def parts_over_speed(cases: Cases) -> Figure:
     """The parts of the torque over speed, reference model."""
-    figure, panels = style.new_figure(case_caption(cases, "Reference model.", ["screw_speed"]))
+    figure, panels = charts.new_figure(case_caption(cases, "Reference model.", ["screw_speed"]))
     for panel, case in titled(panels, cases):
         speed, results = curves.over_speed(case)
         result = results["reference"]
         _stack(panel, speed, result)
-        panel.plot(speed, result.screw_torque, color=style.INK, label="total")
+        panel.plot(speed, result.screw_torque, color=charts.INK, label="total")
         panel.set_xlim(0, 3000)
         panel.set_ylim(0, 1.5 * float(np.max(result.screw_torque)))
         _upward_legend(panel, loc="upper left", ncols=2)
@@ -187,7 +187,7 @@ def _speed_table(cases: Cases) -> Columns:
 def models_over_speed_and_load(cases: Cases) -> Figure:
     """The torque of the three models over speed and over load."""
     caption = case_caption(cases, "Above over speed, at the load stated; below over load, at the speed stated.")
-    figure, panels = style.new_figure(caption, rows=2, height=2.9)
+    figure, panels = charts.new_figure(caption, rows=2, height=2.9)
     for row, x, of in ((panels[:2], SPEED, curves.over_speed), (panels[2:], LOAD, curves.over_load)):
         for panel, case in titled(row, cases):
             abscissa, results = of(case)
@@ -196,7 +196,7 @@ def models_over_speed_and_load(cases: Cases) -> Figure:
             panel.set_xlim(0, float(abscissa[-1]))
             panel.set_ylim(bottom=0)
         _label(row, x, TORQUE)
-    style.shared_legend(panels, loc="lower right")
+    charts.shared_legend(panels, loc="lower right")
     return figure
 
 
@@ -225,14 +225,14 @@ def parts_over_lead(cases: Cases) -> Figure:
         "Reference model; the lead varies from a twentieth of d_m, or where the balls have room, to d_m. Dotted: the "
         "screw's own lead."
     )
-    figure, panels = style.new_figure(case_caption(cases, words))
+    figure, panels = charts.new_figure(case_caption(cases, words))
     for panel, case in titled(panels, cases):
         lead, result = curves.over_lead(case)
         _stack(panel, lead * 1e3, result)
-        panel.plot(lead * 1e3, result.screw_torque, color=style.INK, label="total")
+        panel.plot(lead * 1e3, result.screw_torque, color=charts.INK, label="total")
         own = float(case.screw.lead)
         height = float(np.interp(own, lead, np.asarray(result.screw_torque)))
-        panel.vlines(own * 1e3, 0, height, color=style.INK, linestyle=":", linewidth=1.2)
+        panel.vlines(own * 1e3, 0, height, color=charts.INK, linestyle=":", linewidth=1.2)
         panel.set_xlim(lead[0] * 1e3, lead[-1] * 1e3)
         panel.set_ylim(0, 1.45 * float(np.max(result.screw_torque)))
         _upward_legend(panel, loc="upper left", ncols=2)
@@ -258,12 +258,12 @@ def light_load(cases: Cases) -> Figure:
         "those of the paper ask for more than friction can give. Shaded: the ball skids; striped: the film is "
         "nearer rigid than elastic, M < 6.6."
     )
-    figure, panels = style.new_figure(case_caption(cases, words, ["axial_load"]), rows=2, height=2.9)
+    figure, panels = charts.new_figure(case_caption(cases, words, ["axial_load"]), rows=2, height=2.9)
     for shares, torques, case in zip(panels[:2], panels[2:], cases.values(), strict=True):
         load, results = curves.over_light_load(case)
         result = results["reference"]
         _stack(shares, load, result, result.screw_torque)
-        shares.plot(load, result.rolling_share, color=style.INK, label="share of rolling carried")
+        shares.plot(load, result.rolling_share, color=charts.INK, label="share of rolling carried")
         for name, (label, line, colour) in MODEL_LINES.items():
             torques.loglog(load, results[name].screw_torque, ls=line, color=colour, label=label)
         skids, rigid = (curves.largest_flagged_load(case, reason) for reason in ("skid", "elastic_regime"))
@@ -271,8 +271,8 @@ def light_load(cases: Cases) -> Figure:
             panel.set_title(case.title)
             panel.set_xscale("log")
             panel.set_xlim(load[0], load[-1])
-            panel.axvspan(load[0], skids, facecolor=style.GREY, alpha=0.35, zorder=2.5, label="the ball skids")
-            panel.axvspan(skids, rigid, facecolor="none", edgecolor=style.GREY, hatch="//", linewidth=0, zorder=2.5)
+            panel.axvspan(load[0], skids, facecolor=charts.GREY, alpha=0.35, zorder=2.5, label="the ball skids")
+            panel.axvspan(skids, rigid, facecolor="none", edgecolor=charts.GREY, hatch="//", linewidth=0, zorder=2.5)
         shares.set_ylim(0, 1)
     _label(panels[:2], LOAD, "share of torque (1)")
     _label(panels[2:], LOAD, TORQUE)

@@ -12,8 +12,8 @@ from matplotlib.patches import Ellipse
 from ballscrew.physics.friction.result import (
     FrictionResult,
 )
-from ballscrew.questions.shared import chart_style as style
-from ballscrew.questions.shared.chart_style import Columns, Plot
+from ballscrew.questions.shared import charts
+from ballscrew.questions.shared.charts import Columns, Plot
 from effect_study import curves
 from effect_study.cases import PAPER, RPM, Case
 from effect_study.effect_figures import Cases, case_caption, mathtext
@@ -28,13 +28,13 @@ def slip_over_spin(cases: Cases) -> Figure:
         "1999, made for E_s up to 1. Dotted: from there on one line of pure rolling is left. Circles: the screw "
         "contacts with half of the spin, before the ball finds its balance."
     )
-    figure, panels = style.new_figure(case_caption(cases, words))
+    figure, panels = charts.new_figure(case_caption(cases, words))
     found = curves.spin_curves()
     moments, powers = panels
     E_s = found.spin_parameter
     for words, closed, polynomial, colour in (
-        ("curvature moment", found.curvature, found.curvature_polynomial, style.ORANGE),
-        ("spin moment", found.spin, found.spin_polynomial, style.RED),
+        ("curvature moment", found.curvature, found.curvature_polynomial, charts.ORANGE),
+        ("spin moment", found.spin, found.spin_polynomial, charts.RED),
     ):
         moments.plot(E_s, closed, color=colour, label=words)
         moments.plot(E_s, polynomial, "--", color=colour, linewidth=1.2)
@@ -45,15 +45,15 @@ def slip_over_spin(cases: Cases) -> Figure:
         E_s,
         [found.curvature_power, found.spin_power],
         labels=["curvature slip", "spin slip"],
-        colors=(style.ORANGE, style.RED),
+        colors=(charts.ORANGE, charts.RED),
         linewidth=0,
     )
     total = found.curvature_power + found.spin_power
-    powers.plot(E_s, total, color=style.INK, label="slip power")
+    powers.plot(E_s, total, color=charts.INK, label="slip power")
     for case in cases.values():
         at = half_spin_parameter(case)
         height = float(np.interp(at, E_s, total))
-        powers.plot(at, height, "o", color="white", markeredgecolor=style.INK, markersize=6)
+        powers.plot(at, height, "o", color="white", markeredgecolor=charts.INK, markersize=6)
         powers.annotate(
             case.title, (at, height), xytext=(10, -6), textcoords="offset points", ha="left", fontsize=9,
             bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.9, "boxstyle": "round,pad=0.2"},
@@ -63,7 +63,7 @@ def slip_over_spin(cases: Cases) -> Figure:
     powers.set_ylim(bottom=0)
     at_one_line = float(np.interp(found.one_line_from, E_s, total))
     for panel, bottom, top in ((moments, -0.25, 1.0), (powers, 0.0, at_one_line)):
-        panel.vlines(found.one_line_from, bottom, top, color=style.INK, linestyle=":", linewidth=1.2)
+        panel.vlines(found.one_line_from, bottom, top, color=charts.INK, linestyle=":", linewidth=1.2)
         panel.set_xlim(0, 2.5)
         panel.set_xlabel("spin parameter E$_s$ (1)")
         panel.legend(loc="upper left")
@@ -98,7 +98,7 @@ def slip_fields(cases: Cases) -> Figure:
         "Reference model; slip of race against ball. Colour: its size; arrows: its direction and size; dashed: no "
         "slip along the path. The ellipses are drawn wider along the path than they are."
     )
-    figure, panels = style.new_figure(case_caption(cases, words), rows=2, height=2.75)
+    figure, panels = charts.new_figure(case_caption(cases, words), rows=2, height=2.75)
     for row, case in zip((panels[:2], panels[2:]), cases.values(), strict=True):
         result = case.result(curves.MODELS["reference"])
         fastest = max(_speeds(result, on_screw).max() for on_screw in (True, False))
@@ -129,7 +129,7 @@ def _speeds(result: FrictionResult, on_screw: bool) -> Any:
 def _slip_field(panel: Axes, result: FrictionResult, on_screw: bool, fastest: float) -> Any:
     contact = result.screw if on_screw else result.nut
     a, b = float(contact.semi_major_axis) * 1e3, float(contact.semi_minor_axis) * 1e3
-    outline = Ellipse((0, 0), 2 * a, 2 * b, facecolor="none", edgecolor=style.INK, linewidth=1.3, zorder=3)
+    outline = Ellipse((0, 0), 2 * a, 2 * b, facecolor="none", edgecolor=charts.INK, linewidth=1.3, zorder=3)
     panel.add_patch(outline)
     image = panel.imshow(
         _speeds(result, on_screw),
@@ -156,14 +156,14 @@ def _slip_field(panel: Axes, result: FrictionResult, on_screw: bool, fastest: fl
         scale_units="inches",
         units="inches",
         width=0.016,
-        color=style.INK,
+        color=charts.INK,
         zorder=4,
     )
     heights = np.linspace(-1, 1, 4001)
     path = curves.slip_picture(result, on_screw, heights, 0 * heights).slip_along
     for height in heights[1:][np.diff(np.sign(path)) != 0]:
         half = b * float(np.sqrt(1 - height**2))
-        panel.plot([height * a] * 2, [-half, half], color=style.INK, linestyle="--", linewidth=1, zorder=3)
+        panel.plot([height * a] * 2, [-half, half], color=charts.INK, linestyle="--", linewidth=1, zorder=3)
     panel.set_xlim(-1.12 * a, 1.12 * a)
     panel.set_ylim(-1.25 * b, 1.25 * b)
     panel.grid(visible=False)
@@ -185,7 +185,7 @@ def _field_table(cases: Cases) -> Columns:
 
 # -- rolling forces -------------------------------------------------------------------------------
 
-_LAW_LINES = (("-", style.BLUE), ("-.", style.GREEN), ("--", style.ORANGE), (":", style.PURPLE))
+_LAW_LINES = (("-", charts.BLUE), ("-.", charts.GREEN), ("--", charts.ORANGE), (":", charts.PURPLE))
 
 
 def rolling_laws(cases: Cases) -> Figure:
@@ -196,7 +196,7 @@ def rolling_laws(cases: Cases) -> Figure:
         "Aihara's is a law for rollers, taken for a roller as long as the ellipse, with its own heating."
     )
     caption = case_caption({"paper": cases["paper"]}, words, ["axial_load", "screw_speed"])
-    figure, panels = style.new_figure(caption, sharey=True)
+    figure, panels = charts.new_figure(caption, sharey=True)
     over_load, over_speed = curves.rolling_over_load(), curves.rolling_over_speed()
     for panel, found, scale, x in (
         (panels[0], over_load, 1.0, "contact load Q of a ball (N)"),
@@ -244,13 +244,13 @@ def load_shares(cases: Cases) -> Figure:
         "paper's screw. Right, friction coefficients with B 1.42, C 0.8; the film alone has 0.02. Dotted: λ at the "
         "screw contact of the paper's screw."
     )
-    figure, panels = style.new_figure(case_caption({"paper": cases["paper"]}, words))
+    figure, panels = charts.new_figure(case_caption({"paper": cases["paper"]}, words))
     found = curves.share_curves()
-    lines = zip(found.shares.items(), (*style.GROWING[:4], style.GREEN, style.ORANGE), strict=True)
+    lines = zip(found.shares.items(), (*charts.GROWING[:4], charts.GREEN, charts.ORANGE), strict=True)
     for index, ((name, share), colour) in enumerate(lines):
-        line = style.LINE_STYLES[index % 5]
+        line = charts.LINE_STYLES[index % 5]
         panels[0].plot(found.film_parameter, share, ls=line, color=colour, label=name)
-    looks = (("--", style.ORANGE), ("-.", style.PURPLE), (":", style.GREEN), ("-", style.BLUE))
+    looks = (("--", charts.ORANGE), ("-.", charts.PURPLE), (":", charts.GREEN), ("-", charts.BLUE))
     for (name, mu), (line, colour) in zip(found.coefficients.items(), looks, strict=True):
         panels[1].plot(found.film_parameter, mu, ls=line, color=colour, label=mathtext(name))
     at = float(PAPER.result(curves.MODELS["reference"]).screw.film_parameter)
@@ -258,7 +258,7 @@ def load_shares(cases: Cases) -> Figure:
         panels, ("load share of the asperities", "friction coefficient"),
         ("share of the asperities w (1)", "friction coefficient µ$_m$ (1)"), strict=True,
     ):  # fmt: skip
-        panel.axvline(at, color=style.GREY, linestyle=":", linewidth=1.2)
+        panel.axvline(at, color=charts.GREY, linestyle=":", linewidth=1.2)
         panel.set_title(title)
         panel.set_xlim(0, 4)
         panel.set_ylim(bottom=0)

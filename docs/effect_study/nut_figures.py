@@ -10,16 +10,16 @@ from matplotlib.figure import Figure
 
 from ballscrew.physics.friction.calibrations import calibrated, calibrations
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 from effect_study import nut_curves as curves
 from effect_study.cases import RPM
 from effect_study.effect_figures import mathtext
 
 KILO, MICRO = 1e3, 1e-6
 NUT_STYLES: Mapping[str, tuple[str, Any]] = {
-    "single nut, no preload": (style.GREY, ":"),
-    "double nut": (style.BLUE, "-"),
-    "single nut, oversize balls": (style.RED, "--"),
+    "single nut, no preload": (charts.GREY, ":"),
+    "double nut": (charts.BLUE, "-"),
+    "single nut, oversize balls": (charts.RED, "--"),
 }
 LOAD = "axial load F (kN)"
 
@@ -38,7 +38,7 @@ def _case(words: str, *, preloaded: bool = True) -> str:
 def distribution() -> Figure:
     """Load of each ball."""
     data = curves.distribution_curves()
-    figure, (bodies, scatter) = style.new_figure(
+    figure, (bodies, scatter) = charts.new_figure(
         _case(
             f"Load of each ball of a single nut under {data.axial_load / KILO:.1f} kN. Bodies: core of the screw, nut "
             f"1.5 d_m wide. Right: one set of balls whose diameters scatter by {curves.SCATTER / MICRO:g} µm, seed "
@@ -47,33 +47,35 @@ def distribution() -> Figure:
         ),
     )
     number = np.arange(1, len(data.scattered) + 1)
-    for (words, loads), colour, line in zip(data.elastic.items(), (style.BLUE, style.ORANGE), ("-", "--"), strict=True):
+    for (words, loads), colour, line in zip(
+        data.elastic.items(), (charts.BLUE, charts.ORANGE), ("-", "--"), strict=True
+    ):
         bodies.plot(number, loads, color=colour, linestyle=line, label=f"elastic, {words}")
     bodies.set_title("Screw and nut give way")
-    scatter.plot(number, data.scattered, ".", color=style.BLUE, markersize=4, label="elastic, balls scatter")
+    scatter.plot(number, data.scattered, ".", color=charts.BLUE, markersize=4, label="elastic, balls scatter")
     scatter.set_title("And the balls differ")
     for panel in (bodies, scatter):
-        panel.axhline(data.rigid, color=style.GREY, linestyle=":", label="rigid, equal")
+        panel.axhline(data.rigid, color=charts.GREY, linestyle=":", label="rigid, equal")
         panel.set_xlabel("ball, from the end where the load enters")
         panel.set_ylabel("load of the ball Q$_i$ (N)")
         panel.set_ylim(0, 1.45 * data.rigid)
-    style.shared_legend((bodies, scatter), loc="lower left")
+    charts.shared_legend((bodies, scatter), loc="lower left")
     return figure
 
 
 def preload() -> Figure:
     """Loads of the halves of a double nut, and deflection of nuts."""
     data = curves.preload_curves()
-    figure, (flanks, moves) = style.new_figure(
+    figure, (flanks, moves) = charts.new_figure(
         _case(
             "Bodies rigid. The relieved half of a double nut loses its load at 2.83 times the preload, or a bit more."
         )
     )
     double = data.loads["double nut"]
     x, relieved = data.axial_load / KILO, double.remaining_preload / KILO
-    flanks.plot(x, x + relieved, color=style.BLUE, label="half that carries the load")
-    flanks.plot(x, relieved, color=style.SKY, linestyle="--", label="half that is relieved")
-    flanks.axvline(float(double.lift_off_load[0]) / KILO, color=style.GREY, linestyle=":", label="lift-off")
+    flanks.plot(x, x + relieved, color=charts.BLUE, label="half that carries the load")
+    flanks.plot(x, relieved, color=charts.SKY, linestyle="--", label="half that is relieved")
+    flanks.axvline(float(double.lift_off_load[0]) / KILO, color=charts.GREY, linestyle=":", label="lift-off")
     flanks.set_ylabel("axial force of the half (kN)")
     flanks.set_title("Double nut: what each half carries")
     flanks.legend(loc="upper left")
@@ -91,7 +93,7 @@ def preload() -> Figure:
 def torque() -> Figure:
     """Friction torque and efficiency over the load, by kind of nut."""
     data = curves.preload_curves()
-    figure, (friction, efficiency) = style.new_figure(
+    figure, (friction, efficiency) = charts.new_figure(
         _case(
             f"Model reference, uncalibrated, {curves.GRADE} at {curves.TEMPERATURE - 273.15:g} °C, "
             f"{curves.SPEED / RPM:g} rpm, no seals."
@@ -121,7 +123,7 @@ def drag() -> Figure:
     models = {"as it is": reference} | {
         f"calibrated, {name}": calibrated(reference, found) for name, found in calibrations().items()
     }
-    figure, panels = style.new_figure(
+    figure, panels = charts.new_figure(
         _case(
             f"Drag of the preload without load for other leads, {curves.DRAG_SPEED / RPM:g} rpm, {curves.GRADE} at "
             f"{curves.DRAG_TEMPERATURE - 273.15:g} °C, no seals. Rules: Rexroth (tables of 2006), JIS B 1192 (THK)."
@@ -134,7 +136,7 @@ def drag() -> Figure:
             colour, line = NUT_STYLES[words]
             panel.plot(data.lead_ratio, values, color=colour, linestyle=line, label=f"model, {words}")
             panel.axhline(data.rexroth[words], color=colour, linewidth=0.9, linestyle=":", label=f"Rexroth, {words}")
-        panel.plot(data.lead_ratio, data.jis, color=style.GREEN, linewidth=0.9, linestyle="-.", label="JIS, all nuts")
+        panel.plot(data.lead_ratio, data.jis, color=charts.GREEN, linewidth=0.9, linestyle="-.", label="JIS, all nuts")
         panel.set_title(f"Reference model, {title}")
         panel.set_xlabel("lead over nominal diameter P$_h$/d$_0$")
         panel.set_ylabel("drag T/(F$_{pr}$ d$_0$)")

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 from effect_study import effect_figures, law_figures
 
 PLOTS = {plot.name: plot for plot in (*effect_figures.PLOTS, *law_figures.PLOTS)}
@@ -25,7 +25,7 @@ def plot(request):
 @pytest.fixture(scope="module")
 def figure(plot):
     """Laid out as for a PNG."""
-    with style.house_style():
+    with charts.house_style():
         drawn = plot.draw(effect_figures.drawn_cases())
         FigureCanvasAgg(drawn)
         drawn.draw_without_rendering()
@@ -54,7 +54,7 @@ def test_caption_leaves_out_what_varies():
         ("effects_parts_over_speed", "n =", "F ="),
         ("effects_light_load", "F =", "n ="),
     ):
-        with style.house_style():
+        with charts.house_style():
             caption = PLOTS[name].draw(effect_figures.drawn_cases()).texts[-1].get_text()
         assert varied not in caption.replace("\N{NO-BREAK SPACE}", " ")
         assert stated in caption.replace("\N{NO-BREAK SPACE}", " ")
@@ -93,7 +93,7 @@ def test_table_holds_the_numbers(plot):
 
 
 def test_the_bars_end_at_the_torque():
-    with style.house_style():
+    with charts.house_style():
         figure = PLOTS["effects_steps"].draw(effect_figures.drawn_cases())
     table = PLOTS["effects_steps"].table(effect_figures.drawn_cases())
     for panel, case in zip(figure.axes, effect_figures.drawn_cases().values(), strict=True):
@@ -102,14 +102,14 @@ def test_the_bars_end_at_the_torque():
 
 
 def test_skid_is_shaded():
-    with style.house_style():
+    with charts.house_style():
         figure = PLOTS["effects_light_load"].draw(effect_figures.drawn_cases())
     for panel in figure.axes:
         assert "the ball skids" in panel.get_legend_handles_labels()[1]
 
 
 def test_the_slip_fields_fill_their_ellipses():
-    with style.house_style():
+    with charts.house_style():
         figure = PLOTS["effects_slip_fields"].draw(effect_figures.drawn_cases())
     panels = [panel for panel in figure.axes if panel.images]
     assert len(panels) == 4
@@ -121,8 +121,8 @@ def test_the_slip_fields_fill_their_ellipses():
 
 def test_two_runs_give_the_same_bytes(tmp_path):
     for name in ("one", "two"):
-        with style.house_style():
-            style.save(PLOTS["effects_slip_fields"].draw(effect_figures.drawn_cases()), tmp_path, name)
+        with charts.house_style():
+            charts.save(PLOTS["effects_slip_fields"].draw(effect_figures.drawn_cases()), tmp_path, name)
     for kind in ("svg", "png"):
         assert (tmp_path / f"one.{kind}").read_bytes() == (tmp_path / f"two.{kind}").read_bytes()
 

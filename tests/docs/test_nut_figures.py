@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 from effect_study import nut_curves as curves
 from effect_study import nut_figures
 
@@ -21,7 +21,7 @@ def test_the_page_shows_all():
 
 @pytest.mark.parametrize("name", nut_figures.DRAWN)
 def test_axes_have_words_and_units(name):
-    with style.house_style():
+    with charts.house_style():
         figure = nut_figures.DRAWN[name]()
     for panel in figure.axes:
         assert panel.get_xlabel()
@@ -32,8 +32,8 @@ def test_axes_have_words_and_units(name):
 
 def test_two_runs_give_the_same_bytes(tmp_path):
     for name in ("one", "two"):
-        with style.house_style():
-            style.save(nut_figures.distribution(), tmp_path, name)
+        with charts.house_style():
+            charts.save(nut_figures.distribution(), tmp_path, name)
     assert (tmp_path / "one.svg").read_bytes() == (tmp_path / "two.svg").read_bytes()
 
 

@@ -17,7 +17,7 @@ from ballscrew.evidence.papers.olaru2005.observations import observe
 from ballscrew.faces.cli import reproduction
 from ballscrew.questions.reproduce import ball_figure as ball
 from ballscrew.questions.reproduce import figure as figures
-from ballscrew.questions.shared.chart_style import Plot
+from ballscrew.questions.shared.charts import Plot
 
 HOLDS, FAILS, OPEN = paper.Verdict.HOLDS, paper.Verdict.FAILS, paper.Verdict.OPEN
 NAMES = [plot.name for plot in (*ball.PLOTS, *figures.PLOTS)]

@@ -23,7 +23,7 @@ from ballscrew.questions.band import compute as band
 from ballscrew.questions.band import document as documents
 from ballscrew.questions.band import figure as figures
 from ballscrew.questions.compare import compute as comparison
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 
 
 @pytest.fixture
@@ -229,7 +229,7 @@ def test_pictures(kind, drive, ballscrew, tmp_path):
 def test_what_a_picture_says(settings, axis, drive):
     case = case_file.load(drive, settings)
     options = band.Options(samples=64)
-    with style.house_style():
+    with charts.house_style():
         report = band.band(case, options)
         figure = figures.picture(case, report, band.curve(case, report, options))
         figure.draw_without_rendering()

@@ -18,7 +18,7 @@ from ballscrew.physics.friction.model import presets
 from ballscrew.physics.friction.result import MECHANISMS
 from ballscrew.questions.compare import compute as comparison
 from ballscrew.questions.compare import figure as figures
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 from support.commands import with_small_files
 
 
@@ -297,7 +297,7 @@ def figure(request, paper):
 
     load = float(request.param.removesuffix(" kN").removesuffix(" N")) * (1000 if "k" in request.param else 1)
     case = dataclasses.replace(paper, operation=dataclasses.replace(paper.operation, axial_load=load))
-    with style.house_style():
+    with charts.house_style():
         drawn = figures.picture(case, comparison.comparison(case))
         FigureCanvasAgg(drawn)
         drawn.draw_without_rendering()
@@ -360,8 +360,8 @@ def test_nothing_is_clipped(figure):
 
 
 def test_colours_tell_all_mechanisms_apart():
-    assert set(style.MECHANISM_COLOURS) == set(MECHANISMS)
-    assert len(set(style.MECHANISM_COLOURS.values())) == len(MECHANISMS)
+    assert set(charts.MECHANISM_COLOURS) == set(MECHANISMS)
+    assert len(set(charts.MECHANISM_COLOURS.values())) == len(MECHANISMS)
 
 
 def test_compare_loads_no_pyplot_and_no_xarray_without_a_picture(example):

@@ -17,7 +17,7 @@ from ballscrew.questions.sensitivity import document as documents
 from ballscrew.questions.sensitivity import figure as figures
 from ballscrew.questions.sensitivity import text as text_of
 from ballscrew.questions.shared import chart_files as files
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 #: Two inputs that the case gives a distribution, one of them without any effect on the torque of this model.
@@ -198,7 +198,7 @@ def test_picture_by_the_command(ballscrew, example, tmp_path):
 
 @pytest.fixture
 def figure(found, case):
-    with style.house_style():
+    with charts.house_style():
         drawn = figures.picture(case, found)
         FigureCanvasAgg(drawn)
         drawn.draw_without_rendering()

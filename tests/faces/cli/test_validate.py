@@ -15,7 +15,7 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.evidence.validation.sets import SETS
 from ballscrew.physics.friction.calibrations import calibration
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 from ballscrew.questions.validate import compute as validation
 from ballscrew.questions.validate import document as validation_documents
 from ballscrew.questions.validate import figure as figures
@@ -244,7 +244,7 @@ def test_picture(ballscrew, tmp_path):
 def test_picture_shows_axes_case_and_all_ratios():
     asked = validation.request()
     found = [entries for entries, _ in validation.evaluate(asked)]
-    with style.house_style():
+    with charts.house_style():
         figure = figures.ratios(
             found,
             validation_text.caption(found, asked),
@@ -306,7 +306,7 @@ def test_no_line_is_wider_than_the_widest(ballscrew):
 def test_rows_side_by_side_where_nothing_else_differs():
     asked = validation.request(["thk-jis"])
     found = [entries for entries, _ in validation.evaluate(asked)]
-    with style.house_style():
+    with charts.house_style():
         (panel,) = figures.ratios(found, "caption", ["a vendor"]).axes
     assert panel.get_xlabel() == "row"
     assert [label.get_text() for label in panel.get_xticklabels()] == ["BNFN4010-5"]

@@ -13,7 +13,7 @@ from matplotlib.text import Text
 from ballscrew.evidence.papers import olaru2005 as paper
 from ballscrew.questions.reproduce import ball_figure as ball
 from ballscrew.questions.reproduce import figure as figures
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 
 PLOTS = {plot.name: plot for plot in (*ball.PLOTS, *figures.PLOTS)}
 
@@ -32,7 +32,7 @@ def plot(request):
 @pytest.fixture(scope="module")
 def figure(plot, sources):
     """Laid out as for a PNG."""
-    with style.house_style():
+    with charts.house_style():
         drawn = plot.draw(sources[plot.name])
         FigureCanvasAgg(drawn)
         drawn.draw_without_rendering()
@@ -117,7 +117,7 @@ def test_table_holds_the_numbers(plot, sources):
 
 
 def test_assumptions_of_the_figures_are_stated(sources):
-    with style.house_style():
+    with charts.house_style():
         for number, name in (
             (5, "fig5_torque_on_screw_and_nut"),
             (8, "fig8_torque_over_load"),
@@ -129,7 +129,7 @@ def test_assumptions_of_the_figures_are_stated(sources):
 
 
 def test_skid_is_shaded(sources):
-    with style.house_style():
+    with charts.house_style():
         figure = PLOTS["fig9_efficiency_over_load"].draw(sources["fig9_efficiency_over_load"])
     for panel in figure.axes:
         assert "the ball would skid" in panel.get_legend_handles_labels()[1]
@@ -144,11 +144,11 @@ def test_forces_and_moments_of_the_drawings_balance(sources):
 
 def test_nobodys_settings_matter(sources, tmp_path):
     plot = PLOTS["fig7_efficiency_over_speed"]
-    with style.house_style():
-        style.save(plot.draw(sources[plot.name]), tmp_path, "plain")
+    with charts.house_style():
+        charts.save(plot.draw(sources[plot.name]), tmp_path, "plain")
     with mpl.rc_context({"lines.linewidth": 9, "font.size": 30, "axes.grid": False, "savefig.dpi": 20}):
-        with style.house_style():
-            style.save(plot.draw(sources[plot.name]), tmp_path, "loud")
+        with charts.house_style():
+            charts.save(plot.draw(sources[plot.name]), tmp_path, "loud")
         assert mpl.rcParams["font.size"] == 30
     for kind in ("svg", "png"):
         assert (tmp_path / f"plain.{kind}").read_bytes() == (tmp_path / f"loud.{kind}").read_bytes()

@@ -108,7 +108,7 @@ def _write(folder: _Folder, report: Report) -> None:
     # matplotlib takes its time: only once the folder is known to be writable
     from ballscrew.questions.reproduce import ball_figure as ball
     from ballscrew.questions.reproduce import figure as figures
-    from ballscrew.questions.shared import chart_style as style
+    from ballscrew.questions.shared import charts
 
     total, done = len(ball.PLOTS) + len(figures.PLOTS) + 3, 0
 
@@ -123,12 +123,12 @@ def _write(folder: _Folder, report: Report) -> None:
     step("curves of the figures")
     found, checks = paper.claims(), paper.closure_checks()
     step("claims of the paper")
-    with style.house_style():
+    with charts.house_style():
         results = ball.drawn_results()
-        drawings: list[tuple[style.Plot, Any]] = [(plot, results) for plot in ball.PLOTS]
+        drawings: list[tuple[charts.Plot, Any]] = [(plot, results) for plot in ball.PLOTS]
         drawings += [(plot, data) for plot in figures.PLOTS]
         for plot, source in drawings:
-            style.save(plot.draw(source), folder.path, plot.name)
+            charts.save(plot.draw(source), folder.path, plot.name)
             _write_text(folder.path / f"{plot.name}.csv", _csv(plot.table(source)))
             step(plot.name)
     names = [plot.name for plot, _ in drawings]

@@ -26,7 +26,7 @@ from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
 from ballscrew.physics.sizing.listed_nut import NUTS
 from ballscrew.questions.shared import chart_files as files
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 
 _TORQUE = "friction torque on the screw (N m)"
 _OPERATION = fields_of(OperatingState)
@@ -55,8 +55,8 @@ class Picture:
 
     def _repr_png_(self) -> bytes:
         buffer = io.BytesIO()
-        with style.house_style():
-            style.save_as(self.figure, buffer, "png")
+        with charts.house_style():
+            charts.save_as(self.figure, buffer, "png")
         return buffer.getvalue()
 
 
@@ -69,7 +69,7 @@ def picture(value: Any) -> Picture:
 @picture.register
 def _of_result(result: FrictionResult) -> Picture:
     """The friction by cause: bars at a point, areas along a load or a speed."""
-    with style.house_style():
+    with charts.house_style():
         if np.ndim(result.screw_torque) == 0:
             return Picture(_bars(result))
         return Picture(_areas(result))
@@ -82,9 +82,9 @@ def _parts(result: FrictionResult) -> dict[str, Any]:
 def _bars(result: FrictionResult) -> Figure:
     load, speed = (units.shown(float(getattr(result, n)), _OPERATION[n]) for n in ("axial_load", "screw_speed"))
     caption = f"At {load} and {speed}; in all {float(result.screw_torque):.4g} N m."
-    figure, (panel,) = style.new_figure(caption, columns=1)
+    figure, (panel,) = charts.new_figure(caption, columns=1)
     parts = _parts(result)
-    colours = [style.MECHANISM_COLOURS.get(name, style.GREY) for name in parts]
+    colours = [charts.MECHANISM_COLOURS.get(name, charts.GREY) for name in parts]
     panel.barh([MECHANISMS.get(n, n) for n in parts], [float(part) for part in parts.values()], color=colours)
     panel.invert_yaxis()
     panel.set_xlabel(_TORQUE)
@@ -103,15 +103,15 @@ def _areas(result: FrictionResult) -> Figure:
     order = np.argsort(np.broadcast_to(moving[along], shape))
     x = np.asarray(units.from_si(np.broadcast_to(moving[along], shape)[order], _OPERATION[along]))
     caption = "Areas add up to the friction torque; where it is shaded the model does not hold."
-    figure, (panel,) = style.new_figure(caption, columns=1)
+    figure, (panel,) = charts.new_figure(caption, columns=1)
     parts = {
         name: np.broadcast_to(np.asarray(part, dtype=float), shape)[order] for name, part in _parts(result).items()
     }
     panel.stackplot(
         x, list(parts.values()), labels=[MECHANISMS.get(n, n) for n in parts],
-        colors=[style.MECHANISM_COLOURS.get(n, style.GREY) for n in parts], linewidth=0,
+        colors=[charts.MECHANISM_COLOURS.get(n, charts.GREY) for n in parts], linewidth=0,
     )  # fmt: skip
-    panel.plot(x, np.asarray(result.screw_torque)[order], color=style.INK, label="total")
+    panel.plot(x, np.asarray(result.screw_torque)[order], color=charts.INK, label="total")
     _shade(panel, x, np.broadcast_to(np.asarray(result.valid), shape)[order])
     panel.set_xlabel(_label(_OPERATION[along]))
     panel.set_ylabel(_TORQUE)
@@ -124,7 +124,7 @@ def _shade(panel: Axes, x: Any, valid: Any) -> None:
     """Grey where the model does not hold."""
     if not np.all(valid):
         low, high = panel.get_ylim()
-        panel.fill_between(x, low, high, where=~valid, color=style.SHADE, alpha=0.6, linewidth=0, zorder=3, step="mid")
+        panel.fill_between(x, low, high, where=~valid, color=charts.SHADE, alpha=0.6, linewidth=0, zorder=3, step="mid")
         panel.set_ylim(low, high)
 
 
@@ -146,10 +146,10 @@ def sweep_map(data: xr.Dataset, output: str) -> Picture:
     if values.ndim not in (1, 2):
         remedy = "choose values of the others: ds.isel(temperature=0).ballscrew.plot_map()"
         raise InputError(Fault("plot_map", "needs one or two axes", ", ".join(map(str, values.dims)), remedy))
-    with style.house_style():
+    with charts.house_style():
         title = str(data.attrs.get("title", "Computed by ballscrew"))
         caption = f"{title}. Where it is hatched or shaded the model does not hold."
-        figure, (panel,) = style.new_figure(caption, columns=1)
+        figure, (panel,) = charts.new_figure(caption, columns=1)
         (_line if values.ndim == 1 else _contours)(figure, panel, data, values)
     return Picture(figure)
 
@@ -177,7 +177,7 @@ def _line(figure: Figure, panel: Axes, data: xr.Dataset, values: xr.DataArray) -
     del figure
     x, across = _axis(data, str(values.dims[0]))
     y, words = _of_output(values)
-    panel.plot(x, y, color=style.BLUE)
+    panel.plot(x, y, color=charts.BLUE)
     if "valid" in data:
         _shade(panel, x, data["valid"].to_numpy())
     panel.set_xlabel(across)

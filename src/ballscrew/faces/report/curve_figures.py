@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 from ballscrew.faces.report import svg
 from ballscrew.faces.report.curves import Curves
 from ballscrew.physics.friction.result import MECHANISMS
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 
 #: Inches: the width of an A4 page between its margins.
 _WIDTH, _HEIGHT = 7.1, 2.5
@@ -31,10 +31,10 @@ _SPEED, _LOAD = "speed of the screw (rpm)", "axial load (N)"
 #: From pale to strong, so that black numbers are read on it.
 _PALE = LinearSegmentedColormap.from_list("pale", ["#F7FBFF", "#9ECAE1"])
 #: Losses of the nut, which have no colour of their own.
-_OTHERS = (style.GREY, style.YELLOW, "#999999")
-_HERE: Mapping[str, Any] = {"color": style.RED, "linewidth": 1.0, "linestyle": "--"}
+_OTHERS = (charts.GREY, charts.YELLOW, "#999999")
+_HERE: Mapping[str, Any] = {"color": charts.RED, "linewidth": 1.0, "linestyle": "--"}
 #: A veil over what lies outside the model's validity.
-_VEIL, _THIN = style.GREY, 0.25
+_VEIL, _THIN = charts.GREY, 0.25
 #: The style of matplotlib is one for all threads.
 _LOCK = threading.Lock()
 
@@ -42,15 +42,15 @@ _LOCK = threading.Lock()
 def pictures(curves: Curves) -> dict[str, str]:
     """All figures by name, as SVG text without a title."""
     drawn: Mapping[str, Callable[[Curves], Figure]] = {"speed": _over_speed, "load": _over_load, "maps": _maps}
-    with _LOCK, style.house_style():
-        style.mpl.rcParams.update(_SMALL)
+    with _LOCK, charts.house_style():
+        charts.mpl.rcParams.update(_SMALL)
         return {name: _text_of(draw(curves), name) for name, draw in drawn.items()}
 
 
 def svg_of(draw: Callable[[], Figure], name: str) -> str:
     """One figure as SVG text without a title, in the style of a report."""
-    with _LOCK, style.house_style():
-        style.mpl.rcParams.update(_SMALL)
+    with _LOCK, charts.house_style():
+        charts.mpl.rcParams.update(_SMALL)
         return _text_of(draw(), name)
 
 
@@ -65,14 +65,14 @@ def _over_speed(curves: Curves) -> Figure:
     figure, left, right = _panels()
     parts = {name: part for name, part in curves.parts.items() if np.any(np.nan_to_num(part))}
     others = iter(_OTHERS * len(parts))
-    colours = [style.MECHANISM_COLOURS.get(name) or next(others) for name in parts]
+    colours = [charts.MECHANISM_COLOURS.get(name) or next(others) for name in parts]
     labels = [MECHANISMS.get(name, name) for name in parts]
     if parts:
         stacked = np.stack(list(parts.values()))
         stacked[:, ~np.all(np.isfinite(stacked), axis=0)] = np.nan  # a gap, not a torque that lacks a part
         left.stackplot(curves.speeds, stacked, colors=colours, labels=labels, alpha=0.9, linewidth=0)
         total = stacked.sum(axis=0)
-        left.plot(curves.speeds, total, color=style.INK, linewidth=1.2)
+        left.plot(curves.speeds, total, color=charts.INK, linewidth=1.2)
         left.set_ylim(0, 1.5 * float(np.nanmax(total, initial=0.0)) or 1.0)
         handles, names = left.get_legend_handles_labels()
         left.legend(handles[::-1], names[::-1], loc="upper center", ncols=2)
@@ -87,9 +87,9 @@ def _over_speed(curves: Curves) -> Figure:
 
 def _over_load(curves: Curves) -> Figure:
     figure, left, right = _panels()
-    left.plot(curves.loads, curves.efficiency, color=style.BLUE, label="screw drives")
+    left.plot(curves.loads, curves.efficiency, color=charts.BLUE, label="screw drives")
     back = np.where(curves.back_driving_efficiency < 0, np.nan, curves.back_driving_efficiency)
-    left.plot(curves.loads, back, color=style.ORANGE, linestyle="--", label="load drives")
+    left.plot(curves.loads, back, color=charts.ORANGE, linestyle="--", label="load drives")
     left.set_ylim(0, 1)
     left.legend(loc="lower right")
     _frame(left, curves.here[1], curves.loads, _LOAD, "efficiency")
@@ -111,7 +111,7 @@ def _veil(panels: Sequence[Axes], x: Any, valid: Any) -> None:
 
 
 def _lines(panel: Axes, x: Any, lines: Mapping[str, Any]) -> None:
-    for (words, y), colour, dashes in zip(lines.items(), (style.BLUE, style.ORANGE), ("-", "--"), strict=False):
+    for (words, y), colour, dashes in zip(lines.items(), (charts.BLUE, charts.ORANGE), ("-", "--"), strict=False):
         panel.plot(x, y, color=colour, linestyle=dashes, label=words)
     panel.legend(loc="lower right")
 
@@ -143,13 +143,13 @@ def _map(panel: Axes, curves: Curves, values: Any) -> None:
         # steps that are closer where the values are closer: as many places of the map between each two
         levels = np.unique([float(f"{level:.2g}") for level in np.quantile(values.compressed(), np.linspace(0, 1, 9))])
         panel.contourf(x, y, values, levels=40, cmap=_PALE)
-        lines = panel.contour(x, y, values, levels=levels, colors=[style.BLUE], linewidths=0.8)
+        lines = panel.contour(x, y, values, levels=levels, colors=[charts.BLUE], linewidths=0.8)
         panel.clabel(lines, fontsize=7, colors=["#000000"])
     if not np.all(curves.valid_everywhere):
         outside = np.where(curves.valid_everywhere, 0.0, 1.0)
         panel.contourf(curves.map_speeds, curves.map_loads, outside, levels=[0.5, 1.5], colors=[_VEIL], alpha=_THIN)
     panel.plot(
-        *curves.here, "o", color=style.RED, markersize=6, clip_on=False,
+        *curves.here, "o", color=charts.RED, markersize=6, clip_on=False,
         path_effects=[patheffects.withStroke(linewidth=2.5, foreground="white")],
     )  # fmt: skip
     panel.set_xlim(0, float(curves.map_speeds[-1]))
@@ -161,7 +161,7 @@ def _map(panel: Axes, curves: Curves, values: Any) -> None:
 def _text_of(figure: Figure, name: str) -> str:
     """The SVG of a figure: identifiers of its own, ink in the colour of the page, no style that leaks."""
     buffer = io.BytesIO()
-    style.save_as(figure, buffer, "svg")
+    charts.save_as(figure, buffer, "svg")
     text = buffer.getvalue().decode()
     text = text[text.index("<svg") :]
     text = re.sub(r"<metadata>.*?</metadata>\s*", "", text, flags=re.DOTALL)
@@ -170,8 +170,8 @@ def _text_of(figure: Figure, name: str) -> str:
     text = re.sub(r'\bid="', f'id="{name}-', text)
     text = re.sub(r"url\(#", f"url(#{name}-", text)
     text = re.sub(r'href="#', f'href="#{name}-', text)
-    text = re.sub(style.INK, "currentColor", text, flags=re.IGNORECASE)
-    text = re.sub(style.GREY, "currentColor", text, flags=re.IGNORECASE)
+    text = re.sub(charts.INK, "currentColor", text, flags=re.IGNORECASE)
+    text = re.sub(charts.GREY, "currentColor", text, flags=re.IGNORECASE)
     text = re.sub(r"stroke: #e4e4e4", "stroke: currentColor; stroke-opacity: 0.14", text, flags=re.IGNORECASE)
     head = f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" viewBox="{_box(text)}"'
     lines = 'stroke-linejoin="round" stroke-linecap="butt" fill="currentColor"'

@@ -14,17 +14,17 @@ from ballscrew.basis import units
 from ballscrew.basis.quantities import Quantity
 from ballscrew.questions.axis import text
 from ballscrew.questions.axis.compute import LOAD, SERIES, SPEED, SPRINGS, ChainReport
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 
 _COLOURS: Mapping[str, str] = dict(
-    zip(SPRINGS, (style.BLUE, style.ORANGE, style.GREEN, style.GREY, style.PURPLE), strict=True)
+    zip(SPRINGS, (charts.BLUE, charts.ORANGE, charts.GREEN, charts.GREY, charts.PURPLE), strict=True)
 )
 _TITLE_CHARACTERS = 100
 
 
 def picture(report: ChainReport) -> Figure:
     """All panels; call within the house style."""
-    figure, panels = style.new_figure(caption(report), rows=2, height=2.7)
+    figure, panels = charts.new_figure(caption(report), rows=2, height=2.7)
     figure.suptitle(
         "\n".join(textwrap.wrap(text.title(report), _TITLE_CHARACTERS)),
         x=0.012, ha="left", fontsize=11, fontweight="bold",
@@ -38,7 +38,7 @@ def picture(report: ChainReport) -> Figure:
     _limit(panels[3], report.largest_load, LOAD, "largest load")
     for panel in panels:
         low, high = (float(units.from_si(end, SERIES["position"])) for end in report.travel)
-        panel.axvspan(low, high, color=style.LIGHT_SHADE, zorder=0)
+        panel.axvspan(low, high, color=charts.LIGHT_SHADE, zorder=0)
         panel.set_xlabel(f"nut from the fixed bearing [{SERIES['position'].shown_in}]")
     return figure
 
@@ -55,13 +55,13 @@ def _places(report: ChainReport) -> Any:
 
 def _line(panel: Axes, report: ChainReport, name: str, title: str) -> None:
     quantity = SERIES[name]
-    panel.plot(_places(report), units.from_si(report.series[name], quantity), color=style.BLUE)
+    panel.plot(_places(report), units.from_si(report.series[name], quantity), color=charts.BLUE)
     panel.set(ylabel=f"[{units.label(quantity)}]", title=title)
 
 
 def _limit(panel: Axes, value: float, quantity: Quantity, label: str) -> None:
     shown = float(units.from_si(value, quantity))
-    panel.axhline(shown, color=style.RED, linestyle="--", linewidth=1.2, label=label)
+    panel.axhline(shown, color=charts.RED, linestyle="--", linewidth=1.2, label=label)
     panel.legend(fontsize="small")
     panel.set_yscale("log")
     if shown > 0:

@@ -13,7 +13,7 @@ from ballscrew.basis.output.plain_numbers import plain
 from ballscrew.engine.uncertainty.one_at_a_time import Swing
 from ballscrew.questions.band.text import spoken
 from ballscrew.questions.band.tornado import Tornado
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 
 #: Inputs that are drawn, and the share of the widest swing below which an input is left out.
 MOST, LEAST = 12, 0.01
@@ -40,15 +40,15 @@ def picture(tornado: Tornado) -> Figure:
     panel: Axes = figure.subplots()
     places = np.arange(len(swings))
     for colour, label, ends in (
-        (style.SKY, "input at its lower end", [swing.at_lower for swing in swings]),
-        (style.ORANGE, "at its upper end", [swing.at_upper for swing in swings]),
+        (charts.SKY, "input at its lower end", [swing.at_lower for swing in swings]),
+        (charts.ORANGE, "at its upper end", [swing.at_upper for swing in swings]),
     ):
         panel.barh(places, np.array(ends) - value, _BAR, left=value, color=colour, label=label)
     labels = [plain(f"{spoken(swing.input)}: {tornado.inputs[swing.input].description}") for swing in swings]
     if with_laws:
         panel.barh(len(swings), laws.high - laws.low, _BAR, left=laws.low, color=_OF_LAWS, label="other laws")
         labels.append("other laws that are valid here, together")
-    panel.axvline(value, color=style.INK, linewidth=0.9)
+    panel.axvline(value, color=charts.INK, linewidth=0.9)
     panel.set_yticks(range(rows), labels)
     panel.set_ylim(rows - 0.4, -0.6)
     panel.tick_params(axis="y", length=0)

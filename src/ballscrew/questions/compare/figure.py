@@ -14,7 +14,7 @@ from ballscrew.cases.case_files.case_file import Case
 from ballscrew.engine.evaluation.comparison import Comparison, Row
 from ballscrew.physics.friction.result import MECHANISMS
 from ballscrew.questions.compare import text
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 
 #: Inches of a row, and of what stands above and below all rows.
 _ROW, _FRAME = 0.235, 1.5
@@ -45,13 +45,13 @@ def picture(case: Case, found: Comparison) -> Figure:
 
 def spread(title: str, caption: str, lines: Sequence[Line], case: Row, mechanisms: Mapping[str, str]) -> Figure:
     """Stacked bars of the friction torque by mechanism, line by line, and both efficiencies beside them."""
-    figure, (torques, efficiencies) = style.new_figure(
+    figure, (torques, efficiencies) = charts.new_figure(
         caption, height=_FRAME + _ROW * len(lines), sharey=True, width_ratios=(3, 1)
     )
     figure.suptitle(title, x=0.012, ha="left", fontsize=11, fontweight="bold")
     rows = [line.row for line in lines if line.row is not None]
     if math.isfinite(case.torque):
-        torques.axvline(case.torque, color=style.INK, linewidth=0.9, linestyle=":", zorder=1)
+        torques.axvline(case.torque, color=charts.INK, linewidth=0.9, linestyle=":", zorder=1)
     for y, line in enumerate(lines):
         if line.row is not None:
             _bar(torques, line.row, y, mechanisms)
@@ -71,7 +71,7 @@ def _bar(panel: Axes, row: Row, y: int, mechanisms: Mapping[str, str]) -> None:
             continue
         brakes = part >= 0
         panel.barh(
-            y, part, _BAR, left=ends[brakes], color=style.MECHANISM_COLOURS.get(mechanism, style.GREY),
+            y, part, _BAR, left=ends[brakes], color=charts.MECHANISM_COLOURS.get(mechanism, charts.GREY),
             hatch=_HATCH if row.outside else None, edgecolor="white", linewidth=0,
         )  # fmt: skip
         ends[brakes] += part
@@ -88,16 +88,16 @@ def _words(panel: Axes, words: str, y: int, is_case: bool) -> None:
         va="center",
         fontsize=_LABEL_SIZE,
         fontweight="bold" if is_case else "normal",
-        color=style.INK,
+        color=charts.INK,
     )
 
 
 def _dots(panel: Axes, row: Row, y: int) -> None:
     """The efficiency in both directions; nothing where the load cannot drive."""
-    colour = style.INK if not row.outside else style.GREY
+    colour = charts.INK if not row.outside else charts.GREY
     forward, back = float(row.result.efficiency), float(row.result.back_driving_efficiency)
     if math.isfinite(back) and back > 0:
-        panel.plot([back, forward], [y, y], color=style.SHADE, linewidth=1.4, zorder=1)
+        panel.plot([back, forward], [y, y], color=charts.SHADE, linewidth=1.4, zorder=1)
         panel.plot(back, y, "o", color=colour, markerfacecolor="white", markersize=4.5)
     elif not math.isnan(back):
         panel.annotate(
@@ -107,7 +107,7 @@ def _dots(panel: Axes, row: Row, y: int) -> None:
             ha="right",
             va="center",
             fontsize=_LABEL_SIZE,
-            color=style.RED,
+            color=charts.RED,
         )
     if math.isfinite(forward):
         panel.plot(forward, y, "o", color=colour, markersize=4.5)
@@ -134,13 +134,13 @@ def _axes(torques: Axes, efficiencies: Axes, rows: Sequence[Row], lines: Sequenc
 def _legends(torques: Axes, efficiencies: Axes, rows: Sequence[Row], mechanisms: Mapping[str, str]) -> None:
     """Above the panels, out of the way of the bars."""
     handles = [
-        Patch(color=style.MECHANISM_COLOURS.get(name, style.GREY), label=words) for name, words in mechanisms.items()
+        Patch(color=charts.MECHANISM_COLOURS.get(name, charts.GREY), label=words) for name, words in mechanisms.items()
     ]
     if any(row.outside for row in rows):
-        handles.append(Patch(facecolor=style.SHADE, edgecolor="white", hatch=_HATCH, label="not valid here"))
+        handles.append(Patch(facecolor=charts.SHADE, edgecolor="white", hatch=_HATCH, label="not valid here"))
     torques.legend(
         handles=handles, loc="lower left", bbox_to_anchor=(0, 1), ncols=3, columnspacing=1.2, fontsize=_LABEL_SIZE
     )
-    efficiencies.plot([], [], "o", color=style.INK, markersize=4.5, label="screw drives")
-    efficiencies.plot([], [], "o", color=style.INK, markerfacecolor="white", markersize=4.5, label="load drives")
+    efficiencies.plot([], [], "o", color=charts.INK, markersize=4.5, label="screw drives")
+    efficiencies.plot([], [], "o", color=charts.INK, markerfacecolor="white", markersize=4.5, label="load drives")
     efficiencies.legend(loc="lower left", bbox_to_anchor=(0, 1), fontsize=_LABEL_SIZE)

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ballscrew.physics.friction.result import MECHANISMS
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 
 #: Inches: width, height of a bar, and of what stands above and below all bars.
 _WIDTH, _ROW, _FRAME = 7.1, 0.34, 0.95
@@ -37,14 +37,14 @@ def picture(designs: Sequence[DesignBar]) -> Figure:
     left = [0.0] * len(designs)
     for name in present:
         parts = [part if math.isfinite(part := one.parts.get(name, 0.0)) else 0.0 for one in designs]
-        colour = style.MECHANISM_COLOURS.get(name) or next(others)
+        colour = charts.MECHANISM_COLOURS.get(name) or next(others)
         panel.barh(range(len(designs)), parts, _BAR, left=left, color=colour, label=MECHANISMS.get(name, name))
         left = [start + part for start, part in zip(left, parts, strict=True)]
     for place, one in enumerate(designs):
         if one.high > one.low:
             ends = [[max(0.0, left[place] - one.low)], [max(0.0, one.high - left[place])]]
             panel.errorbar(
-                [left[place]], [place], xerr=ends, fmt="none", ecolor=style.INK, capsize=_CAP, elinewidth=1.2
+                [left[place]], [place], xerr=ends, fmt="none", ecolor=charts.INK, capsize=_CAP, elinewidth=1.2
             )
     panel.set_yticks(range(len(designs)), [one.name for one in designs])
     panel.set_ylim(len(designs) - 0.4, -0.6)

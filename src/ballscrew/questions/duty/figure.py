@@ -16,7 +16,7 @@ from ballscrew.basis.quantities import fields_of
 from ballscrew.questions.duty import records as duty_records
 from ballscrew.questions.duty import text
 from ballscrew.questions.duty.compute import NUMBERS, DutyReport, cause_of
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 from ballscrew.questions.shared.chart_colours import CAUSE_COLOURS
 
 _MOTION = fields_of(Trapezoid)
@@ -31,7 +31,7 @@ _PAGE = (7.1, 4.2)
 
 def picture(report: DutyReport) -> Figure:
     """All panels; call within the house style."""
-    figure, panels = style.new_figure(caption(report), rows=3, height=2.7)
+    figure, panels = charts.new_figure(caption(report), rows=3, height=2.7)
     figure.suptitle(
         "\n".join(textwrap.wrap(text.title(report), _TITLE_CHARACTERS)),
         x=0.012, ha="left", fontsize=11, fontweight="bold",
@@ -63,11 +63,11 @@ def caption(report: DutyReport) -> str:
 def _motion(panel: Axes, report: DutyReport) -> None:
     states = report.duty.states
     speed = _MOTION["speed"]
-    panel.plot(states.time, units.from_si(states.speed, speed), color=style.BLUE, label="speed")
+    panel.plot(states.time, units.from_si(states.speed, speed), color=charts.BLUE, label="speed")
     panel.set(xlabel="time [s]", ylabel=f"speed [{speed.shown_in}]", title="motion")
     place = panel.twinx()
     length = _MOTION["stroke"]
-    place.plot(states.time, units.from_si(states.position, length), color=style.GREY, linestyle="--", label="position")
+    place.plot(states.time, units.from_si(states.position, length), color=charts.GREY, linestyle="--", label="position")
     place.set_ylabel(f"position [{length.shown_in}] (dashed)")
     place.grid(visible=False)
 
@@ -76,17 +76,17 @@ def _torque(panel: Axes, report: DutyReport) -> None:
     duty = report.duty
     for group, part in report.torque_by_cause.items():
         panel.plot(duty.states.time, part, color=CAUSE_COLOURS[group], linewidth=1.2, label=group)
-    panel.plot(duty.states.time, duty.torque, color=style.INK, label="motor")
-    panel.axhline(duty.torque_rms, color=style.GREY, linestyle=":", linewidth=1.0, label="RMS")
+    panel.plot(duty.states.time, duty.torque, color=charts.INK, label="motor")
+    panel.axhline(duty.torque_rms, color=charts.GREY, linestyle=":", linewidth=1.0, label="RMS")
     panel.set(xlabel="time [s]", ylabel="torque [N m]", title="torque of the motor by cause")
     _legend_beside(panel)
 
 
 def _power(panel: Axes, report: DutyReport) -> None:
     time, power = report.duty.states.time, report.duty.power
-    panel.plot(time, power, color=style.INK, linewidth=1.2)
-    panel.fill_between(time, np.maximum(power, 0.0), color=style.ORANGE, alpha=0.5, label="drawn")
-    panel.fill_between(time, np.minimum(power, 0.0), color=style.GREEN, alpha=0.5, label="returned")
+    panel.plot(time, power, color=charts.INK, linewidth=1.2)
+    panel.fill_between(time, np.maximum(power, 0.0), color=charts.ORANGE, alpha=0.5, label="drawn")
+    panel.fill_between(time, np.minimum(power, 0.0), color=charts.GREEN, alpha=0.5, label="returned")
     panel.set(xlabel="time [s]", ylabel="power [W]", title="power of the motor")
     panel.legend(fontsize=_LABEL_SIZE)
 
@@ -95,19 +95,21 @@ def _cloud(panel: Axes, report: DutyReport) -> None:
     duty = report.duty
     some = slice(None, None, -(-len(duty.torque) // _MOST_POINTS))
     speed = units.from_si(duty.motor_speed[some], _TURNING)
-    panel.plot(speed, duty.torque[some], ".", color=style.INK, markersize=4, label="cycle")
+    panel.plot(speed, duty.torque[some], ".", color=charts.INK, markersize=4, label="cycle")
     if duty.starved:
         bath = duty.flooded.torque[some]
-        panel.plot(speed, bath, "o", mfc="none", color=style.BLUE, markersize=4, label="in a full bath of oil")
+        panel.plot(speed, bath, "o", mfc="none", color=charts.BLUE, markersize=4, label="in a full bath of oil")
     if report.motor is not None:
         motor = report.motor.motor
         along = np.linspace(-float(motor.largest_speed), float(motor.largest_speed), _CURVE_POINTS)
         shown, peak = units.from_si(along, _TURNING), motor.peak_at(along)
         for sign in (1, -1):
-            panel.plot(shown, sign * peak, color=style.RED, label="peak" if sign > 0 else None)
+            panel.plot(shown, sign * peak, color=charts.RED, label="peak" if sign > 0 else None)
             rated = sign * float(motor.rated_torque)
-            panel.plot(shown, np.full_like(shown, rated), "--", color=style.ORANGE, label="rated" if sign > 0 else None)
-    panel.axhline(duty.torque_rms, color=style.GREY, linestyle=":", linewidth=1.2, label="RMS of the cycle")
+            panel.plot(
+                shown, np.full_like(shown, rated), "--", color=charts.ORANGE, label="rated" if sign > 0 else None
+            )
+    panel.axhline(duty.torque_rms, color=charts.GREY, linestyle=":", linewidth=1.2, label="RMS of the cycle")
     panel.set(xlabel=f"speed of the motor [{_TURNING.shown_in}]", ylabel="torque [N m]", title="torque over speed")
     _legend_beside(panel)
 
@@ -126,7 +128,7 @@ def _bars(panel: Axes, title: str, parts: Mapping[str, float], unit: str) -> Non
     )
     places = np.arange(len(shown))
     panel.barh(places, [value for _, value in shown], color=[CAUSE_COLOURS[cause_of(name)] for name, _ in shown])
-    panel.axvline(0, color=style.GREY, linewidth=0.8)
+    panel.axvline(0, color=charts.GREY, linewidth=0.8)
     panel.set_yticks(places, [name for name, _ in shown])
     panel.tick_params(axis="y", length=0, labelsize=_LABEL_SIZE)
     panel.grid(visible=False, axis="y")

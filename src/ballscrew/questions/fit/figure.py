@@ -22,7 +22,7 @@ from ballscrew.questions.fit import text
 from ballscrew.questions.fit.compute import FitReport
 from ballscrew.questions.fit.log import CONDITIONS
 from ballscrew.questions.fit.points import measured_and_predicted
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 from ballscrew.questions.shared.log_points import some
 from ballscrew.questions.shared.text_tables import spoken
 
@@ -52,7 +52,7 @@ def _axis(name: str, quantity: Quantity) -> Axis:
 
 def overview(title: str, caption: str, found: CalibratedModel, test: NextTest | None, axes: dict[str, Axis]) -> Figure:
     """Six panels; ``axes`` has the scale and the label of each quantity on an axis, by the name of the input."""
-    figure, panels = style.new_figure(caption, rows=2, columns=3)
+    figure, panels = charts.new_figure(caption, rows=2, columns=3)
     figure.suptitle(title, x=0.012, ha="left", fontsize=11, fontweight="bold")
     shown = _some(found.rows)
     _against(panels[0], found, shown)
@@ -77,9 +77,9 @@ def _some(rows: Rows) -> NDArray[np.int64]:
 def _kinds(rows: Rows, shown: NDArray[np.int64]) -> Sequence[tuple[str, str, NDArray[np.int64]]]:
     held, far = rows.held_out[shown], rows.outlying[shown]
     return (
-        ("fitted", style.SKY, shown[~held & ~far]),
-        ("held out", style.ORANGE, shown[held & ~far]),
-        ("outlier", style.GREY, shown[far]),
+        ("fitted", charts.SKY, shown[~held & ~far]),
+        ("held out", charts.ORANGE, shown[held & ~far]),
+        ("outlier", charts.GREY, shown[far]),
     )
 
 
@@ -90,7 +90,7 @@ def _against(panel: Axes, found: CalibratedModel, shown: NDArray[np.int64]) -> N
         if chosen.size:
             panel.plot(measured[chosen], predicted[chosen], ".", ms=3, color=colour, label=label, alpha=0.7)
     ends = [0.0, float(predicted.max()) * 1.05]
-    panel.plot(ends, ends, color=style.INK, lw=1)
+    panel.plot(ends, ends, color=charts.INK, lw=1)
     spread = 0.35 * ends[1]
     panel.set(xlim=(min(0.0, -spread / 4), ends[1] + spread), ylim=(0, ends[1]))
     panel.set(xlabel="measured friction torque [N m]", ylabel="predicted [N m]", title="model against log")
@@ -107,9 +107,9 @@ def _residuals(panel: Axes, rows: Rows, shown: NDArray[np.int64], name: str, axi
         panel.plot(scale(values[chosen]), off[chosen], ".", ms=3, color=colour, alpha=0.7)
     trend = rows.trends[name]
     panel.errorbar(
-        scale(trend.values), trend.means, yerr=2 * trend.errors, color=style.INK, marker="o", ms=4, capsize=3, lw=1.2
+        scale(trend.values), trend.means, yerr=2 * trend.errors, color=charts.INK, marker="o", ms=4, capsize=3, lw=1.2
     )
-    panel.axhline(0, color=style.INK, lw=0.8)
+    panel.axhline(0, color=charts.INK, lw=0.8)
     widest = 5 * float(np.median(np.abs(off))) / 0.6745
     panel.set(ylim=(-widest, widest), xlabel=label, ylabel="predicted − measured [N m]")
     panel.set_title(f"residuals against {name.rpartition('_')[2]}")
@@ -121,8 +121,8 @@ def _scores(panel: Axes, found: CalibratedModel) -> None:
     places = np.arange(len(found.scores))
     fitted = [score.fitted for score in found.scores]
     held_out = [score.held_out for score in found.scores]
-    panel.barh(places - 0.2, fitted, 0.36, color=style.SKY, label="rows fitted")
-    panel.barh(places + 0.2, held_out, 0.36, color=style.ORANGE, label="rows held out")
+    panel.barh(places - 0.2, fitted, 0.36, color=charts.SKY, label="rows fitted")
+    panel.barh(places + 0.2, held_out, 0.36, color=charts.ORANGE, label="rows held out")
     panel.set_yticks(places, [textwrap.fill(score.description, 14) for score in found.scores])
     panel.invert_yaxis()
     panel.set(xlabel="root mean square off [N m]", title="what physics buys")
@@ -144,6 +144,6 @@ def _next(panel: Axes, found: CalibratedModel, test: NextTest, axes: dict[str, A
     shown = _some(found.rows)
     logged = of_speed(np.abs(log.screw_speed[shown])), of_load(np.abs(log.axial_load[shown]))
     panel.plot(*logged, ".", ms=1.5, color="white")
-    panel.plot(speed[place], load[place], "*", ms=15, color=style.RED, mec="white")
+    panel.plot(speed[place], load[place], "*", ms=15, color=charts.RED, mec="white")
     panel.set(xscale="log", yscale="log", xlabel=speed_label, ylabel=load_label)
     panel.set_title("where to measure next")

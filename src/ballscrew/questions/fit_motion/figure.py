@@ -12,10 +12,10 @@ from ballscrew.cases.case_files.descriptions import model_text
 from ballscrew.evidence.moving_logs.motion_fit import LINEAR, POWER, SCREW, MotionFit
 from ballscrew.files.torque_logs.motion import Floats
 from ballscrew.questions.fit_motion import text
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 
 #: Colours of the models.
-COLOURS = {LINEAR: style.ORANGE, POWER: style.GREEN, SCREW: style.BLUE}
+COLOURS = {LINEAR: charts.ORANGE, POWER: charts.GREEN, SCREW: charts.BLUE}
 #: Rows that are drawn at most, speeds of a curve, and bins of the residuals.
 MOST_ROWS, SPEEDS, BINS = 4000, 200, 20
 #: Rows at least in a bin that is drawn.
@@ -24,7 +24,7 @@ _FEWEST = 5
 
 def picture(case: Case, found: MotionFit) -> Figure:
     """A fit of a moving log at a glance; call within the house style."""
-    figure, panels = style.new_figure(text.caption(case, found), rows=2, columns=2)
+    figure, panels = charts.new_figure(text.caption(case, found), rows=2, columns=2)
     title = f"{text.log_name(found)}, {model_text(case)}"
     figure.suptitle(title, x=0.012, ha="left", fontsize=11, fontweight="bold")
     _over_time(panels[0], found)
@@ -42,7 +42,7 @@ def _over_time(panel: Axes, found: MotionFit) -> None:
     equation = found.equation
     shown = _some(equation.used.size)
     time = equation.log.time[equation.used] - equation.log.time[0]
-    panel.plot(time[shown], equation.force[shown], color=style.GREY, lw=2.2, label="measured")
+    panel.plot(time[shown], equation.force[shown], color=charts.GREY, lw=2.2, label="measured")
     panel.plot(
         time[shown], found.force(found.model)[shown], color=COLOURS[found.model], lw=1, label=text.SPOKEN[found.model]
     )
@@ -61,7 +61,7 @@ def _residuals(panel: Axes, found: MotionFit) -> None:
         panel.plot(
             at, [float(np.mean(off[part])) for part in parts], "o-", ms=3, color=COLOURS[name], label=text.SPOKEN[name]
         )
-    panel.axhline(0, color=style.INK, lw=0.8)
+    panel.axhline(0, color=charts.INK, lw=0.8)
     panel.set(xlabel="speed [mm/s]", ylabel="model − measured [N]", title="residuals, means over the speed")
     panel.margins(y=0.35)
     panel.legend(loc="upper center")
@@ -74,7 +74,7 @@ def _friction(panel: Axes, found: MotionFit) -> None:
     direction, speed = np.sign(equation.filtered(equation.direction)), np.abs(equation.filtered(equation.speed))
     left = direction * (equation.force - mass * equation.filtered(equation.acceleration) - offset)
     shown = _some(speed.size)
-    panel.plot(1e3 * speed[shown], left[shown], ".", ms=2, color=style.SKY, alpha=0.35, label="measured")
+    panel.plot(1e3 * speed[shown], left[shown], ".", ms=2, color=charts.SKY, alpha=0.35, label="measured")
     at: Floats = np.linspace(equation.rest, float(np.max(np.abs(equation.speed))), SPEEDS)
     curves = {LINEAR: constant + viscous * at}
     if found.power is not None:
@@ -99,9 +99,9 @@ def _exponents(panel: Axes, found: MotionFit) -> None:
     power = found.power
     known = {name: value for name, value in power.choices.items() if np.isfinite(value)}
     places = np.arange(len(known))
-    panel.axvspan(*power.bootstrap, color=style.SHADE, zorder=0, label="95 % by resampled blocks")
+    panel.axvspan(*power.bootstrap, color=charts.SHADE, zorder=0, label="95 % by resampled blocks")
     panel.axvline(power.exponent, color=COLOURS[POWER], label=f"fitted, {power.exponent:.2f}")
-    panel.axvline(1.0, color=style.INK, lw=0.8, ls=":", label="viscous")
+    panel.axvline(1.0, color=charts.INK, lw=0.8, ls=":", label="viscous")
     panel.plot(list(known.values()), places, "o", color=COLOURS[POWER], ms=4)
     panel.set_yticks(places, list(known), fontsize=7)
     panel.set_ylim(len(known) + 3.5, -0.7)

@@ -17,7 +17,7 @@ from ballscrew.questions.optimise.design_space import VARIABLES
 from ballscrew.questions.select.figure import label_of
 from ballscrew.questions.select.objectives import OBJECTIVES
 from ballscrew.questions.select.text import asked
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 
 _LABEL_SIZE = 7.5
 
@@ -25,7 +25,7 @@ _LABEL_SIZE = 7.5
 def picture(found: Optimisation) -> Figure:
     """The front by its first two objectives, and the free variables along the first; call within the house style."""
     names = list(found.space.bounds)
-    figure, panels = style.new_figure(caption(found), rows=math.ceil((1 + len(names)) / 2), columns=2)
+    figure, panels = charts.new_figure(caption(found), rows=math.ceil((1 + len(names)) / 2), columns=2)
     figure.suptitle(text.title(found), x=0.012, ha="left", fontsize=11, fontweight="bold")
     _front(panels[0], found)
     for panel, name in zip(panels[1:], names, strict=False):
@@ -49,7 +49,7 @@ def _front(panel: Axes, found: Optimisation) -> None:
     x = found.space.objectives[0]
     y = found.space.objectives[1] if len(found.space.objectives) > 1 else x
     columns = {name: OBJECTIVES[name].sign * found.front.costs[:, i] for i, name in enumerate(found.space.objectives)}
-    panel.scatter(_in_units(x, columns[x]), _in_units(y, columns[y]), s=9, color=style.SHADE, label="search")
+    panel.scatter(_in_units(x, columns[x]), _in_units(y, columns[y]), s=9, color=charts.SHADE, label="search")
 
     def value(each: Member) -> float:
         return float(_in_units(y, each.objectives[y]))
@@ -72,12 +72,12 @@ def _along(panel: Axes, found: Optimisation, name: str) -> None:
 
 def _members(panel: Axes, found: Optimisation, x: str, value: Callable[[Member], float]) -> None:
     groups: tuple[tuple[str, list[Member], dict[str, Any]], ...] = (
-        ("fails", [m for m in found.members if not m.fits], {"marker": "x", "color": style.GREY}),
+        ("fails", [m for m in found.members if not m.fits], {"marker": "x", "color": charts.GREY}),
         (
             "holds", [m for m in found.members if m.fits and not m.pareto],
-            {"marker": "o", "facecolors": "white", "edgecolors": style.GREY},
+            {"marker": "o", "facecolors": "white", "edgecolors": charts.GREY},
         ),
-        ("front by the full model", [m for m in found.members if m.pareto], {"marker": "o", "color": style.RED}),
+        ("front by the full model", [m for m in found.members if m.pareto], {"marker": "o", "color": charts.RED}),
     )  # fmt: skip
     for label, members, look in groups:
         if members:

@@ -18,8 +18,8 @@ from matplotlib.ticker import MaxNLocator
 from ballscrew.evidence.papers.olaru2005 import case
 from ballscrew.physics.equations import kinematics
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.questions.shared import chart_style as style
-from ballscrew.questions.shared.chart_style import Columns, Plot
+from ballscrew.questions.shared import charts
+from ballscrew.questions.shared.charts import Columns, Plot
 
 Results = Mapping[str, FrictionResult]
 
@@ -54,13 +54,13 @@ def forces(result: FrictionResult) -> list[Arrow]:
     """Forces on the ball along its path, N; positive in the direction of rolling. They add up to zero."""
     s, n = result.screw, result.nut
     return [
-        Arrow("F$_{Ss}$", "sliding, screw", float(s.sliding_force), style.BLUE),
-        Arrow("F$_{Rs}$", "rolling, screw", -float(s.hydrodynamic_rolling_force), style.SKY),
-        Arrow("F$_{Ps}$", "pressure, screw", float(s.pressure_force), style.GREEN),
-        Arrow("F$_{Pn}$", "pressure, nut", -float(n.pressure_force), style.YELLOW),
-        Arrow("F$_{Rn}$", "rolling, nut", float(n.hydrodynamic_rolling_force), style.ORANGE),
-        Arrow("F$_{Sn}$", "sliding, nut", -float(n.sliding_force), style.RED),
-        Arrow("F$_B$", "between balls", -float(result.ball_chain.braking_force), style.PURPLE),
+        Arrow("F$_{Ss}$", "sliding, screw", float(s.sliding_force), charts.BLUE),
+        Arrow("F$_{Rs}$", "rolling, screw", -float(s.hydrodynamic_rolling_force), charts.SKY),
+        Arrow("F$_{Ps}$", "pressure, screw", float(s.pressure_force), charts.GREEN),
+        Arrow("F$_{Pn}$", "pressure, nut", -float(n.pressure_force), charts.YELLOW),
+        Arrow("F$_{Rn}$", "rolling, nut", float(n.hydrodynamic_rolling_force), charts.ORANGE),
+        Arrow("F$_{Sn}$", "sliding, nut", -float(n.sliding_force), charts.RED),
+        Arrow("F$_B$", "between balls", -float(result.ball_chain.braking_force), charts.PURPLE),
     ]
 
 
@@ -73,19 +73,19 @@ def moments(result: FrictionResult) -> list[Arrow]:
             "(F$_{Ss}$−F$_{Rs}$) d$_w$/2",
             "screw",
             float((s.sliding_force - s.hydrodynamic_rolling_force) * radius * million),
-            style.BLUE,
+            charts.BLUE,
         ),
         Arrow(
             "(F$_{Sn}$−F$_{Rn}$) d$_w$/2",
             "nut",
             float((n.sliding_force - n.hydrodynamic_rolling_force) * radius * million),
-            style.RED,
+            charts.RED,
         ),
-        Arrow("M$_{Cs}$", "curvature, screw", -float(s.curvature_friction_moment * million), style.ORANGE),
-        Arrow("M$_{Cn}$", "curvature, nut", -float(n.curvature_friction_moment * million), style.YELLOW),
-        Arrow("M$_{ERs}$", "elastic, screw", -float(s.elastic_resistance_moment * million), style.GREEN),
-        Arrow("M$_{ERn}$", "elastic, nut", -float(n.elastic_resistance_moment * million), style.SKY),
-        Arrow("M$_B$", "between balls", -float(result.ball_chain.moment * million), style.PURPLE),
+        Arrow("M$_{Cs}$", "curvature, screw", -float(s.curvature_friction_moment * million), charts.ORANGE),
+        Arrow("M$_{Cn}$", "curvature, nut", -float(n.curvature_friction_moment * million), charts.YELLOW),
+        Arrow("M$_{ERs}$", "elastic, screw", -float(s.elastic_resistance_moment * million), charts.GREEN),
+        Arrow("M$_{ERn}$", "elastic, nut", -float(n.elastic_resistance_moment * million), charts.SKY),
+        Arrow("M$_B$", "between balls", -float(result.ball_chain.moment * million), charts.PURPLE),
     ]
 
 
@@ -96,13 +96,13 @@ def _scene(panel: Axes) -> None:
     panel.set_ylim(-1.45, 1.45)
     panel.axis("off")
     for bottom, words, height in ((1.0, "nut", 1.2), (-1.4, "screw →", -1.2)):
-        panel.add_patch(Rectangle((-2.35, bottom), 4.7, 0.4, facecolor=style.LIGHT_SHADE, edgecolor="none"))
-        panel.text(-2.28, height, words, ha="left", va="center", fontsize=8.5, color=style.GREY)
+        panel.add_patch(Rectangle((-2.35, bottom), 4.7, 0.4, facecolor=charts.LIGHT_SHADE, edgecolor="none"))
+        panel.text(-2.28, height, words, ha="left", va="center", fontsize=8.5, color=charts.GREY)
     for edge in (1.0, -1.0):
-        panel.plot([-2.35, 2.35], [edge, edge], color=style.GREY, linewidth=1)
+        panel.plot([-2.35, 2.35], [edge, edge], color=charts.GREY, linewidth=1)
     for x in (-2.0, 2.0):
         panel.add_patch(Circle((x, 0), 1.0, fill=False, edgecolor="#BBBBBB", linestyle="--", linewidth=1))
-    panel.add_patch(Circle((0, 0), 1.0, facecolor="white", edgecolor=style.INK, linewidth=1.3))
+    panel.add_patch(Circle((0, 0), 1.0, facecolor="white", edgecolor=charts.INK, linewidth=1.3))
 
 
 def _arrow(panel: Axes, start: Sequence[float], end: Sequence[float], colour: str, head: float = 9.0) -> None:
@@ -128,9 +128,11 @@ def _budget(panel: Axes, arrows: Sequence[Arrow], furthest: float, xlabel: str, 
     for row, arrow in enumerate(arrows):
         head = tail + arrow.value
         panel.add_patch(Rectangle((min(tail, head), row - 0.3), abs(arrow.value), 0.6, color=arrow.colour, zorder=2))
-        panel.plot([head, head], [row - 0.3, row + (1.3 if arrow is not arrows[-1] else 0.3)], color=style.GREY, lw=0.8)
+        panel.plot(
+            [head, head], [row - 0.3, row + (1.3 if arrow is not arrows[-1] else 0.3)], color=charts.GREY, lw=0.8
+        )
         tail = head
-    panel.axvline(0, color=style.INK, linewidth=1)
+    panel.axvline(0, color=charts.INK, linewidth=1)
     panel.set_xlim(-1.1 * furthest, 1.06 * furthest)
     panel.set_ylim(len(arrows) - 0.4, -0.6)
     panel.set_yticks([])
@@ -150,7 +152,7 @@ def _furthest(every: Mapping[str, Sequence[Arrow]]) -> float:
 
 
 def _two_rows(caption: str) -> tuple[Figure, list[Axes]]:
-    return style.new_figure(caption, rows=2, height=2.9)
+    return charts.new_figure(caption, rows=2, height=2.9)
 
 
 def forces_on_ball(results: Results) -> Figure:
@@ -183,7 +185,7 @@ def forces_on_ball(results: Results) -> Figure:
                 # the ball in front holds this one back, where the two touch
                 _arrow(drawing, (1.0 - length, 0.0), (1.0, 0.0), arrow.colour)
                 drawing.text(1.18, 0.2, arrow.symbol, ha="center", va="center", fontsize=9.5)
-        drawing.plot([2.2 - 0.1 * scale, 2.2], [1.2, 1.2], color=style.INK, linewidth=1.5)
+        drawing.plot([2.2 - 0.1 * scale, 2.2], [1.2, 1.2], color=charts.INK, linewidth=1.5)
         drawing.text(2.12 - 0.1 * scale, 1.2, "0.1 N", ha="right", va="center", fontsize=8.5)
         _budget(budget, arrows, _furthest(every), "force on the ball, end to end (N)", 4)
     return figure
@@ -209,7 +211,7 @@ def moments_on_ball(results: Results) -> Figure:
             arrows[2:], ((-0.93, -0.72), (0.93, 0.72), (0.28, -0.64), (-0.26, 0.64), (1.2, 0.14)), strict=True
         ):
             drawing.text(x, y, arrow.symbol, ha="center", va="center", fontsize=9, zorder=4)
-        drawing.text(0.0, 0.0, "drive", ha="center", va="center", fontsize=8.5, color=style.GREY)
+        drawing.text(0.0, 0.0, "drive", ha="center", va="center", fontsize=8.5, color=charts.GREY)
         _budget(budget, arrows, _furthest(every), "moment on the ball, end to end (mN mm)", 1)
     return figure
 
@@ -242,17 +244,17 @@ def slip_in_contact(results: Results) -> Figure:
         "no spin; positive: the ball's surface is the faster one. Dashed: lines of pure rolling at ±Y a. The ellipse "
         "is drawn wider than it is along the direction of rolling."
     )
-    figure, panels = style.new_figure(caption, rows=2, height=2.7, sharex=True, sharey="row")
+    figure, panels = charts.new_figure(caption, rows=2, height=2.7, sharex=True, sharey="row")
     for (name, result), ellipse, profile in zip(results.items(), panels[:2], panels[2:], strict=True):
         ellipse.set_title(f"{_TITLES[name]}: Y = {float(result.screw.pure_rolling_offset):.4f}")
         _slip_map(ellipse, result)
         a, c, y, slip = _slip(result)
-        profile.axhline(0, color=style.GREY, linewidth=0.8)
-        profile.fill_between(y, slip, where=slip >= 0, color=style.SKY, alpha=0.5, linewidth=0)
-        profile.fill_between(y, slip, where=slip <= 0, color=style.ORANGE, alpha=0.5, linewidth=0)
-        profile.plot(y, slip, color=style.INK)
+        profile.axhline(0, color=charts.GREY, linewidth=0.8)
+        profile.fill_between(y, slip, where=slip >= 0, color=charts.SKY, alpha=0.5, linewidth=0)
+        profile.fill_between(y, slip, where=slip <= 0, color=charts.ORANGE, alpha=0.5, linewidth=0)
+        profile.plot(y, slip, color=charts.INK)
         for line in (-c, c):
-            profile.axvline(line, color=style.INK, linestyle="--", linewidth=1)
+            profile.axvline(line, color=charts.INK, linestyle="--", linewidth=1)
         profile.set_xlabel("across the rolling direction y (mm)")
         profile.set_ylabel("sliding speed u$_s$ (mm/s)")
         profile.tick_params(labelleft=True)
@@ -276,9 +278,9 @@ def _slip_map(panel: Axes, result: FrictionResult) -> None:
     """The ellipse, its zones of forward and backward slip, and arrows as long as the slip."""
     a, c, y, slip = _slip(result)
     b = float(result.screw.semi_minor_axis) * 1e3
-    outline = Ellipse((0, 0), 2 * a, 2 * b, facecolor="none", edgecolor=style.INK, linewidth=1.3, zorder=4)
+    outline = Ellipse((0, 0), 2 * a, 2 * b, facecolor="none", edgecolor=charts.INK, linewidth=1.3, zorder=4)
     panel.add_patch(outline)
-    for left, right, colour in ((-a, -c, style.ORANGE), (-c, c, style.SKY), (c, a, style.ORANGE)):
+    for left, right, colour in ((-a, -c, charts.ORANGE), (-c, c, charts.SKY), (c, a, charts.ORANGE)):
         zone = Rectangle((left, -b), right - left, 2 * b, facecolor=colour, alpha=0.3, edgecolor="none")
         panel.add_patch(zone)
         zone.set_clip_path(outline)
@@ -291,7 +293,7 @@ def _slip_map(panel: Axes, result: FrictionResult) -> None:
             (position, 0.0),
             arrowprops={
                 "arrowstyle": "-|>",
-                "color": style.BLUE if length > 0 else style.RED,
+                "color": charts.BLUE if length > 0 else charts.RED,
                 "mutation_scale": 7,
                 "linewidth": 1.3,
                 "shrinkA": 0,
@@ -299,7 +301,7 @@ def _slip_map(panel: Axes, result: FrictionResult) -> None:
             },
         )
     for line in (-c, c):
-        panel.plot([line, line], [-1.3 * b, 1.3 * b], color=style.INK, linestyle="--", linewidth=1)
+        panel.plot([line, line], [-1.3 * b, 1.3 * b], color=charts.INK, linestyle="--", linewidth=1)
     panel.set_ylim(-1.3 * b, 1.3 * b)
     panel.set_xlabel("across the rolling direction y (mm)")
 

@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 
 from ballscrew.evidence.papers.olaru2005 import case
 from ballscrew.physics.friction.result import MECHANISMS
-from ballscrew.questions.shared import chart_style as style
-from ballscrew.questions.shared.chart_style import Columns, Plot
+from ballscrew.questions.shared import charts
+from ballscrew.questions.shared.charts import Columns, Plot
 
 #: What stands above the panels.
 TITLES: Mapping[str, str] = {"olaru2005": "as printed", "corrected": "corrected"}
@@ -71,16 +71,16 @@ def torque_on_screw_and_nut(data: xr.Dataset) -> Figure:
         f"{_AT_SPEEDS} Viscosity 0.1 Pa s and the speed as abscissa are assumed, as the paper states neither for its "
         f"Fig. 5. {_CHOSEN}"
     )
-    figure, panels = style.new_figure(caption, sharey=True)
+    figure, panels = charts.new_figure(caption, sharey=True)
     for panel, model in _panels(data, panels):
-        for force, colour in zip(model["fig5_ball_to_ball_force"].to_numpy(), (style.BLUE, style.RED), strict=True):
+        for force, colour in zip(model["fig5_ball_to_ball_force"].to_numpy(), (charts.BLUE, charts.RED), strict=True):
             curve = model.sel(fig5_ball_to_ball_force=force)
             words = _one_over_z(float(force))
             panel.plot(_rpm(data), curve["fig5_screw_torque"], color=colour, label=f"screw, F$_B$ = {words}")
             panel.plot(_rpm(data), curve["fig5_nut_torque"], "--", color=colour, label=f"nut, F$_B$ = {words}")
         panel.set_xlim(0, 1000)
     _label(panels, SPEED, "friction torque (N m)")
-    style.shared_legend(panels, loc="lower right", ncols=2)
+    charts.shared_legend(panels, loc="lower right", ncols=2)
     panels[0].set_ylim(bottom=float(data["fig5_nut_torque"].min()) - 0.035)
     return figure
 
@@ -88,20 +88,20 @@ def torque_on_screw_and_nut(data: xr.Dataset) -> Figure:
 def torque_over_speed(data: xr.Dataset) -> Figure:
     """Fig. 6: torque over speed, with its minimum."""
     caption = f"{_AT_SPEEDS} Viscosity 0.1 Pa s, F$_B$ = 1/z N. Band: where the paper has the minimum. {_CHOSEN}"
-    figure, panels = style.new_figure(caption, sharey=True)
+    figure, panels = charts.new_figure(caption, sharey=True)
     for panel, model in _panels(data, panels):
         torque = model["fig6_screw_torque"].to_numpy()
         lowest = int(np.argmin(torque))
         panel.axvspan(200, 300, color=_PAPER, zorder=0)
-        panel.plot(_rpm(data), torque, color=style.BLUE)
-        panel.plot(_rpm(data)[lowest], torque[lowest], "o", color=style.RED, markersize=6)
+        panel.plot(_rpm(data), torque, color=charts.BLUE)
+        panel.plot(_rpm(data)[lowest], torque[lowest], "o", color=charts.RED, markersize=6)
         panel.annotate(
             f"minimum at {_rpm(data)[lowest]:.0f} rpm\n{torque[lowest]:.3f} N m",
             (_rpm(data)[lowest], torque[lowest]),
             xytext=(30, -30),
             textcoords="offset points",
-            arrowprops={"arrowstyle": "-", "color": style.GREY, "shrinkB": 5},
-            color=style.INK,
+            arrowprops={"arrowstyle": "-", "color": charts.GREY, "shrinkB": 5},
+            color=charts.INK,
             fontsize=9,
             va="center",
         )
@@ -114,11 +114,11 @@ def torque_over_speed(data: xr.Dataset) -> Figure:
 def efficiency_over_speed(data: xr.Dataset) -> Figure:
     """Fig. 7: efficiency over speed."""
     caption = f"{_AT_SPEEDS} Viscosity 0.1 Pa s, F$_B$ = 1/z N. Band: the paper's efficiencies. {_CHOSEN}"
-    figure, panels = style.new_figure(caption, sharey=True)
+    figure, panels = charts.new_figure(caption, sharey=True)
     for panel, model in _panels(data, panels):
         panel.axhspan(0.90, 0.92, color=_PAPER, zorder=0)
-        panel.text(985, 0.91, "paper: 0.90 to 0.92", ha="right", va="center", fontsize=9, color=style.GREY)
-        panel.plot(_rpm(data), model["fig7_efficiency"], color=style.BLUE)
+        panel.text(985, 0.91, "paper: 0.90 to 0.92", ha="right", va="center", fontsize=9, color=charts.GREY)
+        panel.plot(_rpm(data), model["fig7_efficiency"], color=charts.BLUE)
         panel.set_xlim(0, 1000)
     panels[0].set_ylim(0.89, 0.96)
     _label(panels, SPEED, EFFICIENCY)
@@ -128,7 +128,7 @@ def efficiency_over_speed(data: xr.Dataset) -> Figure:
 def parts_over_speed(data: xr.Dataset) -> Figure:
     """The parts of the torque over speed: why there is a minimum."""
     caption = f"{_AT_SPEEDS} Viscosity 0.1 Pa s, F$_B$ = 1/z N. The parts add up to the torque of Fig. 6. {_CHOSEN}"
-    figure, panels = style.new_figure(caption, sharey=True)
+    figure, panels = charts.new_figure(caption, sharey=True)
     # areas are not simplified when they are written: fewer points where the curves are smooth
     sparse = np.r_[0:20, 20 : len(_rpm(data)) : 5]
     for panel, model in _panels(data, panels):
@@ -138,10 +138,10 @@ def parts_over_speed(data: xr.Dataset) -> Figure:
             _rpm(data)[sparse],
             [part[sparse] for part in parts],
             labels=[MECHANISMS[name] for name in names],
-            colors=[style.MECHANISM_COLOURS[name] for name in names],
+            colors=[charts.MECHANISM_COLOURS[name] for name in names],
             linewidth=0,
         )
-        panel.plot(_rpm(data), model["fig6_screw_torque"], color=style.INK, label="total")
+        panel.plot(_rpm(data), model["fig6_screw_torque"], color=charts.INK, label="total")
         panel.set_xlim(0, 1000)
     panels[0].set_ylim(0, 0.26)
     _label(panels, SPEED, TORQUE)
@@ -159,7 +159,7 @@ def _shade_light_loads(panel: Axes, model: xr.Dataset) -> None:
     load = model["fig8_contact_load"].to_numpy()
     skid = load[model["fig8_skid"].to_numpy()].max()
     light = load[model["fig8_elastic_regime"].to_numpy()].max()
-    panel.axvspan(skid, light, color=style.LIGHT_SHADE, zorder=0, label="too light for (1) and (26)")
+    panel.axvspan(skid, light, color=charts.LIGHT_SHADE, zorder=0, label="too light for (1) and (26)")
     panel.axvspan(0, skid, color="#B8B8B8", zorder=0, label="the ball would skid")
 
 
@@ -172,15 +172,15 @@ def _over_load(
     place: tuple[float, float, float, float],
 ) -> Figure:
     """A quantity over contact load, with a close-up of the light loads (up to load and value) at a place."""
-    figure, panels = style.new_figure(caption, sharey=True)
+    figure, panels = charts.new_figure(caption, sharey=True)
     for panel, model in _panels(data, panels):
         load, values = model["fig8_contact_load"].to_numpy(), model[name].to_numpy()
-        panel.plot(load, values, color=style.BLUE)
+        panel.plot(load, values, color=charts.BLUE)
         _shade_light_loads(panel, model)
         panel.set_xlim(0, 102)
         panel.legend(loc="lower right")
         inset = panel.inset_axes(place)
-        inset.plot(load, values, color=style.BLUE, linewidth=1.5)
+        inset.plot(load, values, color=charts.BLUE, linewidth=1.5)
         _shade_light_loads(inset, model)
         inset.set_xlim(0, close_up[0])
         inset.set_ylim(0, close_up[1])
@@ -208,7 +208,7 @@ def efficiency_over_load(data: xr.Dataset) -> Figure:
     figure = _over_load(data, "fig9_efficiency", EFFICIENCY, caption, (5.0, 1.0), (0.48, 0.32, 0.48, 0.4))
     for panel in figure.axes[:2]:
         panel.axhspan(0.90, 0.92, color="#F3D089", zorder=0.5)
-        panel.axvline(case.DIVIDING_CONTACT_LOAD, color=style.GREY, linestyle=":", linewidth=1)
+        panel.axvline(case.DIVIDING_CONTACT_LOAD, color=charts.GREY, linestyle=":", linewidth=1)
     figure.axes[0].set_ylim(0, 1)
     return figure
 
@@ -253,14 +253,14 @@ def influence_plot(influence: Influence) -> Plot:
 
     def draw(data: xr.Dataset) -> Figure:
         caption = f"{_AT_SPEEDS} {influence.caption} {_CHOSEN}"
-        figure, panels = style.new_figure(caption, rows=2, height=3.0, sharex=True, sharey="row")
+        figure, panels = charts.new_figure(caption, rows=2, height=3.0, sharex=True, sharey="row")
         values = data[influence.dimension].to_numpy()
         title = influence.symbol.replace("µ_b", "µ$_b$").replace("F_B", "F$_B$")
         for row, (output, ylabel) in enumerate((("screw_torque", TORQUE), ("efficiency", EFFICIENCY))):
             pair = panels[2 * row : 2 * row + 2]
             for panel, model in _panels(data, pair):
                 curves = model[f"{influence.prefix}_{output}"]
-                for value, colour, line in zip(values, style.GROWING, style.LINE_STYLES, strict=False):
+                for value, colour, line in zip(values, charts.GROWING, charts.LINE_STYLES, strict=False):
                     label = influence.label(float(value))
                     panel.plot(_rpm(data), curves.sel({influence.dimension: value}), color=colour, ls=line, label=label)
                 panel.set_xlim(0, 1000)

@@ -15,7 +15,7 @@ from ballscrew.basis.quantities import Quantity
 from ballscrew.questions.select import text
 from ballscrew.questions.select.compute import Ranked, Selection
 from ballscrew.questions.select.objectives import OBJECTIVES
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 
 _LABEL_SIZE, _NAMED = 7.5, 6
 #: Spans of an axis beyond which it is logarithmic.
@@ -26,7 +26,7 @@ def picture(found: Selection) -> Figure:
     """The objectives two by two, the first against each other one; call within the house style."""
     names = list(found.objectives)
     pairs = [(names[0], other) for other in names[1:]] or [(names[0], "drive_torque")]
-    figure, panels = style.new_figure(caption(found), rows=math.ceil(len(pairs) / 2), columns=2)
+    figure, panels = charts.new_figure(caption(found), rows=math.ceil(len(pairs) / 2), columns=2)
     figure.suptitle(text.title(found), x=0.012, ha="left", fontsize=11, fontweight="bold")
     for panel, (x, y) in itertools.zip_longest(panels, pairs, fillvalue=("", "")):
         assert isinstance(panel, Axes)
@@ -65,12 +65,12 @@ def _panel(panel: Axes, ranked: Sequence[Ranked], x: str, y: str) -> None:
 def _groups(ranked: Sequence[Ranked]) -> list[tuple[str, list[Ranked], dict[str, Any]]]:
     """The candidates that look alike: their label, and their marks."""
     return [
-        ("fails", [each for each in ranked if not each.candidate.fits], {"marker": "x", "color": style.SHADE}),
+        ("fails", [each for each in ranked if not each.candidate.fits], {"marker": "x", "color": charts.SHADE}),
         (
             "no check fails", [each for each in ranked if each.candidate.fits and not each.pareto],
-            {"marker": "o", "facecolors": "white", "edgecolors": style.GREY},
+            {"marker": "o", "facecolors": "white", "edgecolors": charts.GREY},
         ),
-        ("Pareto front", [each for each in ranked if each.pareto], {"marker": "o", "color": style.RED}),
+        ("Pareto front", [each for each in ranked if each.pareto], {"marker": "o", "color": charts.RED}),
     ]  # fmt: skip
 
 

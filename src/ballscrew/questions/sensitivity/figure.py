@@ -15,14 +15,14 @@ from ballscrew.engine.uncertainty.sensitivity import HALF, Sensitivity
 from ballscrew.engine.uncertainty.sobol import Estimate
 from ballscrew.questions.sensitivity import text
 from ballscrew.questions.sensitivity.compute import SensitivityReport
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 
 #: Inches of a row, and of what stands above and below all rows.
 _ROW, _FRAME = 0.36, 1.5
 _TITLE_CHARACTERS = 100
 _BARS = 0.76
 _LABEL_SIZE = 8.0
-_COLOURS = (style.BLUE, style.SKY)
+_COLOURS = (charts.BLUE, charts.SKY)
 
 
 def picture(case: Case, report: SensitivityReport) -> Figure:
@@ -65,7 +65,7 @@ def bars(
     """
     rows = max(len(inputs), len(knowing) + 1)
     columns, widths = (2, (3, 2)) if knowing else (1, (1,))
-    figure, panels = style.new_figure(caption, columns=columns, height=_FRAME + _ROW * rows, width_ratios=widths)
+    figure, panels = charts.new_figure(caption, columns=columns, height=_FRAME + _ROW * rows, width_ratios=widths)
     lines = [line for text in title for line in textwrap.wrap(text, _TITLE_CHARACTERS)]
     figure.suptitle("\n".join(lines), x=0.012, ha="left", fontsize=11, fontweight="bold")
     _bars(panels[0], axis, inputs, measures)
@@ -86,8 +86,8 @@ def _bars(panel: Axes, axis: str, inputs: Sequence[str], measures: Mapping[str, 
         if np.any(high > low):
             # an interval of percentiles may leave its estimate out
             ends = [np.maximum(values - low, 0), np.maximum(high - values, 0)]
-            panel.errorbar(values, y, xerr=ends, fmt="none", ecolor=style.INK, elinewidth=1.0, capsize=2)
-    panel.axvline(0, color=style.GREY, linewidth=0.8)
+            panel.errorbar(values, y, xerr=ends, fmt="none", ecolor=charts.INK, elinewidth=1.0, capsize=2)
+    panel.axvline(0, color=charts.GREY, linewidth=0.8)
     panel.set_xlabel(axis)
     if len(measures) > 1:
         panel.legend(loc="lower right", fontsize=_LABEL_SIZE)
@@ -96,11 +96,11 @@ def _bars(panel: Axes, axis: str, inputs: Sequence[str], measures: Mapping[str, 
 
 def _left(panel: Axes, knowing: Sequence[tuple[str, float]]) -> None:
     left = 100 * np.array([1.0, *(share for _, share in knowing)])
-    panel.barh(np.arange(len(left)), left, _BARS / 2, color=style.ORANGE)
-    panel.axvline(100 * HALF, color=style.INK, linewidth=0.9, linestyle="--")
+    panel.barh(np.arange(len(left)), left, _BARS / 2, color=charts.ORANGE)
+    panel.axvline(100 * HALF, color=charts.INK, linewidth=0.9, linestyle="--")
     panel.annotate(
         "half", (100 * HALF, 1), xycoords=("data", "axes fraction"), xytext=(3, -1), textcoords="offset points",
-        va="bottom", fontsize=_LABEL_SIZE, color=style.INK,
+        va="bottom", fontsize=_LABEL_SIZE, color=charts.INK,
     )  # fmt: skip
     panel.set_xlim(0, 100)
     panel.set_xlabel("deviation left (%)")

@@ -18,16 +18,16 @@ from ballscrew.questions.service import text
 from ballscrew.questions.service.compute import ServiceReport
 from ballscrew.questions.service.document import preload_quantity
 from ballscrew.questions.service.points import curves
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 
 #: More points than this are a blot.
 MOST_POINTS = 3000
-_COLOURS = {"new": style.BLUE, "worn": style.ORANGE, "preload": style.BLUE}
+_COLOURS = {"new": charts.BLUE, "worn": charts.ORANGE, "preload": charts.BLUE}
 
 
 def picture(case: Case, report: ServiceReport) -> Figure:
     """Torque over speed to the left, preloads to the right; call within the house style."""
-    figure, (left, right) = style.new_figure(text.caption(case, report))
+    figure, (left, right) = charts.new_figure(text.caption(case, report))
     title = f"{', '.join(text.names(report))}: {nut_text(case.screw.nut)}, {model_text(case)}"
     figure.suptitle(title, x=0.012, ha="left", fontsize=11, fontweight="bold")
     _torques(left, report)
@@ -47,7 +47,7 @@ def _torques(panel: Axes, report: ServiceReport) -> None:
             panel.set_xscale("log")
     if report.reading is not None:
         shown = units.from_si(report.reading.screw_speed, speed)
-        panel.plot([shown], [report.reading.torque], "o", color=style.BLUE, label="measured")
+        panel.plot([shown], [report.reading.torque], "o", color=charts.BLUE, label="measured")
         widest = report.reading.torque
     panel.set(xlabel=f"speed [{speed.shown_in}]", ylabel="friction torque [N m]", title="torque over speed")
     panel.set_ylim(0, 1.15 * widest)
@@ -73,4 +73,4 @@ def _bar(panel: Axes, place: int, one: PreloadEstimate, colour: str, quantity: Q
     panel.barh(place, value, 0.5, color=colour, alpha=0.6)
     low, high = (float(units.from_si(end, quantity)) for end in one.interval())
     if math.isfinite(high):
-        panel.errorbar(value, place, xerr=[[value - low], [high - value]], color=style.INK, capsize=4, lw=1.4)
+        panel.errorbar(value, place, xerr=[[value - low], [high - value]], color=charts.INK, capsize=4, lw=1.4)

@@ -26,11 +26,11 @@ def check_picture(to: Path, option: str = "--to") -> None:
 def draw(figure: Callable[[], Figure], to: Path, option: str = "--to") -> None:
     """Draw a figure in the house style and write it, whole or not at all."""
     from ballscrew.questions.shared import (
-        chart_style as style,  # matplotlib is slow to import: only where a picture is drawn
+        charts,  # matplotlib is slow to import: only where a picture is drawn
     )
 
     buffer = io.BytesIO()
-    with style.house_style():
-        style.save_as(figure(), buffer, to.suffix.lower().removeprefix("."))
+    with charts.house_style():
+        charts.save_as(figure(), buffer, to.suffix.lower().removeprefix("."))
     with atomic_write(option, to) as path:
         path.write_bytes(buffer.getvalue())

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from ballscrew.basis import units
 from ballscrew.evidence.validation.entries import DESCRIPTORS, Entry, Point
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 from ballscrew.questions.validate import text
 from ballscrew.questions.validate.compute import Request
 
@@ -23,7 +23,7 @@ _TITLE_CHARACTERS, _TITLE_LINE = 44, 13
 #: Up to so many rows have their names below the axis.
 _NAMES_AT_MOST = 4
 #: Marker and colour of the model as it is, and calibrated.
-_MARKS = (("o", "white", style.BLUE), ("o", style.RED, style.RED))
+_MARKS = (("o", "white", charts.BLUE), ("o", charts.RED, charts.RED))
 
 
 def picture(found: Sequence[Sequence[Entry]], request: Request) -> Figure:
@@ -44,7 +44,7 @@ def ratios(found: Sequence[Sequence[Entry]], caption: str, sources: Sequence[str
         caption = " ".join([caption, *(_in_words(entries) for entries, _, axes in rows if not axes)])
     else:
         drawn = [(entries, source, [""]) for entries, source, _ in rows]
-    figure, panels = style.new_figure(caption, rows=len(drawn), height=_HEIGHT)
+    figure, panels = charts.new_figure(caption, rows=len(drawn), height=_HEIGHT)
     for (entries, source, axes), pair in zip(drawn, zip(panels[::2], panels[1::2], strict=True), strict=True):
         for panel, axis in zip(pair, axes, strict=False):
             _panel(panel, entries, source, axis)
@@ -78,7 +78,7 @@ def _judged(entry: Entry) -> str:
 
 def _panel(panel: Axes, entries: Sequence[Entry], source: str, axis: str) -> None:
     """The ratios against a descriptor; with none, row by row."""
-    panel.axhline(1.0, color=style.INK, linewidth=0.9)
+    panel.axhline(1.0, color=charts.INK, linewidth=0.9)
     for entry, (marker, face, edge) in zip(entries, _MARKS, strict=False):
         x = _places(entry, axis)
         if entry is entries[0]:
@@ -130,4 +130,4 @@ def _bands(panel: Axes, x: Any, entry: Entry) -> None:
     for where, point in zip(x, entry.counted, strict=True):
         middle, low, high = point.band
         if low is not None and high is not None:
-            panel.plot([where, where], [low / middle, high / middle], color=style.SHADE, linewidth=4, zorder=1)
+            panel.plot([where, where], [low / middle, high / middle], color=charts.SHADE, linewidth=4, zorder=1)

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from ballscrew.basis import units
 from ballscrew.basis.quantities import Quantity
-from ballscrew.questions.shared import chart_style as style
+from ballscrew.questions.shared import charts
 from ballscrew.questions.warm_up import records as warm_up_records
 from ballscrew.questions.warm_up import text
 from ballscrew.questions.warm_up.compute import PLACE, SERIES, WarmUpReport
@@ -27,7 +27,7 @@ _PAGE = (7.1, 4.2)
 
 def picture(report: WarmUpReport, found: WarmUpBandReport | None = None) -> Figure:
     """All panels, with bands where there are any; call within the house style."""
-    figure, panels = style.new_figure(caption(report, found), rows=3, height=2.7)
+    figure, panels = charts.new_figure(caption(report, found), rows=3, height=2.7)
     figure.suptitle(
         "\n".join(textwrap.wrap(text.title(report), _TITLE_CHARACTERS)),
         x=0.012, ha="left", fontsize=11, fontweight="bold",
@@ -36,15 +36,15 @@ def picture(report: WarmUpReport, found: WarmUpBandReport | None = None) -> Figu
     _temperatures(panels[1], report)
     _drift(panels[2], report)
     held = report.warm_up.network.preload_set
-    _over_time(panels[3], report, "preload" if held else "friction_power", style.PURPLE)
-    _over_time(panels[4], report, "screw_torque", style.RED)
+    _over_time(panels[3], report, "preload" if held else "friction_power", charts.PURPLE)
+    _over_time(panels[4], report, "screw_torque", charts.RED)
     _compensation(panels[5], report)
     if found is not None:
-        _shade(found, panels[1], "nut_temperature", style.RED)
-        _shade(found, panels[2], "shaft_growth", style.INK)
+        _shade(found, panels[1], "nut_temperature", charts.RED)
+        _shade(found, panels[2], "shaft_growth", charts.INK)
         if held:
-            _shade(found, panels[3], "preload", style.PURPLE)
-        _shade(found, panels[4], "screw_torque", style.RED)
+            _shade(found, panels[3], "preload", charts.PURPLE)
+        _shade(found, panels[4], "screw_torque", charts.RED)
     return figure
 
 
@@ -56,8 +56,8 @@ def panels(report: WarmUpReport) -> Figure:
     _temperatures(first, report)
     _drift(second, report)
     held = report.warm_up.network.preload_set
-    _over_time(third, report, "preload" if held else "friction_power", style.PURPLE)
-    _over_time(fourth, report, "screw_torque", style.RED)
+    _over_time(third, report, "preload" if held else "friction_power", charts.PURPLE)
+    _over_time(fourth, report, "screw_torque", charts.RED)
     return figure
 
 
@@ -102,8 +102,8 @@ def _label(quantity: Quantity) -> str:
 
 
 def _temperatures(panel: Axes, report: WarmUpReport) -> None:
-    colours = {"nut_temperature": style.RED, "oil_temperature": style.ORANGE, "shaft_temperature": style.BLUE,
-               "first_bearing_temperature": style.GREY}  # fmt: skip
+    colours = {"nut_temperature": charts.RED, "oil_temperature": charts.ORANGE, "shaft_temperature": charts.BLUE,
+               "first_bearing_temperature": charts.GREY}  # fmt: skip
     end = report.equilibrium
     for name, colour in colours.items():
         quantity = SERIES[name]
@@ -118,11 +118,11 @@ def _temperatures(panel: Axes, report: WarmUpReport) -> None:
 def _drift(panel: Axes, report: WarmUpReport) -> None:
     quantity = SERIES["shaft_growth"]
     places, growth = report.drift
-    for place, values, colour in zip(places, growth.T, (style.GREEN, style.ORANGE, style.PURPLE), strict=True):
+    for place, values, colour in zip(places, growth.T, (charts.GREEN, charts.ORANGE, charts.PURPLE), strict=True):
         panel.plot(_hours(report), units.from_si(values, quantity), color=colour,
                    label=f"at {units.shown(float(place), PLACE)}")  # fmt: skip
     whole = units.from_si(report.series["shaft_growth"], quantity)
-    panel.plot(_hours(report), whole, color=style.INK, linestyle=":", label="whole shaft")
+    panel.plot(_hours(report), whole, color=charts.INK, linestyle=":", label="whole shaft")
     panel.set(xlabel="time [h]", ylabel=f"[{units.label(quantity)}]", title="growth at ends and middle of the stroke")
     panel.legend(fontsize=_LABEL_SIZE)
 
@@ -135,18 +135,18 @@ def _over_time(panel: Axes, report: WarmUpReport, name: str, colour: str) -> Non
     full = report.full_bath
     if full is not None:
         bath = np.asarray(units.from_si(full.series[name], quantity), dtype=float)
-        panel.plot(_hours(full), bath, color=style.BLUE, label="in a full bath of oil")
+        panel.plot(_hours(full), bath, color=charts.BLUE, label="in a full bath of oil")
         panel.legend(fontsize=_LABEL_SIZE)
     end = report.equilibrium["power" if name == "friction_power" else name]
     if np.isfinite(end):
-        panel.axhline(float(units.from_si(end, quantity)), color=style.GREY, linewidth=0.8, linestyle="--")
+        panel.axhline(float(units.from_si(end, quantity)), color=charts.GREY, linewidth=0.8, linestyle="--")
     panel.set(xlabel="time [h]", ylabel=f"[{units.label(quantity)}]", title=quantity.info.meaning)
 
 
 def _compensation(panel: Axes, report: WarmUpReport) -> None:
     places, growth = report.compensation
     quantity = SERIES["shaft_growth"]
-    panel.plot(units.from_si(places, PLACE), units.from_si(growth, quantity), "o-", color=style.INK, markersize=3)
+    panel.plot(units.from_si(places, PLACE), units.from_si(growth, quantity), "o-", color=charts.INK, markersize=3)
     panel.set(
         xlabel=f"place [{PLACE.shown_in}]", ylabel=f"growth [{units.label(quantity)}]",
         title="compensation at the end of work",
