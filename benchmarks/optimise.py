@@ -15,13 +15,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from pymoo.indicators.hv import HV
 
 from ballscrew.questions.optimise import compute
 from ballscrew.questions.optimise.design_model import DesignModel
 from ballscrew.questions.optimise.design_space import design_space
 from ballscrew.questions.optimise.search import Found, search
 from ballscrew.questions.select.need import need_of
-from ballscrew.questions.select.pareto import front, hypervolume
+from ballscrew.questions.select.pareto import front
 from timing import seconds
 
 NEED = Path(__file__).parents[1] / "examples" / "needs" / "feed_axis.toml"
@@ -57,11 +58,11 @@ def measured(nut: str, seeds: int) -> dict[str, float]:
         before = time.process_time()
         times.append(seconds(work))
         processor.append(time.process_time() - before)
-        own.append(hypervolume(kept[0].costs, REFERENCE))
+        own.append(float(HV(REFERENCE)(kept[0].costs)))
         shares = np.random.default_rng(seed).random((POPULATION * GENERATIONS, len(space.names)))
         costs, constraints = model.costs(space.lower + (space.upper - space.lower) * shares)
         fitting = costs[(constraints <= 0).all(axis=1)]
-        others.append(hypervolume(fitting[front(fitting)], REFERENCE))
+        others.append(float(HV(REFERENCE)(fitting[front(fitting)])))
     found = {
         "designs": float(POPULATION * GENERATIONS),
         "record_and_compile_s": recording,

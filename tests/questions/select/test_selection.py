@@ -19,7 +19,7 @@ from ballscrew.questions.select.candidates import BY_LOADS, NEARLY, USUAL_LIFE
 from ballscrew.questions.select.document import document, verdict
 from ballscrew.questions.select.need import need_of
 from ballscrew.questions.select.need_motion import OF_MOTION
-from ballscrew.questions.select.pareto import front, hypervolume
+from ballscrew.questions.select.pareto import front
 from ballscrew.questions.select.requirement_checks import kept_preload
 from ballscrew.questions.select.text import cost, text
 from support.commands import ROOT
@@ -609,14 +609,9 @@ def test_faults_of_a_need(tables, words):
     assert words in str(raised.value)
 
 
-def test_front_and_hypervolume_of_known_points():
+def test_front_of_known_points():
     costs = np.array([[1.0, 4.0], [2.0, 2.0], [4.0, 1.0], [3.0, 3.0], [5.0, 5.0], [math.nan, 0.0], [2.0, 2.0]])
     assert front(costs).tolist() == [True, True, True, False, False, False, True]
-    # boxes below (5, 5): 4*1 + 3*3 + 1*4, less their overlaps 3*1, 1*3 and once more 1*1
-    assert hypervolume(costs[:3], np.array([5.0, 5.0])) == pytest.approx(4 + 9 + 4 - 3 - 3 - 1 + 1)
-    cube = np.array([[0.0, 0.0, 0.0], [0.5, 0.5, 0.5]])
-    assert hypervolume(cube, np.ones(3)) == pytest.approx(1.0)
-    assert hypervolume(cube[1:], np.ones(3)) == pytest.approx(0.125)
 
 
 def test_the_schema_knows_what_is_read(ballscrew):

@@ -88,10 +88,6 @@ class SlippingContact:
         """Creep, spin, lateral slip and curvature slip."""
         return [own + along(row, at) for own, row in zip(self.of_screw, self.slopes, strict=True)]
 
-    def rolls(self, at: Freedoms) -> Speed:
-        """Speed of the ball's surface along the path."""
-        return self.cosine * at.rolling + self.sine * at.outward
-
     def response(self, at: Freedoms, newton_share: float) -> ContactResponse:
         """The forces on the slip, friction times load included."""
         creep, spin, lateral, curvature = self.speeds(at)

@@ -24,7 +24,6 @@ from ballscrew.questions.duty.compute import NUMBERS, OF_BATH, DutyReport
 _LENGTH, _SPEED = fields_of(Trapezoid)["stroke"], fields_of(Trapezoid)["speed"]
 _TORQUE, _TURNING = NUMBERS["torque_rms"], NUMBERS["mean_speed"]
 _INERTIA = fields_of(Axis)["inertia"]
-_RATIO = fields_of(Axis)["transmission_ratio"]
 #: Shares of the stroke and of the largest speed below which a difference is one of rounding.
 _CLOSES, _JUMPS = 1e-9, 1e-9
 #: The same where the motion was recorded.

@@ -23,23 +23,3 @@ def front(costs: NDArray[np.float64]) -> NDArray[np.bool_]:
             kept.append(int(place))
     found[kept] = True
     return found
-
-
-def hypervolume(costs: NDArray[np.float64], reference: NDArray[np.float64]) -> float:
-    """The volume that rows of costs dominate below a reference point: larger is a better front.
-
-    By slices along the last cost; exact for any number of costs, for fronts of some hundred rows.
-    """
-    inside = costs[(costs < reference).all(axis=1)]
-    if not inside.size:
-        return 0.0
-    if costs.shape[1] == 1:
-        return float(reference[0] - inside.min())
-    order = np.argsort(inside[:, -1], kind="stable")
-    inside = inside[order]
-    ends = np.append(inside[1:, -1], reference[-1])
-    total = 0.0
-    for count, (row, end) in enumerate(zip(inside, ends, strict=True), start=1):
-        if end > row[-1]:
-            total += (end - row[-1]) * hypervolume(inside[:count, :-1], reference[:-1])
-    return total

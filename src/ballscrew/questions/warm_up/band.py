@@ -8,24 +8,21 @@ from collections.abc import Callable, Mapping
 from ballscrew.axis.thermal.network import Network, network_of
 from ballscrew.axis.thermal.surroundings import PREFIX, VARIED, Surroundings
 from ballscrew.axis.thermal.warm_up_band import (
-    OVER_TIME,
     WarmUpBand,
     uncertain_surroundings,
     warm_up_band,
 )
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.overflow import overflow_as_input_error
-from ballscrew.basis.quantities import Quantity, fields_of
+from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.case_files import uncertain_inputs
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.uncertain_inputs import GIVEN, NOTHING_GIVEN, Uncertain
 from ballscrew.engine.uncertainty.default_uncertainties import default_uncertainties
 from ballscrew.engine.uncertainty.uncertain_value import describe_distribution
 from ballscrew.physics.components.materials import TEMPERATURE
-from ballscrew.questions.warm_up.compute import HOUR, SERIES, WarmUpReport, duty_of, length_of
+from ballscrew.questions.warm_up.compute import HOUR, WarmUpReport, duty_of, length_of
 
-#: What has a band over time.
-BANDS: Mapping[str, Quantity] = {name: SERIES[name] for name in OVER_TIME}
 #: Inputs of an operating point that a transient computes, or that its motion has.
 _OWN = frozenset({TEMPERATURE.name, "axial_load", "screw_speed"})
 
