@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from ballscrew.questions.run.answer import Results
+from ballscrew.questions.check.compute import BothRatings, Geometry
+from ballscrew.questions.run.answer import Loads, Results
 from ballscrew.questions.shared.answer_parts import (
     Closed,
     JudgedCheck,
-    Number,
     Provenance,
     Record,
     Tables,
     Template,
     VendorRows,
     field,
-)
+)  # fmt: skip
+from ballscrew.questions.shared.declared import schema
 
 
 class OneCheck(JudgedCheck):
@@ -36,11 +37,11 @@ class Checks(Closed):
     verdicts: list[Record]
     nut: str = Field(description="kind of the nut; a case without one is checked with a single nut")
     inputs: Tables
-    geometry: dict[str, Number]
+    geometry: schema(Geometry)  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
     results: Results  # pyright: ignore[reportInvalidTypeForm]  (a model made from the annotations)
-    loads: Tables
+    loads: Loads  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
     vendor_rows: VendorRows = field(optional=True)
-    ratings: Tables
+    ratings: schema(BothRatings)  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
     assumed: list[str]
     units: Tables
     warnings: list[Record]

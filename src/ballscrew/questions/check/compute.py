@@ -6,11 +6,11 @@ import dataclasses
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.quantities import Force, Pressure
+from ballscrew.basis.quantities import Angle, Force, Length, Pressure, quantities_of
 from ballscrew.basis.records import Message, Record, Severity
 from ballscrew.cases.case_files import case_file, descriptions, nut_tables
 from ballscrew.cases.case_files.case import Case
@@ -18,6 +18,7 @@ from ballscrew.cases.schema.option_faults import in_options
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
 from ballscrew.physics.components.nut import Nut, OversizeBallNut
+from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.checks import Check, all_hold, checks, verdict_of
 from ballscrew.physics.sizing.dn_limits import speed_limit_of
@@ -45,6 +46,29 @@ class Options(NamedTuple):
     self_heating: bool = False
 
 
+class Geometry(NamedTuple):
+    """Sizes of the screw that follow from others."""
+
+    lead_angle: Annotated[Angle, quantities_of(BallScrew)["lead_angle"].info]
+    root_diameter: Annotated[Length, LISTED["root_diameter"].info]
+
+
+class Rated(NamedTuple):
+    """The load ratings of a screw; None is what is not known."""
+
+    dynamic_load_rating: Annotated[Force | None, LISTED["dynamic_load_rating"].info]
+    static_load_rating: Annotated[Force | None, LISTED["static_load_rating"].info]
+
+
+class BothRatings(NamedTuple):
+    """The load ratings as they are listed, and by the geometry."""
+
+    #: As the row or the case lists them.
+    listed: Rated
+    #: By ISO 3408-5; None for a geometry that it has no ratings for.
+    computed: Rated | None
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class Checked:
     """A screw, its friction, ratings and checks, and the assumptions made."""
@@ -61,6 +85,17 @@ class Checked:
     #: What self-heating did (:class:`~ballscrew.questions.warm_up.self_heating.SelfHeating`), where it was asked for;
     #: the case is then the warm one. Its room is loaded for those who ask.
     heating: Any = None
+
+    @property
+    def geometry(self) -> Geometry:
+        """Sizes that follow from others."""
+        return Geometry(self.case.screw.lead_angle, nut_tables.root_diameter(self.case.screw, self.case.listed))
+
+    @property
+    def ratings(self) -> BothRatings:
+        """The load ratings."""
+        listed, computed = (self.case.listed.get(name) for name in RATINGS), self.computed
+        return BothRatings(Rated(*listed), None if computed is None else Rated(computed.dynamic, computed.static))
 
     @property
     def moves(self) -> bool:

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from ballscrew.basis.quantities import quantities_of
 from ballscrew.basis.records import documents
-from ballscrew.cases.case_files import case_file, nut_tables, provenance
-from ballscrew.cases.screw_tables.nut_kinds import LISTED, kind_of
-from ballscrew.physics.components.screw import BallScrew
+from ballscrew.cases.case_files import case_file, provenance
+from ballscrew.cases.screw_tables.nut_kinds import kind_of
 from ballscrew.physics.sizing.checks import Check, judged
-from ballscrew.questions.check.compute import RATINGS, Checked
+from ballscrew.questions.check.compute import Checked
 from ballscrew.questions.run import document as run
+from ballscrew.questions.run.nut_loads import nut_loads
+from ballscrew.questions.shared import declared
 from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
 
@@ -22,31 +22,22 @@ def document(found: Checked) -> dict[str, Any]:
 
 
 def _document(found: Checked) -> dict[str, Any]:
-    case, lead_angle = found.case, quantities_of(BallScrew)["lead_angle"]
-    root_diameter = nut_tables.root_diameter(case.screw, case.listed)
+    case, own = found.case, {"geometry": found.geometry, "ratings": found.ratings}
     return {
         "name": found.name,
         "nut": kind_of(found.nut.nut),
         "inputs": case_file.inputs(case),
-        "geometry": {"lead_angle": case.screw.lead_angle, "root_diameter": root_diameter},
         "results": run.results(found.run),
-        "loads": run.loads(found.nut),
+        "loads": declared.document(nut_loads(found.nut)),
         **run.vendor_rows(found.run),
-        "ratings": {
-            "listed": {name: case.listed.get(name) for name in RATINGS},
-            "computed": None if found.computed is None else {n: getattr(found.computed, f) for n, f in RATINGS.items()},
-        },
+        **declared.document(own),
         "checks": [check_document(check) for check in found.checks],
         "judged": judged(found.checks),
         "holds": found.holds,
         "verdict": found.verdict,
         "verdicts": documents(found.verdicts),
         "assumed": list(found.assumed),
-        "units": {
-            **run.result_units(found.run),
-            "geometry": {"lead_angle": lead_angle.unit, "root_diameter": LISTED["root_diameter"].unit},
-            "ratings": {name: LISTED[name].unit for name in RATINGS},
-        },
+        "units": {**run.result_units(found.run), **{name: declared.units(each) for name, each in own.items()}},
         "warnings": documents(found.run.warnings),
         "provenance": provenance.of_case(case),
     }

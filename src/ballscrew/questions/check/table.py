@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
-from ballscrew.questions.check.compute import RATINGS, Checked
+from ballscrew.questions.check.compute import Checked, Rated
 from ballscrew.questions.run.table import of_run
 from ballscrew.questions.shared.check_lines import quantity_of
 from ballscrew.questions.shared.row_tables import Cells, RowTable, of_cells, put
@@ -18,10 +18,10 @@ def of_checks(screws: Sequence[Checked]) -> RowTable:
 
 def _of_check(found: Checked) -> Cells:
     cells = of_run(found.name, found.run)
-    for name, field in RATINGS.items():
-        computed = None if found.computed is None else getattr(found.computed, field)
-        put(cells, LISTED[name], found.case.listed.get(name))
-        put(cells, LISTED[name], computed, f"{name} by geometry")
+    ratings = found.ratings
+    for name in Rated._fields:
+        put(cells, LISTED[name], getattr(ratings.listed, name))
+        put(cells, LISTED[name], getattr(ratings.computed, name, None), f"{name} by geometry")
     for check in found.checks:
         put(cells, quantity_of(check), check.value)
         cells[f"{check.name.replace('_', ' ')} used"] = check.utilisation

@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from ballscrew.basis import units
 from ballscrew.basis.output.wrapping import aligned_beside, wrapped
 from ballscrew.basis.quantities import quantities_of
-from ballscrew.cases.case_files import descriptions, nut_tables
+from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.solvers.load_distribution import BallLoads
-from ballscrew.questions.check.compute import RATINGS, Checked
+from ballscrew.questions.check.compute import Checked, Rated
 from ballscrew.questions.run.nut_state import NutState
 from ballscrew.questions.run.text import rigidity_rows, stiffness_fields, unloaded_rows
 from ballscrew.questions.shared.check_lines import check_lines, shown
@@ -70,8 +70,8 @@ def _geometry(found: Checked) -> list[str]:
         _line(known[name].info.meaning, units.shown(getattr(screw, name), known[name]))
         for name in ("pitch_circle_diameter", "lead", "lead_angle", "ball_diameter", "loaded_balls", "contact_angle")
     ]
-    root = nut_tables.root_diameter(screw, found.case.listed)
-    return ["Geometry", *lines, _line(LISTED["root_diameter"].info.meaning, units.shown(root, LISTED["root_diameter"]))]
+    root = LISTED["root_diameter"]
+    return ["Geometry", *lines, _line(root.info.meaning, units.shown(found.geometry.root_diameter, root))]
 
 
 def _stiffness(nut: NutState) -> list[str]:
@@ -86,10 +86,9 @@ def _stiffness(nut: NutState) -> list[str]:
 
 def _ratings(found: Checked) -> list[str]:
     lines = [f"{'Ratings':<{_WIDTH + 2}} {'listed':>12} {'ISO 3408-5':>12}"]
-    for name, field in RATINGS.items():
-        quantity = LISTED[name]
-        listed = found.case.listed.get(name)
-        computed = None if found.computed is None else float(getattr(found.computed, field))
+    ratings = found.ratings
+    for name in Rated._fields:
+        quantity, listed, computed = LISTED[name], getattr(ratings.listed, name), getattr(ratings.computed, name, None)
         cells = ("–" if value is None else units.shown(value, quantity) for value in (listed, computed))
         lines.append(f"  {quantity.info.meaning:<{_WIDTH}} " + " ".join(f"{cell:>12}" for cell in cells))
         if name != "static_load_rating" or listed is None or computed is None:

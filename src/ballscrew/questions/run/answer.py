@@ -13,7 +13,9 @@ from ballscrew.physics.components.contact import RaceState
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.run.compute import OF_ONE_BALL
+from ballscrew.questions.run.nut_loads import NutLoads
 from ballscrew.questions.run.text import SHOWN
+from ballscrew.questions.shared import declared
 from ballscrew.questions.shared.answer_parts import (
     MASKS,
     Closed,
@@ -57,6 +59,9 @@ Results = model(
 )
 
 
+Loads = declared.schema(NutLoads)  # pyright: ignore[reportArgumentType]  (a class that is made from annotations)
+
+
 class RunWords(Closed):
     """Sentences beside the numbers, as the command line prints them."""
 
@@ -78,7 +83,7 @@ class Document(Closed):
 
     inputs: Tables
     results: Results  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
-    loads: Tables = field("loads of the balls of a nut, SI", optional=True)
+    loads: Loads = field("loads of the balls of a nut, SI", optional=True)  # pyright: ignore[reportInvalidTypeForm]  (made)
     vendor_rows: VendorRows = field(optional=True)
     units: Tables
     verdicts: list[Record]

@@ -5,29 +5,22 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ballscrew.basis.quantities import Quantity, fields_of, quantities_of
+from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.basis.records import documents
 from ballscrew.cases.case_files import case_file, provenance
 from ballscrew.cases.case_files.named_calibration import vendor_rows_like
 from ballscrew.physics.components.contact import RaceState
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction.result import QUADRANTS, FrictionResult
-from ballscrew.physics.sizing.rigidity import AxialRigidity
-from ballscrew.physics.solvers.load_distribution import BallLoads
-from ballscrew.questions.run.compute import Flank, NutState, Run
+from ballscrew.questions.run.compute import Run
+from ballscrew.questions.run.nut_loads import NutLoads, nut_loads
+from ballscrew.questions.shared import declared
 
-#: Fields of each ball; the other fields of the loads are of all balls together.
-_OF_BALLS = ("forward_load", "backward_load", "forward_angle", "backward_angle")
-_LOADS = quantities_of(BallLoads)
-#: The loads that all balls have in common.
-OF_LOADS: Mapping[str, Quantity] = {name: quantity for name, quantity in _LOADS.items() if name not in _OF_BALLS}
 _KNOWN = quantities_of(FrictionResult)
-_RIGIDITY = quantities_of(AxialRigidity)
 #: Inputs, which are no results.
 _OPERATION = fields_of(OperatingState)
 #: The results that have the units of the fields of a quadrant.
 _OF_QUADRANT = {"shaft_torque": "drive_torque", "shaft_power": "friction_power", "efficiency": "efficiency"}
-_ENDS = ("least", "mean", "greatest")
 
 
 def document(run: Run) -> dict[str, Any]:
@@ -35,7 +28,7 @@ def document(run: Run) -> dict[str, Any]:
     return {
         "inputs": case_file.inputs(run.case),
         "results": results(run),
-        **({} if run.nut is None else {"loads": loads(run.nut)}),
+        **({} if run.nut is None else {"loads": declared.document(nut_loads(run.nut))}),
         **vendor_rows(run),
         "units": result_units(run),
         "warnings": documents(run.warnings),
@@ -78,7 +71,7 @@ def results(run: Run) -> dict[str, Any]:
 
 
 def result_units(run: Run) -> dict[str, Any]:
-    """The units of :func:`results` and :func:`loads`, in the same places."""
+    """The units of :func:`results` and of the loads, in the same places."""
     own = {name: q.unit for name, q in run.quantities.items() if name not in (*_OPERATION, "valid")}
     torque, of_contact = _KNOWN["screw_torque"].unit, quantities_of(RaceState)
     quadrant = {name: _KNOWN[alike].unit for name, alike in _OF_QUADRANT.items()}
@@ -88,38 +81,5 @@ def result_units(run: Run) -> dict[str, Any]:
         "contributions": dict.fromkeys(run.friction.contributions, torque),
         "quadrants": dict.fromkeys(QUADRANTS, quadrant),
         **{side: {name: of_contact[name].unit for name in values} for side, values in run.contacts.items()},
-        **({} if run.nut is None else {"loads": _load_units()}),
-    }
-
-
-def loads(nut: NutState) -> dict[str, Any]:
-    """The loads of the balls in SI: least, mean and greatest on both flanks, then ball by ball."""
-    return {
-        **{name: getattr(nut.loads, name) for name in OF_LOADS},
-        "preload_is_lost": nut.preload_is_lost,
-        "loaded_flank": _flank(nut.loaded),
-        "relieved_flank": _flank(nut.relieved),
-        "axial_rigidity": {
-            **{name: getattr(nut.rigidity, name) for name in _RIGIDITY},
-            "accuracy_factor": nut.rigidity.accuracy_factor,
-            "assumed": list(nut.rigidity.assumed),
-        },
-        "balls": {"count": nut.loads.balls, **{name: getattr(nut.loads, name) for name in _OF_BALLS}},
-    }
-
-
-def _flank(flank: Flank | None) -> dict[str, Any] | None:
-    if flank is None:
-        return None
-    return {name: dict(zip(_ENDS, numbers, strict=True)) for name, numbers in flank._asdict().items()}
-
-
-def _load_units() -> dict[str, Any]:
-    flank = {"load": _LOADS["forward_load"].unit, "angle": _LOADS["forward_angle"].unit}
-    return {
-        **{name: quantity.unit for name, quantity in OF_LOADS.items()},
-        "loaded_flank": flank,
-        "relieved_flank": flank,
-        "axial_rigidity": {name: quantity.unit for name, quantity in _RIGIDITY.items()},
-        "balls": {name: _LOADS[name].unit for name in _OF_BALLS},
+        **({} if run.nut is None else {"loads": declared.units_of(NutLoads)}),
     }

@@ -117,7 +117,7 @@ class Answer:
     """An answer whose parts are annotated properties."""
 
 
-def table_of(name: str, meaning: str, quantities: Mapping[str, Quantity], *, lists: bool = False) -> Any:
+def table_of(name: str, meaning: str, quantities: Mapping[str, Quantity], *, lists: bool = False) -> type[Any]:
     """An answer of that name with numbers, or lists of numbers, that are declared elsewhere."""
     kind: Any = Sequence[float] if lists else float
     fields = [(each, Annotated[kind, Unit(one.unit), one.info]) for each, one in quantities.items()]
@@ -134,7 +134,7 @@ def document(value: Any) -> Any:
     if isinstance(value, Mapping):
         return {str(key): document(each) for key, each in value.items()}
     if isinstance(value, np.ndarray):
-        return [document(each) for each in value.tolist()]
+        return document(value.tolist())
     if isinstance(value, Sequence) and not isinstance(value, str):
         return [document(each) for each in value]
     return value.item() if isinstance(value, np.generic) else value

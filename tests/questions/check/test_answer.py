@@ -1,0 +1,86 @@
+"""The answer of the checks: sizes, ratings and loads are declared once, and the same on every face."""
+
+import pytest
+
+from ballscrew.basis import units
+from ballscrew.basis.quantities import quantities_of
+from ballscrew.cases.case_files import case_file
+from ballscrew.faces.web import documents
+from ballscrew.physics.solvers.load_distribution import BallLoads
+from ballscrew.questions.check import document, table, text
+from ballscrew.questions.check.answer import Checks
+from ballscrew.questions.check.compute import BothRatings, Geometry, Options, Rated, one
+from ballscrew.questions.run.compute import run
+from ballscrew.questions.run.nut_loads import NutLoads
+from ballscrew.questions.run.text import stiffness_fields
+from ballscrew.questions.shared import declared
+from support.answers import undescribed, without_unit
+from support.commands import ROOT
+
+EXAMPLES = ROOT / "examples"
+
+
+@pytest.fixture(scope="module")
+def found():
+    return one("rexroth-40x10x6-6-double", None, Options({}, (), None), keep_going=False)[0]
+
+
+def schema_of(cls):
+    return declared.schema(cls).model_json_schema()["properties"]
+
+
+def test_ratings_are_on_every_face(found):
+    answer, words, headings = document.document(found), text.text(found), table.of_checks([found]).headings
+    for name, quantity in quantities_of(Rated).items():
+        for of in ("listed", "computed"):
+            value = answer["ratings"][of][name]
+            assert value == getattr(getattr(found.ratings, of), name) > 0
+            assert answer["units"]["ratings"][of][name] == quantity.unit == schema_of(Rated)[name]["x-si-unit"]
+            assert units.shown(value, quantity) in words
+        assert schema_of(Rated)[name]["description"].startswith(quantity.info.meaning)
+        assert quantity.info.meaning in words
+        assert {units.heading(quantity), units.heading(quantity, f"{name} by geometry")} <= set(headings)
+
+
+def test_sizes_are_on_every_face(found):
+    answer, words = document.document(found), text.text(found)
+    for name, quantity in quantities_of(Geometry).items():
+        assert answer["geometry"][name] == getattr(found.geometry, name) > 0
+        assert answer["units"]["geometry"][name] == quantity.unit == schema_of(Geometry)[name]["x-si-unit"]
+        assert schema_of(Geometry)[name]["description"].startswith(quantity.info.meaning)
+        assert f"{quantity.info.meaning} " in words
+        assert units.shown(answer["geometry"][name], quantity) in words
+
+
+def test_loads_are_on_every_face(found):
+    answer, words = document.document(found), text.text(found)
+    loads, of_loads = answer["loads"], answer["units"]["loads"]
+    schema = declared.schema(NutLoads).model_json_schema()
+    of_balls = schema["$defs"]["EachBall"]["properties"]
+    for name, quantity in quantities_of(BallLoads).items():
+        part, unit, described = loads, of_loads, schema["properties"]
+        if name in of_balls:
+            part, unit, described = loads["balls"], of_loads["balls"], of_balls
+        assert name in part
+        assert unit[name] == quantity.unit == described[name].get("x-si-unit", "1")
+        assert described[name]["description"].startswith(quantity.info.meaning)
+    for name in stiffness_fields(found.nut):
+        assert quantities_of(BallLoads)[name].info.meaning in words
+
+
+@pytest.mark.parametrize("example", ["catalogue_screw.toml", "olaru2005.toml", "vertical_axis.toml"])
+def test_answers_are_valid_by_their_schema(example):
+    case = case_file.load(EXAMPLES / example)
+    Checks.model_validate(documents.check(run(case)))
+
+
+def test_every_number_has_a_unit(found):
+    answer = document.document(found)
+    parts = {name: answer[name] for name in ("geometry", "loads", "ratings")}
+    # as counted, and the factor of a standard
+    assert set(without_unit(parts, answer["units"])) <= {"loads.balls.count", "loads.axial_rigidity.accuracy_factor"}
+
+
+@pytest.mark.parametrize("cls", [BothRatings, Geometry, NutLoads])
+def test_every_part_is_described(cls):
+    assert list(undescribed(cls)) == []
