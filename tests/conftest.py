@@ -1,5 +1,6 @@
 """What all tests share: the paper's screw, its oil, the models, and how hypothesis runs."""
 
+import functools
 import gc
 import importlib.util
 import math
@@ -13,12 +14,16 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 import pytest
+import typer.testing
 from hypothesis import settings
 
 import ballscrew as bs
 from support.commands import Commands, new_process
 
 ROOT = Path(__file__).parents[1]
+
+# A runner of commands makes all of them for each that it runs: once is enough.
+typer.testing._get_command = functools.cache(typer.main.get_command)
 
 # The same examples every time, so that a red test is the fault of a change. To search for new ones:
 # pytest --hypothesis-profile=search tests/properties

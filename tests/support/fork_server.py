@@ -29,12 +29,17 @@ WARM_UP = (
     "check rexroth-40x10x6-6-double",
     "sweep {examples}/olaru2005.toml --to {folder}/map.nc",
     "sensitivity {examples}/olaru2005.toml",
+    "warm-up {examples}/warm_up.toml",
+    "duty {examples}/vertical_axis.toml",
+    "axis {examples}/vertical_axis.toml",
+    "report {examples}/olaru2005.toml --to {folder}/report.html",
 )
 
 
 def load(examples: str, folder: str) -> None:
-    """Run each kind of command once, here, with nobody listening."""
+    """Run each kind of command once, here, with nobody listening, and make the application in the browser."""
     from ballscrew.faces.cli.main import main
+    from ballscrew.faces.web import connections, server  # noqa: F401  (for those who serve)
 
     for command in WARM_UP:
         sys.argv = ["ballscrew", *command.format(examples=examples, folder=folder).split()]
@@ -45,6 +50,8 @@ def load(examples: str, folder: str) -> None:
             except SystemExit as end:
                 if end.code:
                     raise RuntimeError(f"{command}\n{said.getvalue()}") from end
+    server.application()
+    server.warm_up()
 
 
 def serve(address: str) -> None:

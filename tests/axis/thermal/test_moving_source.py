@@ -54,7 +54,12 @@ def travelled(slow, network):
     return state
 
 
-def test_the_profile_that_travels_with_the_nut(creeping, monkeypatch):
+@pytest.fixture(scope="module")
+def arrived(creeping):
+    return travelled(*creeping)
+
+
+def test_the_profile_that_travels_with_the_nut(creeping, arrived, monkeypatch):
     """exp((−U ± √(U² + 4 a β)) ξ / 2a) before and behind it, as for the bar alone; of second order in the slots."""
     slow, network = creeping
     shaft, speed = network.shaft, 0.4e-3
@@ -64,24 +69,24 @@ def test_the_profile_that_travels_with_the_nut(creeping, monkeypatch):
     width, xi = nut_length_of(SCREW), shaft.places - (0.4 + speed * 3000.0)
     parts = (xi > 0.6 * width) & (xi < 0.18), (xi < -0.6 * width) & (xi > -0.4)
 
-    def errors():
-        rise = travelled(slow, network).temperatures[0, :-3] - network.surroundings.ambient
+    def errors(state):
+        rise = state.temperatures[0, :-3] - network.surroundings.ambient
         slopes = [np.polyfit(xi[part], np.log(rise[part]), 1)[0] for part in parts]
         return np.abs(slopes / exact - 1)
 
-    ahead, behind = errors()
+    ahead, behind = errors(arrived)
     assert ahead < 0.015  # a decay of 28 mm in cells of 10 mm
     assert behind < 1e-3
     coarse = []
     for slots in (2.0, 4.0):
         monkeypatch.setattr("ballscrew.axis.thermal.moving_source.PER_NUT_LENGTH", slots)
-        coarse.append(errors()[1])
+        coarse.append(errors(travelled(slow, network))[1])
     assert np.log2(coarse[0] / coarse[1]) > 1.8
 
 
-def test_heat_that_travels_is_conserved(creeping):
-    slow, network = creeping
-    state = travelled(slow, network)
+def test_heat_that_travels_is_conserved(creeping, arrived):
+    _, network = creeping
+    state = arrived
     stored = network.capacity @ (state.temperatures[0] - network.surroundings.ambient)
     assert state.generated[0] == pytest.approx(stored + state.lost[0], abs=1e-8 * state.generated[0])
 

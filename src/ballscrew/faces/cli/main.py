@@ -6,6 +6,7 @@ Scientific packages are imported inside the commands, so that ``ballscrew --help
 from __future__ import annotations
 
 import errno
+import functools
 import io
 import os
 import sys
@@ -124,6 +125,12 @@ def options(
     """What a ball screw loses to friction: torque, efficiency, back-driving, and why, term by term."""
 
 
+@functools.cache
+def command_line() -> Any:
+    """The commands with all their options, which take longer to make than most of them to run."""
+    return typer.main.get_command(app)
+
+
 def main() -> None:
     """Run a command; bad input ends with one line a fault and exit code 2, never with a traceback."""
     if sys.stdout is None:  # pyright: ignore[reportUnnecessaryComparison]  (started with >&-)
@@ -134,7 +141,7 @@ def main() -> None:
     _pint_plugins.hidden_from_pint += ["dask", "scipy"]
     try:
         try:
-            app()
+            command_line()()
         finally:
             sys.stdout.flush()
     except ValueError as error:
