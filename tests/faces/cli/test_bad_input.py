@@ -304,7 +304,7 @@ def test_a_defect_is_not_called_a_full_output(monkeypatch):
     def defect():
         raise FileNotFoundError(2, "No such file or directory", "a part of the package")
 
-    monkeypatch.setattr(main, "app", defect)
+    monkeypatch.setattr(main, "command_line", lambda: defect)
     with pytest.raises(FileNotFoundError, match="a part of the package"):
         main.main()
 
