@@ -183,7 +183,7 @@ def without_unit(where: str, value: Any, unit: str | None) -> Any | Fault:
 
     None stands for what takes no unit.
     """
-    if not carries_unit(value):
+    if _is_number(value) or not carries_unit(value):
         return value
     if unit is None:
         return Fault(where, "takes no unit", str(value), "give a plain number")
@@ -193,6 +193,11 @@ def without_unit(where: str, value: Any, unit: str | None) -> Any | Fault:
     except (TypeError, ValueError, AttributeError) as error:
         remedy = "give a plain number" if unit == "1" else f"give a quantity in {unit}, or a plain number in {unit}"
         return Fault(where, "wrong unit", f"{value}: {error}", remedy)
+
+
+def _is_number(value: Any) -> bool:
+    """Return whether a value is a plain number, as most are, and needs no other look."""
+    return isinstance(value, float)
 
 
 def names_keywords(cls: type[T]) -> type[T]:
@@ -235,7 +240,7 @@ def accepts_units(section: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
         def converting(*args: P.args, **kwargs: P.kwargs) -> R:
             if keywords is not None and not keywords.issuperset(kwargs):
                 _refuse_unknown(function.__qualname__, kwargs, sorted(keywords))
-            if not any(map(carries_unit, args)) and not any(map(carries_unit, kwargs.values())):
+            if not any(carries_unit(value) for value in (*args, *kwargs.values()) if not _is_number(value)):
                 return function(*args, **kwargs)
             declared, units = signature()
             bound = declared.bind(*args, **kwargs)

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import math
 import operator
 import types
 from collections.abc import Iterator, Mapping
@@ -186,11 +187,10 @@ def _fields_of(cls: Any) -> dict[str, Quantity]:
 
 
 def _conditions(info: Info, value: Array) -> Iterator[tuple[Mask, str, float | None]]:
-    """Conditions on a number or on the elements of an array: mask, message where it is false, bound.
+    """Conditions on a finite number or on the elements of an array: mask, message where it is false, bound.
 
     ``{bound}`` in the message stands for the bound.
     """
-    yield namespace(value).isfinite(value), "must be a finite number", None
     if info.whole:
         yield value % 1 == 0, "must be a whole number", None
     if info.above is not None:
@@ -206,9 +206,12 @@ def _conditions(info: Info, value: Array) -> Iterator[tuple[Mask, str, float | N
 
 def within_bounds(info: Info, value: Array) -> Mask:
     """The mask of the elements of an array that are finite and within the declared bounds."""
-    return functools.reduce(operator.and_, (holds for holds, _, _ in _conditions(info, value)))
+    finite = namespace(value).isfinite(value)
+    return functools.reduce(operator.and_, (holds for holds, _, _ in _conditions(info, value)), finite)
 
 
 def out_of_bounds(info: Info, value: float) -> tuple[str, float | None] | None:
     """The message for a concrete number and the bound it violates; None if it is within all bounds."""
+    if not math.isfinite(value):
+        return "must be a finite number", None
     return next(((problem, bound) for holds, problem, bound in _conditions(info, value) if not holds), None)

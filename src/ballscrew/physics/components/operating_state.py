@@ -5,6 +5,8 @@ from __future__ import annotations
 import dataclasses
 from typing import Annotated
 
+import numpy as np
+
 from ballscrew.basis.arrays import ByValue, where
 from ballscrew.basis.errors import faults_of, names_keywords, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, Array, Force, Info, Temperature
@@ -46,9 +48,14 @@ class OperatingState(ByValue):
     @property
     def settled(self) -> OperatingState:
         """The same state as the formulas take it; see :func:`settled`."""
-        return OperatingState(settled(self.axial_load), settled(self.screw_speed), self.temperature)
+        load, speed = settled(self.axial_load), settled(self.screw_speed)
+        if load is self.axial_load and speed is self.screw_speed:
+            return self
+        return OperatingState(load, speed, self.temperature)
 
 
 def settled(values: Array) -> Array:
     """Loads or speeds of which those nearer to zero than :data:`NOTHING` are zero."""
+    if isinstance(values, np.float64) and not abs(values) < NOTHING:
+        return values
     return where(abs(values) < NOTHING, 0.0, values)
