@@ -16,8 +16,8 @@ from ballscrew.evidence.validation.entries import Conditions, Point, Values, tre
 from ballscrew.evidence.validation.rows import screw_of
 from ballscrew.evidence.validation.sets import SETS
 from ballscrew.physics.components.conditions import ContactConditions
+from ballscrew.physics.components.film_laws import Inlet
 from ballscrew.physics.components.laws import imposed_ball_force, two_neighbours
-from ballscrew.physics.components.lubrication import Inlet
 from ballscrew.physics.components.mixed_friction import BalanSharing, GreenwoodTrippSharing, LoadSharing, RunInSharing
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.calibrations import calibrated, calibrations

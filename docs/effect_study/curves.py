@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.physics.components.laws import RollingLaw
-from ballscrew.physics.components.lubrication import (
+from ballscrew.physics.components.mixed_friction import GreenwoodTrippSharing, LoadSharing, RunInSharing
+from ballscrew.physics.components.rolling_laws import (
     aihara_rolling,
     biboulet_houpert_rolling,
     houpert_rolling,
     olaru_rolling,
 )
-from ballscrew.physics.components.mixed_friction import GreenwoodTrippSharing, LoadSharing, RunInSharing
 from ballscrew.physics.equations import mixed_lubrication, slip
 from ballscrew.physics.friction.model import PAPER_FRICTION, FrictionModel
 from ballscrew.physics.friction.result import FrictionResult

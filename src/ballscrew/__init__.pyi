@@ -51,7 +51,7 @@ from ballscrew.exports.hand_over import hand_over as hand_over
 from ballscrew.files.torque_logs.torque_log import TorqueLog as TorqueLog
 from ballscrew.files.torque_logs.torque_series import TorqueSeries as TorqueSeries
 from ballscrew.physics.components.data_sheet import DataSheet as DataSheet
-from ballscrew.physics.components.lubrication import HamrockDowson as HamrockDowson
+from ballscrew.physics.components.film_laws import HamrockDowson as HamrockDowson
 from ballscrew.physics.components.materials import Lubricant as Lubricant
 from ballscrew.physics.components.materials import Material as Material
 from ballscrew.physics.components.mixed_friction import ZhouHoeprich as ZhouHoeprich

@@ -14,7 +14,7 @@ from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.schema import schema
 from ballscrew.engine.evaluation.comparison import same_law
-from ballscrew.physics.components import laws, lubrication, mixed_friction
+from ballscrew.physics.components import laws, mixed_friction, rolling_laws
 from ballscrew.physics.friction.model import presets
 from ballscrew.physics.solvers.ellipse_slip import ellipse_slip
 from ballscrew.physics.solvers.pure_rolling import curvature_slip
@@ -115,7 +115,7 @@ def test_all_in_one(tables):
     )
     assert model.inlet.inlet_film_ratio == 3
     assert isinstance(model.full_film, mixed_friction.EyringTraction)
-    assert model.rolling is lubrication.houpert_rolling
+    assert model.rolling is rolling_laws.houpert_rolling
     assert model.elastic_resistance.loss_factor == 0.01
     assert isinstance(model.ball_force, laws.ProportionalBallForce)
     assert model.slip is curvature_slip

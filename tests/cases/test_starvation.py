@@ -11,7 +11,7 @@ from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.cases.case_files import case_file
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.faces.report import duty_section, warm_up_section
-from ballscrew.physics.components.lubrication import Inlet
+from ballscrew.physics.components.film_laws import Inlet
 from ballscrew.questions.band import compute as band
 from ballscrew.questions.band import document as band_documents
 from ballscrew.questions.duty import document as duty_documents

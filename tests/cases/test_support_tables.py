@@ -6,8 +6,8 @@ import tomllib
 import pytest
 
 import ballscrew as bs
+from ballscrew.axis.supports.catalogue_rows import guide_rows, support_units
 from ballscrew.axis.supports.makers_bearing import KnownBearing, SKFBearing
-from ballscrew.axis.supports.rows import guide_rows, support_units
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.schema import schema

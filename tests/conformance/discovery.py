@@ -99,7 +99,7 @@ DIMENSIONAL_FITS = {
     "formulas.inlet_heating_factor": "fit of a bearing maker in millimetres, mm^2/s and revolutions a minute",
     "formulas.guide_life": "the 50000 is metres, the distance that the rating is for",
     "formulas.palmgren_viscous_moment": "fit in millimetres, mm^2/s and revolutions a minute",
-    "parasitic.ball_drag_force_harris": "the exponent 1.95 of a speed",
+    "nut_losses.ball_drag_force_harris": "the exponent 1.95 of a speed",
     "rheology.pressure_viscosity_estimate": "fit of a pressure coefficient to a power of a viscosity",
     "rheology.pressure_viscosity_linear": "the 273.15 is kelvin, and the slope is per kelvin",
     "rheology.roelands_exponent": "the logarithm is that of a viscosity in Pa s, and a number is in 1/Pa",

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from ballscrew.evidence.validation.rows import GROOVE_RADIUS, RING_RADIUS, ring_torque
-from ballscrew.physics.components.lubrication import biboulet_houpert_rolling
+from ballscrew.physics.components.rolling_laws import biboulet_houpert_rolling
 from ballscrew.physics.friction.model import FrictionModel
 
 RING = json.loads((Path(__file__).parents[1] / "data" / "contact_points.json").read_text(encoding="utf-8"))[

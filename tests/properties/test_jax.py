@@ -15,7 +15,7 @@ from ballscrew.engine.evaluation import jax_derivatives
 from ballscrew.engine.evaluation.jax_derivatives import jax_value_and_partials
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.physics.components import laws, lubrication, mixed_friction
+from ballscrew.physics.components import film_laws, laws, mixed_friction, rolling_laws
 from ballscrew.physics.solvers.line_slip import line_slip
 
 PRESETS = {
@@ -30,20 +30,20 @@ OTHERS = {
         reference,
         slip=line_slip,
         friction=mixed_friction.GreenwoodTrippSharing(),
-        rolling=lubrication.aihara_rolling,
+        rolling=rolling_laws.aihara_rolling,
         ball_force=laws.ProportionalBallForce(),
     ),
     "Eyring": dataclasses.replace(
         corrected,
         full_film=mixed_friction.EyringTraction(),
         elastic_resistance=laws.Hysteresis(),
-        rolling=lubrication.houpert_rolling,
+        rolling=rolling_laws.houpert_rolling,
     ),
     "limiting shear": dataclasses.replace(
         corrected,
         full_film=mixed_friction.LimitingShearTraction(),
         hertz=laws.brewe_hamrock_hertz,
-        film=lubrication.hamrock_dowson_central,
+        film=film_laws.hamrock_dowson_central,
         friction=mixed_friction.BalanSharing(),
     ),
 }

@@ -9,7 +9,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.cases.schema.schema import LAWS
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
-from ballscrew.physics.components import laws, lubrication, mixed_friction
+from ballscrew.physics.components import film_laws, laws, mixed_friction, rolling_laws
 from ballscrew.physics.components.conditions import Motion
 from ballscrew.physics.components.contact import ContactLaws, rolling_contact
 from ballscrew.physics.solvers.line_slip import line_slip
@@ -113,13 +113,13 @@ SPEEDS = np.array([0.0, 1e-6, 1e-3, 1.0, 30.0, 300.0, 1000.0, 5000.0])
 
 
 def test_the_inlet_is_cool_at_rest_and_heats_with_speed():
-    warm = lubrication.Inlet()(contact(100.0, SPEEDS))
+    warm = film_laws.Inlet()(contact(100.0, SPEEDS))
     assert warm.film[0] == 1
     assert np.all(np.diff(warm.film) < 0)
     assert np.all((warm.film > 0) & (warm.film <= 1))
     assert warm.film[1] == pytest.approx(1, abs=1e-3)
     # flooded: the rolling force falls as the film does
-    flooded = lubrication.Inlet(replenishment_constant=0.0)(contact(100.0, SPEEDS))
+    flooded = film_laws.Inlet(replenishment_constant=0.0)(contact(100.0, SPEEDS))
     assert flooded.rolling == pytest.approx(flooded.film, rel=1e-4)
     # oil that comes back too late lowers it further, the more the faster
     replenished = warm.rolling / flooded.rolling
@@ -129,14 +129,14 @@ def test_the_inlet_is_cool_at_rest_and_heats_with_speed():
 
 def test_a_thick_oil_heats_more_and_a_conductive_one_less():
     film = [
-        lubrication.Inlet()(contact(100.0, 600.0, dataclasses.replace(OIL, **changed))).film
+        film_laws.Inlet()(contact(100.0, 600.0, dataclasses.replace(OIL, **changed))).film
         for changed in ({}, {"viscosity": 2 * OIL.viscosity}, {"thermal_conductivity": 2 * OIL.thermal_conductivity})
     ]
     assert film[1] < film[0] < film[2]
 
 
 def test_a_starved_inlet_rolls_more_easily():
-    factors = [lubrication.Inlet(S, replenishment_constant=0.0)(contact(100.0, 600.0)) for S in (2.0, 10.0, 100.0, 1e6)]
+    factors = [film_laws.Inlet(S, replenishment_constant=0.0)(contact(100.0, 600.0)) for S in (2.0, 10.0, 100.0, 1e6)]
     assert np.all(np.diff([f.rolling for f in factors]) > 0)
     assert len({float(f.film) for f in factors}) == 1
     assert factors[-1].rolling == pytest.approx(factors[-1].film, rel=1e-4)
@@ -222,10 +222,10 @@ def test_friction_of_the_film_is_finite_anywhere(name):
 # -- rolling ---------------------------------------------------------------------------------------
 
 ROLLING = {
-    "olaru": lubrication.olaru_rolling,
-    "biboulet and houpert": lubrication.biboulet_houpert_rolling,
-    "houpert": lubrication.houpert_rolling,
-    "aihara": lubrication.aihara_rolling,
+    "olaru": rolling_laws.olaru_rolling,
+    "biboulet and houpert": rolling_laws.biboulet_houpert_rolling,
+    "houpert": rolling_laws.houpert_rolling,
+    "aihara": rolling_laws.aihara_rolling,
 }
 
 
@@ -282,7 +282,7 @@ def test_force_between_balls_may_grow_with_the_load():
     [
         (laws.Hysteresis, "loss_factor", -0.1, "model.elastic_resistance"),
         (laws.ProportionalBallForce, "share_of_load", -0.1, "model.ball_force"),
-        (lubrication.Inlet, "inlet_film_ratio", 0.0, "model.inlet"),
+        (film_laws.Inlet, "inlet_film_ratio", 0.0, "model.inlet"),
         (mixed_friction.LoadSharing, "boundary_friction_coefficient", -0.1, "model.friction"),
         (mixed_friction.BalanSharing, "full_film_friction_coefficient", math.nan, "model.friction"),
         (mixed_friction.GreenwoodTrippSharing, "asperity_radius", 0.0, "model.friction"),

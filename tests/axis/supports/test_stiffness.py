@@ -8,7 +8,7 @@ import pytest
 from scipy.optimize import brentq
 
 import ballscrew as bs
-from ballscrew.axis.supports.rows import support_units
+from ballscrew.axis.supports.catalogue_rows import support_units
 from ballscrew.axis.supports.shaft_on_supports import buckling_root, whirling_root
 from ballscrew.axis.supports.stiffness import stiffness_over_stroke
 from ballscrew.physics.sizing.installation import Ends, Installation

@@ -22,8 +22,8 @@ from ballscrew.engine.uncertainty.default_uncertainties import JUDGEMENT, defaul
 from ballscrew.engine.uncertainty.distributions import LogNormal, Normal, Uniform
 from ballscrew.engine.uncertainty.sampling import JointNormal
 from ballscrew.physics.components.laws import ProportionalBallForce, imposed_ball_force
-from ballscrew.physics.components.lubrication import houpert_rolling
 from ballscrew.physics.components.mixed_friction import BalanSharing
+from ballscrew.physics.components.rolling_laws import houpert_rolling
 from ballscrew.questions.band import compute
 
 EXAMPLES = Path(__file__).parents[3] / "examples"

@@ -15,7 +15,7 @@ from ballscrew.cases.case_files.uncertain_inputs import all_of, joint_of
 from ballscrew.engine.uncertainty.bands import Interval, OutputBand
 from ballscrew.faces.report import band_section
 from ballscrew.faces.report.blocks import Paragraph
-from ballscrew.physics.components.lubrication import biboulet_houpert_rolling as reference_rolling
+from ballscrew.physics.components.rolling_laws import biboulet_houpert_rolling as reference_rolling
 from ballscrew.physics.components.traits import LawTraits, traits_of
 from ballscrew.physics.friction.law_names import LAWS
 from ballscrew.physics.friction.result import FrictionResult

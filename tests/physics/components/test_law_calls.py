@@ -7,8 +7,8 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.physics.components.contact import Contact
+from ballscrew.physics.components.film_laws import Inlet
 from ballscrew.physics.components.laws import InletFactors
-from ballscrew.physics.components.lubrication import Inlet
 
 POINT = {"axial_load": 4000.0, "screw_speed": 60.0}
 REFERENCE = bs.FrictionModel.reference()
@@ -54,7 +54,7 @@ def test_a_fuller_state_keeps_what_is_known(contact):
     ("slot", "given", "said"),
     [
         ("rolling", "houpert", r"model\.rolling: must be a law, not its name \(houpert\) · from "
-         r"ballscrew\.physics\.components\.lubrication import houpert_rolling, and give rolling=houpert_rolling"),
+         r"ballscrew\.physics\.components\.rolling_laws import houpert_rolling, and give rolling=houpert_rolling"),
         ("rolling", "haupert", r'model\.rolling: .* \(haupert\) · did you mean "houpert"\? in a case file'),
         ("film", "hamrock-dowson", r"import HamrockDowson, and give film=HamrockDowson\(\)"),
         ("film", bs.HamrockDowson, r"model\.film: must be a law \(the class HamrockDowson\) · make one of it"),

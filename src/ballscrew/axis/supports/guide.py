@@ -26,11 +26,12 @@ class LinearGuide(ByValue):
     A :class:`~ballscrew.physics.friction.element.FrictionElement` whose effort is a force along the rail, N. Called
     with a state, its load is that of all carriages, which share it evenly, and its ``screw_speed`` stands for the
     speed along the rail, m/s; :meth:`under` takes the load of each carriage, as
-    :class:`~ballscrew.axis.supports.table.GuidedTable` has them.
+    :class:`~ballscrew.axis.supports.carriage_loads.GuidedTable` has them.
 
     The coefficient of catalogues is 0.002 to 0.003 with balls (Thomson2024, Rollon2020) and 0.001 to 0.002 with rollers
     (Thomson2024), at a load of a fifth of the dynamic rating and without preload (NB2024). Seals have 2 N to 5 N a
-    carriage (NB2024), light ones 0.15 N to 1 N by size (Rollon2020; :func:`~ballscrew.axis.supports.rows.guide_rows`).
+    carriage (NB2024), light ones 0.15 N to 1 N by size (Rollon2020;
+    :func:`~ballscrew.axis.supports.catalogue_rows.guide_rows`).
     Preload, oil, fresh grease and temperature are in neither number and add to both.
     Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
     """

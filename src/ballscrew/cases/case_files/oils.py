@@ -58,8 +58,8 @@ def oils(path: str | Path | None = None) -> Oils:
 
     ``path`` is that of the file; without it the library is read.
     ``bs.Lubricant.from_sheet(bs.oils()["Arcanol LOAD150"], temperature=313.15)`` is the oil at a temperature. A file
-    has a table ``[oils."name"]`` with units for each (``data/oils.toml`` is of the same form). The numbers of a grease
-    are those of its base oil.
+    has a table ``[oils."name"]`` with units for each (``data/oil_data_sheets.toml`` is of the same form). The numbers
+    of a grease are those of its base oil.
 
     Raises :class:`~ballscrew.basis.errors.InputError` with all faults of the file.
     """
@@ -88,7 +88,7 @@ def named_oil(name: str, file: str | None, folder: Path) -> DataSheet:
 
 @functools.cache
 def _shipped() -> Oils:
-    text = resources.files("ballscrew").joinpath("data/oils.toml").read_text(encoding="utf-8")
+    text = resources.files("ballscrew").joinpath("data/oil_data_sheets.toml").read_text(encoding="utf-8")
     return _parsed(text, "library")
 
 

@@ -8,6 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from ballscrew.axis.duty_cycle.axis import Axis
+from ballscrew.axis.supports.carriage_loads import CarriedMass, GuidedTable
+from ballscrew.axis.supports.catalogue_rows import guide_rows, support_units
 from ballscrew.axis.supports.element_laws import (
     BEARING_LAWS,
     GUIDE_LAWS,
@@ -20,8 +22,6 @@ from ballscrew.axis.supports.element_laws import (
     numbers_of,
 )
 from ballscrew.axis.supports.mounted_bearing import MountedBearing
-from ballscrew.axis.supports.rows import guide_rows, support_units
-from ballscrew.axis.supports.table import CarriedMass, GuidedTable
 from ballscrew.basis.errors import MISSING, Fault, InputError, nearest, shown
 from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.case_files.oils import named_oil

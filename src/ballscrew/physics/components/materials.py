@@ -290,7 +290,7 @@ class Lubricant(ByValue):
 
         With the viscosities of a data sheet take :meth:`from_data_sheet`: far below 0 °C the two laws differ by
         a factor of two and more (ISO VG 100 at -20 °C: 35800 mm²/s here, 18900 mm²/s through 100 and 11.1 mm²/s).
-        Viscosity by Vogel's law with the constants of ``data/lubricants.toml``; for ISO VG grades
+        Viscosity by Vogel's law with the constants of ``data/oil_grades.toml``; for ISO VG grades
         the pressure–viscosity coefficient is an estimate from the viscosity (Jungnickel2010), for
         FVA 3 it is measured (Lubricants2023). A real oil of a grade may lie 10 % off its nominal
         viscosity at 40 °C, and further off elsewhere (its viscosity index is not known here).

@@ -21,7 +21,7 @@ from ballscrew.basis.quantities import AngularSpeed, Count, Force, Info, Length,
 from ballscrew.physics.components.frame import helix_frame
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.equations import geometry, kinematics, parasitic, preload, transmission
+from ballscrew.physics.equations import geometry, kinematics, nut_losses, preload, transmission
 
 #: Coefficients behind the no-load torques of Rexroth2006: their middle meets the tables within their digits.
 DOUBLE_NUT_DRAG = 0.0040
@@ -189,7 +189,7 @@ class LipSeals(ByValue):
     """Seals whose lips rub all around the screw, on its pitch circle."""
 
     lip_friction: Annotated[
-        parasitic.LineForce,
+        nut_losses.LineForce,
         Info(
             "q",
             "friction force on each length of lip",
@@ -207,7 +207,7 @@ class LipSeals(ByValue):
 
     def __call__(self, screw: BallScrew, lubricant: Lubricant, screw_speed: AngularSpeed) -> Torque:
         """Torque of the seals, N m; the same at any speed."""
-        return parasitic.seal_torque(self.lips, self.lip_friction, screw.pitch_circle_diameter)
+        return nut_losses.seal_torque(self.lips, self.lip_friction, screw.pitch_circle_diameter)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -261,9 +261,9 @@ class Churning(ByValue):
     def __call__(self, screw: BallScrew, lubricant: Lubricant, screw_speed: AngularSpeed) -> Torque:
         """Torque on the screw, N m."""
         eta_0, d_w, v_o = lubricant.viscosity, screw.ball_diameter, _orbital_speed(screw, screw_speed)
-        R_e = parasitic.ball_reynolds_number(lubricant.density, v_o, d_w, eta_0)
-        force = parasitic.ball_drag_force(self.oil_share, eta_0, d_w, v_o, R_e)
-        return parasitic.path_torque(_balls(self.balls, screw), force, _path_advance(screw))
+        R_e = nut_losses.ball_reynolds_number(lubricant.density, v_o, d_w, eta_0)
+        force = nut_losses.ball_drag_force(self.oil_share, eta_0, d_w, v_o, R_e)
+        return nut_losses.path_torque(_balls(self.balls, screw), force, _path_advance(screw))
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -285,10 +285,10 @@ class HarrisChurning(ByValue):
     def __call__(self, screw: BallScrew, lubricant: Lubricant, screw_speed: AngularSpeed) -> Torque:
         """Torque on the screw, N m."""
         v_o = _orbital_speed(screw, screw_speed)
-        force = parasitic.ball_drag_force_harris(
+        force = nut_losses.ball_drag_force_harris(
             self.oil_share, self.drag_coefficient, lubricant.density, screw.ball_diameter, v_o
         )
-        return parasitic.path_torque(_balls(self.balls, screw), force, _path_advance(screw))
+        return nut_losses.path_torque(_balls(self.balls, screw), force, _path_advance(screw))
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -314,7 +314,7 @@ class Recirculation(ByValue):
 
     def __call__(self, screw: BallScrew, lubricant: Lubricant, screw_speed: AngularSpeed) -> Torque:
         """Torque on the screw, N m; the same at any speed."""
-        return parasitic.path_torque(self.returns, self.return_force, _path_advance(screw))
+        return nut_losses.path_torque(self.returns, self.return_force, _path_advance(screw))
 
 
 def _balls(balls: Count | None, screw: BallScrew) -> Count:
@@ -323,7 +323,7 @@ def _balls(balls: Count | None, screw: BallScrew) -> Count:
 
 def _path_advance(screw: BallScrew) -> Length:
     frame = helix_frame(screw)
-    return parasitic.path_advance(frame.path_radius, frame.curvature_ratio)
+    return nut_losses.path_advance(frame.path_radius, frame.curvature_ratio)
 
 
 def _orbital_speed(screw: BallScrew, screw_speed: AngularSpeed) -> Speed:

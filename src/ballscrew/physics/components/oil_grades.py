@@ -24,7 +24,7 @@ from ballscrew.basis.quantities import (
     within_bounds,
 )
 from ballscrew.physics.components.data_sheet import ROUNDING, SHEET_TEMPERATURE, DataSheet
-from ballscrew.physics.equations import rheology
+from ballscrew.physics.equations import rheology, viscosity_temperature
 
 
 @dataclasses.dataclass(frozen=True)
@@ -85,7 +85,7 @@ def oil_of_grade(grade: str, temperature: Temperature) -> OilState:
     if faults:
         raise InputError(*faults)
     oil = oils[known[key]]
-    nu = rheology.kinematic_viscosity_vogel(
+    nu = viscosity_temperature.kinematic_viscosity_vogel(
         temperature, oil["viscosity_at_infinity"], oil["vogel_constant"], oil["vogel_temperature"]
     )
     if "inverse_pressure_viscosity_at_0_degC" in oil:
@@ -101,7 +101,9 @@ def oil_of_grade(grade: str, temperature: Temperature) -> OilState:
         viscosity=plain(rheology.dynamic_viscosity(nu, oil["density"])),
         pressure_viscosity_coefficient=plain(alpha_p),
         temperature_coefficient=plain(
-            rheology.vogel_temperature_coefficient(temperature, oil["vogel_constant"], oil["vogel_temperature"])
+            viscosity_temperature.vogel_temperature_coefficient(
+                temperature, oil["vogel_constant"], oil["vogel_temperature"]
+            )
         ),
         density=oil["density"],
         grade=known[key],
@@ -130,7 +132,7 @@ def grades() -> list[str]:
 
 @functools.cache
 def _oils() -> dict[str, dict[str, Any]]:
-    text = resources.files("ballscrew").joinpath("data/lubricants.toml").read_text(encoding="utf-8")
+    text = resources.files("ballscrew").joinpath("data/oil_grades.toml").read_text(encoding="utf-8")
     return tomllib.loads(text)["oils"]
 
 

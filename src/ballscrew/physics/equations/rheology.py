@@ -15,7 +15,6 @@ from ballscrew.basis.quantities import (
     Speed,
     Temperature,
     TemperatureCoefficient,
-    TemperatureDifference,
     Viscosity,
 )
 
@@ -53,23 +52,6 @@ def load_parameter(contact_load: Force, equivalent_modulus: Pressure, rolling_ra
     """
     Q, E, R_x = contact_load, equivalent_modulus, rolling_radius
     return Q / (E * R_x**2)
-
-
-def kinematic_viscosity_vogel(
-    temperature: Temperature,
-    viscosity_at_infinity: KinematicViscosity,
-    vogel_constant: TemperatureDifference,
-    vogel_temperature: Temperature,
-) -> KinematicViscosity:
-    r"""Kinematic viscosity against temperature, Vogel's law.
-
-    .. math:: \nu = \nu_A \exp\left(\frac{B}{T - T_0}\right)
-
-    Vogel1921. Above the pole :math:`T_0` only; a fit, good between the temperatures it was made for.
-    """
-    T, nu_A, B, T_0 = temperature, viscosity_at_infinity, vogel_constant, vogel_temperature
-    xp = namespace(T, nu_A, B, T_0)
-    return nu_A * xp.exp(B / (T - T_0))
 
 
 def dynamic_viscosity(kinematic_viscosity: KinematicViscosity, density: Density) -> Viscosity:
@@ -147,19 +129,6 @@ def roelands_viscosity(viscosity: Viscosity, pressure: Pressure, roelands_expone
     eta_0, p, Z = viscosity, pressure, roelands_exponent
     xp = namespace(eta_0, p, Z)
     return eta_0 * xp.exp((xp.log(eta_0) + 9.67) * ((1 + 5.1e-9 * p) ** Z - 1))
-
-
-def vogel_temperature_coefficient(
-    temperature: Temperature, vogel_constant: TemperatureDifference, vogel_temperature: Temperature
-) -> TemperatureCoefficient:
-    r"""Relative fall of the viscosity per kelvin, by Vogel's law.
-
-    .. math:: \beta = \frac{B}{(T - T_0)^2}
-
-    The slope of :func:`kinematic_viscosity_vogel`, Vogel1921; the density's own slope is left out.
-    """
-    T, B, T_0 = temperature, vogel_constant, vogel_temperature
-    return B / (T - T_0) ** 2
 
 
 def thermal_loading_parameter(

@@ -1,4 +1,4 @@
-"""The viscosity of an oil over temperature from two points of its data sheet, its viscosity index, its density."""
+"""The viscosity of an oil over temperature by Vogel and by Walther, its viscosity index, its density."""
 
 from __future__ import annotations
 
@@ -9,7 +9,38 @@ from ballscrew.basis.quantities import (
     Ratio,
     Temperature,
     TemperatureCoefficient,
+    TemperatureDifference,
 )
+
+
+def kinematic_viscosity_vogel(
+    temperature: Temperature,
+    viscosity_at_infinity: KinematicViscosity,
+    vogel_constant: TemperatureDifference,
+    vogel_temperature: Temperature,
+) -> KinematicViscosity:
+    r"""Kinematic viscosity against temperature, Vogel's law.
+
+    .. math:: \nu = \nu_A \exp\left(\frac{B}{T - T_0}\right)
+
+    Vogel1921. Above the pole :math:`T_0` only; a fit, good between the temperatures it was made for.
+    """
+    T, nu_A, B, T_0 = temperature, viscosity_at_infinity, vogel_constant, vogel_temperature
+    xp = namespace(T, nu_A, B, T_0)
+    return nu_A * xp.exp(B / (T - T_0))
+
+
+def vogel_temperature_coefficient(
+    temperature: Temperature, vogel_constant: TemperatureDifference, vogel_temperature: Temperature
+) -> TemperatureCoefficient:
+    r"""Relative fall of the viscosity per kelvin, by Vogel's law.
+
+    .. math:: \beta = \frac{B}{(T - T_0)^2}
+
+    The slope of :func:`kinematic_viscosity_vogel`, Vogel1921; the density's own slope is left out.
+    """
+    T, B, T_0 = temperature, vogel_constant, vogel_temperature
+    return B / (T - T_0) ** 2
 
 
 def walther_number(kinematic_viscosity: KinematicViscosity) -> Ratio:

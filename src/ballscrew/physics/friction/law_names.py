@@ -12,7 +12,7 @@ from typing import Any
 
 from ballscrew.basis.errors import Fault, nearest
 from ballscrew.basis.quantities import Quantity, fields_of
-from ballscrew.physics.components import frame, laws, lubrication, mixed_friction
+from ballscrew.physics.components import film_laws, frame, laws, mixed_friction, rolling_laws
 from ballscrew.physics.solvers.ellipse_slip import ellipse_slip
 from ballscrew.physics.solvers.line_slip import line_slip
 from ballscrew.physics.solvers.pure_rolling import curvature_slip
@@ -22,15 +22,15 @@ LAWS: Mapping[str, Mapping[str, Any]] = {
     "frame": {"bearing": frame.bearing_frame, "helix": frame.helix_frame},
     "hertz": {"houpert": laws.houpert_hertz, "exact": laws.exact_hertz, "brewe-hamrock": laws.brewe_hamrock_hertz},
     "film": {
-        "hamrock-dowson": lubrication.HamrockDowson,
-        "hamrock-dowson-central": lubrication.hamrock_dowson_central,
-        "chittenden": lubrication.chittenden,
+        "hamrock-dowson": film_laws.HamrockDowson,
+        "hamrock-dowson-central": film_laws.hamrock_dowson_central,
+        "chittenden": film_laws.chittenden,
     },
     "film_parameter": {
-        "root-sum-square": lubrication.root_sum_square_film_parameter,
-        "literal": lubrication.literal_film_parameter,
+        "root-sum-square": film_laws.root_sum_square_film_parameter,
+        "literal": film_laws.literal_film_parameter,
     },
-    "inlet": {"ideal": lubrication.ideal_inlet, "heated": lubrication.Inlet},
+    "inlet": {"ideal": film_laws.ideal_inlet, "heated": film_laws.Inlet},
     "friction": {
         "zhou-hoeprich": mixed_friction.ZhouHoeprich,
         "load-sharing": mixed_friction.LoadSharing,
@@ -44,10 +44,10 @@ LAWS: Mapping[str, Mapping[str, Any]] = {
         "limiting-shear": mixed_friction.LimitingShearTraction,
     },
     "rolling": {
-        "olaru": lubrication.olaru_rolling,
-        "biboulet-houpert": lubrication.biboulet_houpert_rolling,
-        "houpert": lubrication.houpert_rolling,
-        "aihara": lubrication.aihara_rolling,
+        "olaru": rolling_laws.olaru_rolling,
+        "biboulet-houpert": rolling_laws.biboulet_houpert_rolling,
+        "houpert": rolling_laws.houpert_rolling,
+        "aihara": rolling_laws.aihara_rolling,
     },
     "elastic_resistance": {"snare": laws.snare_resistance, "hysteresis": laws.Hysteresis},
     "slip": {"curvature": curvature_slip, "line": line_slip, "ellipse": ellipse_slip},

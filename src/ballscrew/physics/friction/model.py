@@ -15,6 +15,8 @@ from ballscrew.basis.errors import Fault, accepts_units, faults_of, names_keywor
 from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Ratio, Temperature, fields_of
 from ballscrew.physics.components.contact import ContactLaws
+from ballscrew.physics.components.film_laws import HamrockDowson, Inlet, ideal_inlet, root_sum_square_film_parameter
+from ballscrew.physics.components.film_laws import literal_film_parameter as printed_film_parameter
 from ballscrew.physics.components.frame import bearing_frame, helix_frame
 from ballscrew.physics.components.laws import (
     BallChainLaw,
@@ -45,20 +47,12 @@ from ballscrew.physics.components.laws import (
     two_neighbours,
     virtual_work_torque,
 )
-from ballscrew.physics.components.lubrication import (
-    HamrockDowson,
-    Inlet,
-    biboulet_houpert_rolling,
-    ideal_inlet,
-    olaru_rolling,
-    root_sum_square_film_parameter,
-)
-from ballscrew.physics.components.lubrication import literal_film_parameter as printed_film_parameter
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.mixed_friction import RunInSharing, ZhouHoeprich
 from ballscrew.physics.components.nut import Nut
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.outside_laws import usable
+from ballscrew.physics.components.rolling_laws import biboulet_houpert_rolling, olaru_rolling
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.equations.transmission import contact_load as equal_contact_load

@@ -12,8 +12,8 @@ bodies in series) with a spring to ground at each ball. Where screw and nut are 
 the load enters at the first ball; where they are held on opposite sides, it enters at both ends, in
 the ratio of the flexibilities of screw and nut. :mod:`ballscrew.physics.solvers.ball_springs` solves it. The balls
 also widen the nut and shrink the screw, each nut body by one gap (:mod:`ballscrew.physics.solvers.swelling`). Between
-rigid bodies all balls of a kind are alike, and :mod:`ballscrew.physics.solvers.rigid_nut` has the answer in a fixed
-number of steps.
+rigid bodies all balls of a kind are alike, and :mod:`ballscrew.physics.solvers.rigid_ball_loads` has the answer in a
+fixed number of steps.
 
 A load of either sign: a negative one presses on the backward flanks, those of a single nut or of the second
 half of a double nut, and relieves the forward ones. It enters where a positive one enters.
@@ -39,8 +39,8 @@ from ballscrew.physics.components.screw import BallScrew, Raceway
 from ballscrew.physics.equations import deflection, geometry, hertz, rigidity
 from ballscrew.physics.solvers.ball_springs import Field
 from ballscrew.physics.solvers.compiled_chain import FEWEST_POINTS
-from ballscrew.physics.solvers.nut_balance import NutCase, solved
-from ballscrew.physics.solvers.rigid_nut import KindLoads, RigidLoads, RigidNut, rigid_loads
+from ballscrew.physics.solvers.elastic_ball_loads import NutCase, solved
+from ballscrew.physics.solvers.rigid_ball_loads import KindLoads, RigidLoads, RigidNut, rigid_loads
 
 #: Imbalance, in units of load and preload, that counts as balanced.
 TOLERANCE = 1e-10
@@ -234,7 +234,7 @@ def _case(
 
 
 def _numbers(screw: BallScrew, nut: Nut, point: RigidNut, bodies: Bodies | None) -> list[Any]:
-    """The numbers of a :class:`~ballscrew.physics.solvers.nut_balance.NutPoint`, each of a shape of its own."""
+    """The numbers of a :class:`~ballscrew.physics.solvers.elastic_ball_loads.NutPoint`, each of a shape of its own."""
     oversize = getattr(nut, "oversize", None)
     return [
         *point,

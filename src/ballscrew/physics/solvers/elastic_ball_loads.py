@@ -32,7 +32,7 @@ from ballscrew.physics.solvers.compiled_chain import (
     compiled_widened_balance,
     compiled_widened_response,
 )
-from ballscrew.physics.solvers.rigid_nut import PICOMETRE, RigidNut, rigid_lift_off_load
+from ballscrew.physics.solvers.rigid_ball_loads import PICOMETRE, RigidNut, rigid_lift_off_load
 from ballscrew.physics.solvers.swelling import (
     Swelling,
     excess_at_rest,

@@ -8,7 +8,7 @@ import pytest
 from ballscrew.physics.components.frame import bearing_frame, helix_frame
 from ballscrew.physics.components.nut_losses import seal_table
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.equations import kinematics, parasitic
+from ballscrew.physics.equations import kinematics, nut_losses
 
 from .numbers import SCREWS
 
@@ -21,12 +21,12 @@ OIL = {"viscosity": 0.1, "ball_diameter": 3.175e-3, "orbital_speed": 0.6}
 
 def test_a_lip_rubs_at_the_lever_of_the_radius():
     circumference = math.pi * 0.04
-    assert parasitic.seal_torque(2, 80.0, 0.04) == pytest.approx(2 * 80.0 * circumference * 0.02, rel=RELATIVE)
+    assert nut_losses.seal_torque(2, 80.0, 0.04) == pytest.approx(2 * 80.0 * circumference * 0.02, rel=RELATIVE)
 
 
 def test_seals_of_a_catalogue_follow_the_square_of_the_diameter():
     # Rexroth R310RU 3301: torque of two seals from 16 mm to 125 mm, 0.08 N m to 5 N m
-    friction = [row.torque / parasitic.seal_torque(2, 1.0, row.nominal_diameter) for row in seal_table()]
+    friction = [row.torque / nut_losses.seal_torque(2, 1.0, row.nominal_diameter) for row in seal_table()]
     assert min(friction) == pytest.approx(61, abs=0.5)
     assert max(friction) == pytest.approx(109, abs=0.5)
     slope, _ = np.polyfit(*np.log([(row.nominal_diameter, row.torque) for row in seal_table()]).T, 1)
@@ -45,18 +45,18 @@ def test_path_advance_is_orbital_speed_over_screw_speed(name, place):
     omega = 62.8
     rotation = kinematics.orbital_rotation(frame.entrainment_speed(omega), frame.nut_contact_radius)
     speed = kinematics.orbital_speed(rotation, frame.path_radius)
-    advance = parasitic.path_advance(frame.path_radius, frame.curvature_ratio)
+    advance = nut_losses.path_advance(frame.path_radius, frame.curvature_ratio)
     assert advance * omega == pytest.approx(speed, rel=RELATIVE)
 
 
 def test_balls_far_smaller_than_the_screw_go_half_as_fast():
-    assert parasitic.path_advance(0.02, 0.0) == 0.01
+    assert nut_losses.path_advance(0.02, 0.0) == 0.01
 
 
 def test_torque_of_path_forces_is_virtual_work():
     omega, advance, force, number = 62.8, 9.4e-3, 0.4, 3
     power = number * force * advance * omega
-    assert parasitic.path_torque(number, force, advance) * omega == pytest.approx(power, rel=RELATIVE)
+    assert nut_losses.path_torque(number, force, advance) * omega == pytest.approx(power, rel=RELATIVE)
 
 
 # -- drag of a ball -------------------------------------------------------------------------------
@@ -64,7 +64,7 @@ def test_torque_of_path_forces_is_virtual_work():
 
 def test_slow_balls_feel_the_force_of_stokes():
     stokes = 6 * math.pi * 0.1 * 3.175e-3 / 2 * 0.6
-    assert parasitic.ball_drag_force(1.0, **OIL, ball_reynolds_number=0.0) == pytest.approx(stokes, rel=RELATIVE)
+    assert nut_losses.ball_drag_force(1.0, **OIL, ball_reynolds_number=0.0) == pytest.approx(stokes, rel=RELATIVE)
 
 
 @pytest.mark.parametrize(("reynolds", "coefficient"), [(1.0, 27.6), (10.0, 4.15), (100.0, 1.092), (1000.0, 0.4382)])
@@ -72,22 +72,22 @@ def test_drag_coefficient_of_a_sphere(reynolds, coefficient):
     # 24/Re (1 + 0.15 Re^0.687), by hand; the standard curve has about 27, 4.1, 1.09 and 0.46
     d_w, v_o, eta_0 = 3.175e-3, 0.6, 0.1
     density = reynolds * eta_0 / (v_o * d_w)
-    assert parasitic.ball_reynolds_number(density, v_o, d_w, eta_0) == pytest.approx(reynolds, rel=RELATIVE)
-    force = parasitic.ball_drag_force(1.0, eta_0, d_w, v_o, reynolds)
+    assert nut_losses.ball_reynolds_number(density, v_o, d_w, eta_0) == pytest.approx(reynolds, rel=RELATIVE)
+    force = nut_losses.ball_drag_force(1.0, eta_0, d_w, v_o, reynolds)
     found = force / (density / 2 * v_o**2 * math.pi * d_w**2 / 4)
     assert found == pytest.approx(coefficient, rel=1e-3)
 
 
 def test_drag_vanishes_with_the_oil_and_with_the_speed():
-    assert parasitic.ball_drag_force(0.0, **OIL, ball_reynolds_number=16.0) == 0.0
-    assert parasitic.ball_drag_force(1.0, 0.1, 3.175e-3, 0.0, 0.0) == 0.0
-    assert parasitic.ball_drag_force_harris(0.0, 0.44, 870.0, 3.175e-3, 0.6) == 0.0
-    assert parasitic.ball_drag_force_harris(1.0, 0.44, 870.0, 3.175e-3, 0.0) == 0.0
+    assert nut_losses.ball_drag_force(0.0, **OIL, ball_reynolds_number=16.0) == 0.0
+    assert nut_losses.ball_drag_force(1.0, 0.1, 3.175e-3, 0.0, 0.0) == 0.0
+    assert nut_losses.ball_drag_force_harris(0.0, 0.44, 870.0, 3.175e-3, 0.6) == 0.0
+    assert nut_losses.ball_drag_force_harris(1.0, 0.44, 870.0, 3.175e-3, 0.0) == 0.0
 
 
 @pytest.mark.parametrize("speed", [0.5, 2.0, 10.0])
 def test_drag_of_harris_is_near_the_pressure_on_the_cross_section(speed):
     # exactly so at 2 v = 1 m/s, then less by the twentieth root of 2 v
     pressure_force = 0.44 * 870.0 / 2 * speed**2 * math.pi * 3.175e-3**2 / 4
-    force = parasitic.ball_drag_force_harris(1.0, 0.44, 870.0, 3.175e-3, speed)
+    force = nut_losses.ball_drag_force_harris(1.0, 0.44, 870.0, 3.175e-3, speed)
     assert force == pytest.approx(pressure_force * (2 * speed) ** -0.05, rel=1e-12)
