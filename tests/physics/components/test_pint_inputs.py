@@ -4,6 +4,7 @@ import dataclasses
 import importlib
 import math
 import pkgutil
+import re
 
 import numpy as np
 import pint
@@ -123,6 +124,8 @@ def classes():
         if not module.name.endswith("__main__"):
             found |= {part for part in vars(importlib.import_module(module.name)).values() if isinstance(part, type)}
     ours = (c for c in found if c.__module__.startswith("ballscrew.") and not c.__name__.startswith("_"))
+    # what a question answers is made by the program alone
+    ours = (c for c in ours if not re.fullmatch(r"ballscrew\.questions\.\w+\.(answer|compute)", c.__module__))
     return {c for c in ours if dataclasses.is_dataclass(c) and fields_of(c)}
 
 
