@@ -10,9 +10,9 @@ kept, and nobody has to follow them. Nor are those in the buffers of kernels, wh
 - ``sweep``: a preload that is varied by ``bs.sweep``.
 - ``fit``: the torque of a row of a log, from the text in the file to the score of the fit.
 
-With ``--page`` one key in the page, in a browser: requests, cases that the server builds for them, and calls of
-functions of the page from one module into another; ``dom.js``, ``texts.js`` and other modules that import no module but
-such ones are leaves, and not counted.
+With ``--page`` one key in the page, in a browser, until all of it is drawn: its requests, the cases that the server
+builds for them, and the modules of JavaScript whose functions are called on the way, in their order. Modules that write
+words and elements (``LEAVES``) are not counted there: each line on the page goes through them. A loop counts once.
 """
 
 from __future__ import annotations
@@ -21,9 +21,12 @@ import argparse
 import contextlib
 import io
 import math
+import re
+import subprocess
 import sys
+import tempfile
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from types import FrameType, MappingProxyType
 from typing import Any, NamedTuple
@@ -162,6 +165,113 @@ def walks() -> dict[str, tuple[Callable[[], None], Test]]:
     }
 
 
+# -- one key on the page ----------------------------------------------------------------------------
+
+#: Modules of the page that write words, numbers and elements.
+LEAVES = ("dom.js", "faults.js", "plot.js", "schema.js", "symbols.js", "texts.js", "units.js")
+#: The head of a function up to its parameters, and what is put at the beginning of its body.
+FUNCTION, MARK = re.compile(r"^ *(?:export )?(?:async )?function \w+\(", re.MULTILINE), 'globalThis.walk?.push("{}");'
+#: Stops of a loop at most.
+LONGEST_LOOP = 8
+DESIGNS = {"one design": "#A=paper&band=0", "two designs": "#A=paper&B=hiwin-40-20k4&band=0"}
+
+
+def without_loops(stops: Sequence[str]) -> list[str]:
+    """Stops of which those that repeat the ones just before them are left out: a loop is read once."""
+    found: list[str] = []
+    for stop in stops:
+        found.append(stop)
+        for length in range(1, LONGEST_LOOP + 1):
+            if found[-length:] == found[-2 * length : -length]:
+                del found[-length:]
+    return found
+
+
+def marked(source: str, module: str) -> str:
+    """A module of JavaScript that notes each call of its functions."""
+    found, last = [], 0
+    for head in FUNCTION.finditer(source):
+        place, depth = head.end(), 1
+        while depth:  # to the end of the parameters
+            depth += {"(": 1, ")": -1}.get(source[place], 0)
+            place += 1
+        body = source.index("{", place) + 1
+        found += [source[last:body], MARK.format(module)]
+        last = body
+    return "".join([*found, source[last:]])
+
+
+@contextlib.contextmanager
+def counting_server(builds: Path) -> Iterator[str]:
+    """The address of a server that writes a line into a file for each case that it builds."""
+    command = [sys.executable, __file__, "--serve", str(builds)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, encoding="utf-8") as process:
+        assert process.stdout is not None
+        found = re.search(r"http://\S+", process.stdout.readline())
+        assert found
+        try:
+            yield found[0]
+        finally:
+            process.terminate()
+
+
+def serve(builds: Path) -> None:
+    """Serve the page, and count the cases that are built."""
+    from ballscrew.cases.case_files import case_file
+
+    build = case_file.build
+
+    def counted(*arguments: Any, **options: Any) -> Any:
+        with builds.open("a") as file:
+            file.write("built\n")
+        return build(*arguments, **options)
+
+    case_file.build = counted
+    app(["serve", "--port", "0"], standalone_mode=False)
+
+
+def page() -> None:
+    """Print what one key on the page takes."""
+    from playwright.sync_api import Route, sync_playwright
+
+    from page import chromium
+
+    def note(route: Route) -> None:
+        module = route.request.url.rpartition("/page/")[2]
+        route.fulfill(response=(answer := route.fetch()), body=marked(answer.text(), module))
+
+    with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
+        builds = Path(folder) / "builds"
+        with counting_server(builds) as address:
+            browser = playwright.chromium.launch(executable_path=chromium(), args=["--no-sandbox"])
+            for name, fragment in DESIGNS.items():
+                shown = browser.new_page(viewport={"width": 1360, "height": 1500})
+                shown.route("**/page/**/*.js", note)
+                shown.goto(f"{address}/{fragment}")
+                shown.wait_for_selector("html[data-ready]")
+                shown.wait_for_selector('#results[aria-busy="false"]')
+                shown.wait_for_timeout(2000)
+                asked: list[str] = []
+                shown.on("request", lambda one, asked=asked: asked.append(one.url))
+                builds.write_text("")
+                shown.evaluate("globalThis.walk = []")
+                shown.focus("#f-operation-axial_load")
+                shown.keyboard.press("ArrowUp")
+                shown.wait_for_timeout(100)
+                shown.wait_for_selector('#results[aria-busy="false"]')
+                shown.wait_for_timeout(2000)
+                stops = without_loops([one for one in shown.evaluate("globalThis.walk") if one not in LEAVES])
+                back = len(stops) - len(set(stops))
+                addresses = [one.partition("/api/v1/")[2] for one in asked if "/api/v1/" in one]
+                print(f"a key, {name}: {len(addresses)} requests ({', '.join(addresses)})")
+                print(f"    {len(builds.read_text().split())} cases built")
+                print(f"    {len(stops)} stops, {back} back, in {len(set(stops))} modules of JavaScript;", end=" ")
+                print(f"main.js is entered {stops.count('main.js')} times")
+                print("      " + " ".join(stops))
+                shown.close()
+            browser.close()
+
+
 #: Functions whose calls are printed with a walk.
 TELLING: dict[str, Sequence[str]] = {
     "set, as text": ("units.py: parse", "parse_uncertain", "in_ascii"),
@@ -176,7 +286,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--stops", action="store_true", help="print the modules in their order, too")
 
+    parser.add_argument("--page", action="store_true", help="one key on the page, too; needs chromium")
+    parser.add_argument("--serve", type=Path, help=argparse.SUPPRESS)
     asked = parser.parse_args()
+    if asked.serve:
+        serve(asked.serve)
+        return
     for name, (work, test) in walks().items():
         work()  # what is imported and kept by the first one is no part of the way
         found = walk(work, test)
@@ -185,6 +300,8 @@ def main() -> None:
         print("".join(f"    {count} × {key}\n" for key, count in called.items()), end="")
         if asked.stops:
             print("".join(f"      {stop}\n" for stop in found.stops), end="")
+    if asked.page:
+        page()
 
 
 if __name__ == "__main__":
