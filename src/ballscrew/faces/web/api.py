@@ -11,13 +11,12 @@ import tomlkit
 from fastapi import APIRouter, Depends, Query, Request
 from starlette.responses import Response
 
-from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.schema.schema import json_schema
 from ballscrew.cases.screw_tables import catalogue as rows
 from ballscrew.faces.report.heading import Heading
-from ballscrew.faces.web import documents, file_api, job_api, limits, log_api, openapi, vocabulary
+from ballscrew.faces.web import answers_api, documents, file_api, job_api, limits, log_api, openapi, vocabulary
 from ballscrew.faces.web.bodies import (
     BandBody,
     CaseBody,
@@ -47,7 +46,6 @@ from ballscrew.faces.web.endpoint_parts import (
 from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.faces.web.sent_files import written
-from ballscrew.faces.web.templates import template
 from ballscrew.physics.sizing.catalogue import catalogue as shipped
 from ballscrew.questions.axis import compute as chains
 from ballscrew.questions.axis import document as chain_documents
@@ -65,7 +63,6 @@ from ballscrew.questions.duty import document as duty_documents
 from ballscrew.questions.duty.answer import DutyResults
 from ballscrew.questions.optimise.need_schema import json_schema as schema_of_needs
 from ballscrew.questions.run import answer as run_answers
-from ballscrew.questions.run import compute as runs
 from ballscrew.questions.select import answer as select_answers
 from ballscrew.questions.select import document as selection_documents
 from ballscrew.questions.select.compute import plan as planned_selection
@@ -92,6 +89,7 @@ KINDS: Mapping[str, str] = {"pdf": "application/pdf", "html": "text/html; charse
 
 _VALIDATION_LOCK = threading.Lock()
 router = APIRouter(prefix="/api/v1", dependencies=[Depends(own_site), Depends(known_query)])
+router.include_router(answers_api.router)
 router.include_router(file_api.router)
 router.include_router(log_api.router)
 router.include_router(job_api.router)
@@ -382,14 +380,7 @@ async def drawing(request: Request) -> Response:
 )
 async def drawing_template(request: Request) -> Response:
     """The same drawing as a template, to be shown in any units."""
-    from ballscrew.faces.report.drawing import drawing as drawn
-
-    def work(found: runs.Run) -> Response:
-        with units.placeholders() as quantities:
-            picture = drawn(found)
-        return as_json(template(picture, quantities))
-
-    return await of_body(request, work)
+    return await of_body(request, lambda found: as_json(documents.drawing(found)))
 
 
 @router.post("/report", openapi_extra=openapi.body(ReportBody), responses=openapi.text(*KINDS.values()))

@@ -75,6 +75,15 @@ def check(found: runs.Run, notes: Sequence[str] = ()) -> dict[str, Any]:
     return {key: value for key, value in document.items() if key != "name"}
 
 
+def drawing(found: runs.Run) -> dict[str, Any]:
+    """The ball between its grooves, as SVG whose texts are a template."""
+    from ballscrew.faces.report.drawing import drawing as drawn
+
+    with units.placeholders() as quantities:
+        picture = drawn(found)
+    return template(picture, quantities)
+
+
 def band(case: case_file.Case, found: bands.BandReport) -> dict[str, Any]:
     """The document of a band, and its sentences as texts and as templates."""
     answered = runs.run(case)

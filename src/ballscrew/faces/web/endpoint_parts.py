@@ -7,7 +7,7 @@ import functools
 import gzip
 import json
 from collections.abc import Callable, Coroutine, Mapping
-from typing import Any
+from typing import Any, TypeVar
 
 from fastapi import Request
 from fastapi.routing import APIRoute
@@ -22,6 +22,8 @@ from ballscrew.faces.web.bodies import CaseBody, case_of, read
 from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import Deadline, RequestQueue
 from ballscrew.questions.run import compute as runs
+
+Answer = TypeVar("Answer")
 
 
 def own_site(request: Request) -> None:
@@ -126,14 +128,19 @@ async def of_body(request: Request, work: Callable[[runs.Run], Response]) -> Res
 
 
 async def of_run(request: Request, tables: Mapping[str, Any], work: Callable[[runs.Run], Response]) -> Response:
+    """Work on the run of a case, cancelled when the client disconnects."""
+    return await cancellable(request, of_tables(queue_of(request), tables, work))
+
+
+async def of_tables(requests: RequestQueue, tables: Mapping[str, Any], work: Callable[[runs.Run], Answer]) -> Answer:
     """Quick work on the run of a case; heavy work where many balls are computed one by one."""
 
-    def quick() -> case_file.Case | Response:
+    def quick() -> tuple[case_file.Case, tuple[Answer, ...]]:
         case = case_of(tables)
         many = limits.balls_of(case) > limits.MANY_BALLS
-        return case if many else work(documents.run_of(case, tables))
+        return case, () if many else (work(documents.run_of(case, tables)),)
 
-    found = await queue_of(request).quick(quick)
-    if isinstance(found, Response):
-        return found
-    return await heavy(request, lambda _: work(documents.run_of(found, tables)))
+    case, answers = await requests.quick(quick)
+    if answers:
+        return answers[0]
+    return await requests.heavy(memory.releasing(lambda _: work(documents.run_of(case, tables))))

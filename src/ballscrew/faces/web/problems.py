@@ -40,16 +40,20 @@ class Refused(Exception):
         self.faults = faults
 
 
-def response(status: int, faults: Sequence[Fault] = ()) -> Response:
-    """The problem as a response: the lines that the command line prints, and each fault by its parts."""
-    content: dict[str, Any] = {
+def document(status: int, faults: Sequence[Fault] = ()) -> dict[str, Any]:
+    """The problem as JSON: the lines that the command line prints, and each fault by its parts."""
+    return {
         "type": "about:blank",
         "title": TITLES.get(status, "The request is refused"),
         "status": status,
         "lines": InputError(*faults).lines(),
         "faults": [_parts(fault) for fault in faults[: 10 * LINES_AT_MOST]],
     }
-    return Response(json.dumps(content), status, _HEADERS.get(status), MEDIA_TYPE)
+
+
+def response(status: int, faults: Sequence[Fault] = ()) -> Response:
+    """The problem as a response."""
+    return Response(json.dumps(document(status, faults)), status, _HEADERS.get(status), MEDIA_TYPE)
 
 
 def _parts(fault: Fault) -> dict[str, str]:
