@@ -8,6 +8,7 @@ declare global {
   type Run = Schemas["Run"];
   type Sweep = Schemas["Sweep"];
   type Checks = Schemas["Checks"];
+  type AnswerLine = Schemas["Line"];
   type Compare = Schemas["Compare"];
   type BandAnswer = Schemas["Band"];
   type DutyAnswer = Schemas["Duty"];

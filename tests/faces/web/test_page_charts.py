@@ -1,5 +1,7 @@
 """Charts of the page: the band of the torque over the speed, and operating points of either sign."""
 
+import json
+
 import pytest
 
 #: A chart as it is drawn: the ends of its axes, its diamond, and its curves by name.
@@ -107,14 +109,21 @@ HELD = "(plot) => [plot._fullLayout, plot._responsiveChartHandler].map((one) => 
 
 def test_a_plot_that_is_taken_away_is_ended(visit):
     """Where its answer fails, and where a place of its name is made anew: nothing keeps its numbers in memory."""
-    here = visit()
-    here.expected = ("status of 422",)
-    here.open()
+    here = visit().open()
     chart(here, "torque-chart")
     plot = here.page.query_selector("#torque-chart .plot")
     assert plot.evaluate(HELD) == [True, True]
     problem = {"title": "too much", "status": 422, "lines": ["too much"], "faults": []}
-    here.page.route("**/api/v1/sweep", lambda route: route.fulfill(status=422, json=problem))
+
+    def refuse(route):
+        """The answers, but for the curve over the speed."""
+        answer = route.fetch()
+        lines = [json.loads(line) for line in answer.text().splitlines()]
+        refused = {"question": "over_speed", "place": 0, "problem": problem}
+        lines = [refused if line["question"] == "over_speed" else line for line in lines]
+        route.fulfill(response=answer, body="".join(f"{json.dumps(line)}\n" for line in lines))
+
+    here.page.route("**/api/v1/answers", refuse)
     here.type("operation.axial_load", "5000")
     here.page.wait_for_selector("#torque-chart > .warning")
     assert plot.evaluate(HELD) == [False, False]

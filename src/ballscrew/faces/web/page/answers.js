@@ -1,4 +1,4 @@
-// Answers of the server for the designs, shown as they come: numbers first, then the charts from the top down.
+// Answers of the server: one request for all designs, whose lines are drawn as they come. Numbers come first.
 
 import * as bath from "./bath.js";
 import * as charts from "./charts.js";
@@ -12,18 +12,12 @@ import { inWords, labelOf } from "./faults.js";
 import { showFailure } from "./plot.js";
 import * as results from "./results.js";
 import { withoutCards } from "./schema.js";
-import { ask, linesOf, Problem, sendJson } from "./server.js";
+import { ask, keep, known, linesOf, Problem, sendJson, sendLines } from "./server.js";
 import { LETTERS } from "./state.js";
 import * as stiffness from "./stiffness.js";
 import * as temperatures from "./temperatures.js";
 import { text } from "./texts.js";
 
-/** Points of a curve and of one side of the map; fewer for a whole nut, which takes longer. */
-const POINTS = { curve: 41, curveOfNut: 15, map: 20, mapOfNut: 10 };
-/** Points of a curve of either sign, one more than a multiple of every step of a band. */
-const POINTS_OF_SIGN = 29;
-/** Digits of a value of an axis: the text of an axis has no room for all. */
-const DIGITS_OF_AXIS = 6;
 /** Every how many points of the curve over the speed have a band: of a screw, and of a whole nut. */
 const STEP_OF_BAND = { screw: 2, nut: 4 };
 const BAND_DELAY = 400;
@@ -85,13 +79,28 @@ export function current() {
 }
 
 /**
+ * What is asked: the case on the page, without what only cards ask about and as a file has it; the designs side by side,
+ * of which those ``beside`` are sent with it, as far as nothing is known of them; and who is told of faults.
+ *
+ * @typedef {object} Question
+ * @property {Body} body
+ * @property {Body} whole
+ * @property {Body[]} designs
+ * @property {Body[]} beside
+ * @property {boolean} band
+ * @property {(faults: FaultLine[]) => results.Refusal} report
+ * @property {number} start
+ * @property {AbortSignal} signal
+ */
+
+/**
  * Show the answer of the current case, and all designs side by side. Requests of the cases before are cancelled.
  *
  * @param {() => Promise<Record<string, unknown>[]>} cases
  * @param {import("./state.js").State} state
  * @param {(faults: FaultLine[]) => results.Refusal} report shows faults beside their fields
  */
-export async function update(cases, { designs, show, band: wanted, own }, report) {
+export async function update(cases, { designs: listed, show, band, own }, report) {
   requests.abort();
   requests = new AbortController();
   const { signal } = requests;
@@ -99,86 +108,237 @@ export async function update(cases, { designs, show, band: wanted, own }, report
   clearTimeout(bandTimer);
   bandRequest.abort();
   checksRequest.abort();
-  /** @type {Body[]} */
-  let bodies = [];
-  displayed.starts = designs.map(titleOf);
+  displayed.starts = listed.map(titleOf);
   byId("results").setAttribute("aria-busy", "true");
   try {
     const found = await cases();
-    bodies = found.map((one) => ({ case: withoutCards(one) }));
     if (signal.aborted) return;
+    const bodies = found.map((one) => ({ case: withoutCards(one) }));
     const body = bodies[show];
-    const whole = { case: found[show] };
-    const key = JSON.stringify(body);
-    /** @type {Run} */
-    const answer = await ask("run", body, signal);
-    if (signal.aborted) return;
-    const { designs: before, starts } = displayed;
-    /** @type {Displayed} */
-    const known = displayed.key === key ? displayed : { band: null, starts };
-    const { checks: checked, band, bandAlongSpeed } = known;
-    displayed = { body, whole, key, answer, checks: checked, band, bandAlongSpeed, designs: before, starts };
-    report([]);
-    results.succeed();
-    if (wanted && !displayed.band) displayed.band = { state: "pending" };
-    results.show(answer, displayed);
-    bath.show(answer);
-    stiffness.show(answer);
-    measurePaint("numbers", start, signal);
-    const checking = showChecks(body, answer);
-    await Promise.all([checking, drawCharts(body, answer, signal, start), showAll(bodies, own, wanted, signal)]);
-    await measurePaint("all", start, signal);
-    if (!signal.aborted) showBand(wanted);
+    const designs = atOnePoint(bodies, own);
+    const beside = designs.filter((one) => !isSame(one, body) && !(known("run", one) && known("check", one)));
+    const asked = { body, whole: { case: found[show] }, designs, beside, band, report, start, signal };
+    try {
+      await follow(asked);
+    } catch (error) {
+      if (signal.aborted) return;
+      const hasFaults = error instanceof Problem && error.faults.length;
+      results.fail(hasFaults ? report(error.faults) : results.refusal(linesOf(error)));
+      await showTable(asked, await others(asked, error));
+    }
   } catch (error) {
-    if (signal.aborted) return;
-    const refusal =
-      error instanceof Problem && error.faults.length ? report(error.faults) : results.refusal(linesOf(error));
-    results.fail(refusal);
-    await showAll(bodies, own, false, signal);
+    if (!signal.aborted) results.fail(results.refusal(linesOf(error)));
   } finally {
     if (!signal.aborted) byId("results").setAttribute("aria-busy", "false");
   }
 }
 
 /**
- * Show the checks of an answer, and the verdict that they lead to. Those that were asked for before are cancelled.
+ * Ask for each design by itself where the case on the page is refused. Returns why designs have no answers.
+ *
+ * @param {Question} asked
+ * @param {unknown} error of the case on the page
+ */
+async function others({ body, beside, signal }, error) {
+  /** @type {Map<Body, unknown>} */
+  const refused = new Map([[body, error]]);
+  for (const one of beside) {
+    try {
+      await ask("run", one, signal);
+      await ask("check", one, signal);
+    } catch (reason) {
+      if (!known("run", one)) refused.set(one, reason);
+    }
+  }
+  return refused;
+}
+
+/**
+ * All designs at the load and the speed of the first one, or each at its own.
+ *
+ * @param {Body[]} bodies
+ * @param {boolean} own
+ */
+function atOnePoint(bodies, own) {
+  const { operation } = bodies[0].case;
+  return own || !operation ? bodies : bodies.map((one) => ({ case: { ...one.case, operation } }));
+}
+
+/**
+ * @param {Body} one
+ * @param {Body} other
+ */
+function isSame(one, other) {
+  return JSON.stringify(one) === JSON.stringify(other);
+}
+
+/**
+ * Ask, and draw each line of the answer as it comes.
+ *
+ * @param {Question} asked
+ */
+async function follow(asked) {
+  const { body, beside, signal, start } = asked;
+  /** Why a design has no answer. @type {Map<Body, unknown>} */
+  const refused = new Map();
+  let waiting = 2 * (1 + beside.length);
+  let isWarm = false;
+  /** @type {Promise<void> | undefined} */
+  let judged;
+  for await (const line of sendLines("answers", { ...body, beside: beside.map((one) => one.case) }, signal)) {
+    if (signal.aborted) return;
+    const { question, place } = line;
+    if (question === "run" || question === "check") {
+      const sent = place ? beside[place - 1] : body;
+      if ("answer" in line) keep(question, sent, line.answer);
+      else if (question === "run") refused.set(sent, new Problem(line.problem));
+      waiting -= refused.has(sent) ? 2 : 1; // what is not run is not checked
+    }
+    if (place === 0) {
+      if (question === "run") showNumbers(/** @type {any} */ (line).answer, asked);
+      else if (question === "check") judged = showChecks(body);
+      else await CHARTS[question](line, asked);
+      isWarm ||= question === "cold_and_hot";
+    }
+    if (signal.aborted) return;
+    if (waiting === 0) {
+      waiting = -1;
+      await showTable(asked, refused);
+    }
+  }
+  await judged;
+  const { answer } = displayed;
+  if (signal.aborted || !answer) return;
+  if (!isWarm) temperatures.leaveOut(answer);
+  await measurePaint("all", start, signal);
+  if (!signal.aborted) showBand(asked.band);
+}
+
+/**
+ * Show the numbers of the case.
+ *
+ * @param {Run} answer
+ * @param {Question} asked
+ */
+function showNumbers(answer, { body, whole, band: wanted, report, start, signal }) {
+  const key = JSON.stringify(body);
+  const { designs, starts } = displayed;
+  /** @type {Displayed} */
+  const before = displayed.key === key ? displayed : { band: null, starts };
+  const { checks: checked, band, bandAlongSpeed } = before;
+  displayed = { body, whole, key, answer, checks: checked, band, bandAlongSpeed, designs, starts };
+  report([]);
+  results.succeed();
+  if (wanted && !displayed.band) displayed.band = { state: "pending" };
+  results.show(answer, displayed);
+  bath.show(answer);
+  stiffness.show(answer);
+  measurePaint("numbers", start, signal);
+}
+
+/**
+ * Show the checks of the case, and the verdict that they lead to: those over its cycle, if it has one. Those that were
+ * asked for before are cancelled.
  *
  * @param {Body} body
- * @param {Run} answer
  */
-async function showChecks(body, answer) {
+async function showChecks(body) {
   checksRequest.abort();
   checksRequest = new AbortController();
   const { signal } = checksRequest;
-  const { whole } = displayed;
+  const { answer, whole } = displayed;
+  if (!answer) return;
   /** @type {checks.Judged | undefined} */
-  let checked;
-  try {
-    checked = whole && isMoving(whole) ? await checksOfCycle(whole, signal) : await checksOf(body, signal);
-  } catch (error) {
+  let checked = known("check", body);
+  if (whole && isMoving(whole)) {
+    try {
+      checked = await checksOfCycle(whole, signal);
+    } catch (error) {
+      if (signal.aborted) return;
+      throw error;
+    }
     if (signal.aborted) return;
-    throw error;
   }
-  if (signal.aborted) return;
   displayed.checks = checked;
   results.show(answer, displayed);
   checks.show(checked, jump);
 }
 
+/** What draws each curve, and the drawing. @type {Record<string, (line: AnswerLine, asked: Question) => Promise<void>>} */
+const CHARTS = {
+  over_speed: async (line, asked) => {
+    await drawn("torque-chart", line, asked, (answer, found) => {
+      displayed.alongSpeed = found;
+      return drawTorque(answer);
+    });
+    measurePaint("chart", asked.start, asked.signal);
+    await drawn("film-chart", line, asked, (answer, found) => curves.film(found, answer));
+  },
+  cold_and_hot: (line, asked) =>
+    drawn("temperatures", line, asked, (answer, found) => {
+      displayed.hotAndCold = found;
+      temperatures.show(found, answer);
+    }),
+  over_both: (line, asked) =>
+    drawn("map-chart", line, asked, (answer, found) => {
+      displayed.everywhere = found;
+      return charts.map(found, answer);
+    }),
+  over_load: (line, asked) =>
+    drawn("pressure-chart", line, asked, (answer, found) => {
+      displayed.alongLoad = found;
+      return curves.pressure(found, answer);
+    }),
+  drawing: (line, asked) =>
+    drawn("drawing", line, asked, (_, found) => {
+      displayed.drawing = found;
+      drawings.show(found);
+    }),
+};
+
 /**
- * The checks of a case, which are quick once it has been run; none where they cannot be computed.
+ * Draw an answer, once what was drawn before is on the screen, or show why there is none.
  *
- * @param {Body} body
- * @param {AbortSignal} signal
- * @returns {Promise<Checks | undefined>}
+ * @param {string} id
+ * @param {AnswerLine} line
+ * @param {Question} asked
+ * @param {(answer: Run, found: any) => unknown} draw
  */
-async function checksOf(body, signal) {
-  try {
-    return await ask("check", body, signal);
-  } catch (error) {
-    if (!(error instanceof Problem)) throw error;
-    return undefined;
+async function drawn(id, line, { signal }, draw) {
+  if ("problem" in line) {
+    showFailure(id, new Problem(line.problem).lines.join("; "));
+    return;
   }
+  await nextTask();
+  if (!signal.aborted && displayed.answer) await draw(displayed.answer, line.answer);
+}
+
+/**
+ * Show all designs side by side, and add their bands where they are wanted.
+ *
+ * @param {Question} asked
+ * @param {Map<Body, unknown>} refused why a design has no answer
+ */
+async function showTable(asked, refused) {
+  const { designs, body, band } = asked;
+  /** @type {import("./compare.js").Answers} */
+  const found = {};
+  for (const [place, one] of designs.entries()) {
+    const sent = isSame(one, body) ? body : one;
+    found[LETTERS[place]] = refused.has(sent)
+      ? { reason: reasonOf(refused.get(sent)) }
+      : { run: known("run", one), ...(designs.length > 1 && { checks: known("check", one) }) };
+  }
+  displayed.designs = found;
+  addBandsOfDesigns = () => addBands(asked);
+  await showDesigns(found, displayed.starts, mechanisms);
+  if (band && designs.length > 1 && !refused.has(body)) addBandsOfDesigns();
+}
+
+/** Why a design has no answer, in words. @param {unknown} error */
+function reasonOf(error) {
+  const [fault] = error instanceof Problem ? error.faults : [];
+  return fault ? `${labelOf(fault.where)}: ${inWords(fault)}` : linesOf(error)[0];
 }
 
 /** True where a case has a cycle, which is judged in place of its operating point. @param {Body} body */
@@ -222,132 +382,6 @@ function nextTask() {
   return new Promise((resolve) => {
     setTimeout(resolve);
   });
-}
-
-/**
- * @param {Body} body
- * @param {Run} answer
- * @param {AbortSignal} signal
- * @param {number} start
- */
-async function drawCharts(body, answer, signal, start) {
-  const { axial_load: load, screw_speed: speed } = /** @type {Record<string, number>} */ (answer.inputs.operation);
-  const isNut = Boolean(answer.loads);
-  const speeds = ends(speed, 200);
-  const chartedLoads = ends(load, 10_000);
-  const parts = Object.keys(answer.results.contributions).map((name) => `contribution_${name}`);
-  const films = isNut ? ["minimum_film_parameter"] : ["screw_film_parameter", "nut_film_parameter"];
-  const pressures = isNut ? ["maximum_pressure"] : ["screw_maximum_pressure", "nut_maximum_pressure"];
-  const side = isNut ? POINTS.mapOfNut : POINTS.map;
-  /** The points of one sign of a curve. @param {[number, number]} range @param {number} count of a curve of one sign */
-  const ofCurve = ([low], count) => (low < 0 ? Math.min(count, POINTS_OF_SIGN) : count);
-  /** The points of one sign on a side of the map. @param {[number, number]} range */
-  const ofSide = ([low]) => (low < 0 ? side / 2 : side);
-  /**
-   * @param {Record<string, string>} vary
-   * @param {string[]} outputs
-   * @returns {Promise<Sweep>}
-   */
-  const sweep = (vary, outputs) => sendJson("sweep", { ...body, vary, outputs }, signal);
-  /**
-   * Draw a chart when its answer comes, or show why it does not.
-   *
-   * @template Answer
-   * @param {string} id
-   * @param {Promise<Answer>} request
-   * @param {(answer: Answer) => unknown} chart
-   */
-  const drawn = async (id, request, chart) => {
-    try {
-      const found = await request;
-      await nextTask();
-      if (!signal.aborted) await chart(found);
-    } catch (error) {
-      if (signal.aborted) return;
-      if (!(error instanceof Problem)) throw error;
-      showFailure(id, error.lines.join("; "));
-    }
-  };
-  const alongSpeed = sweep({ screw_speed: `${along(speeds, 100, ofCurve(speeds, POINTS.curve)).join(", ")} rad/s` }, [
-    "screw_torque",
-    ...parts,
-    ...films,
-  ]);
-  await alongSpeed.catch(() => {});
-  if (signal.aborted) return;
-  // requested while the first chart is drawn
-  /** @type {Promise<Template>} */
-  const drawing = sendJson("drawing/template", body, signal);
-  const loads = isNut ? POINTS.curveOfNut : POINTS.curve;
-  const alongLoad = sweep(
-    { axial_load: `${along(chartedLoads, 50, ofCurve(chartedLoads, loads)).join(", ")} N` },
-    pressures,
-  );
-  const everywhere = sweep(
-    {
-      axial_load: `${along(chartedLoads, 20, ofSide(chartedLoads)).join(", ")} N`,
-      screw_speed: `${along(speeds, 20, ofSide(speeds)).join(", ")} rad/s`,
-    },
-    ["efficiency", "back_driving_efficiency"],
-  );
-  const asked = temperatures.question(answer);
-  const hotAndCold = asked && sweep(asked.vary, asked.outputs);
-  const others = Promise.allSettled([drawing, alongLoad, everywhere, hotAndCold]);
-  await drawn("torque-chart", alongSpeed, (found) => {
-    displayed.alongSpeed = found;
-    return drawTorque(answer);
-  });
-  measurePaint("chart", start, signal);
-  displayed.hotAndCold = undefined;
-  if (!hotAndCold) temperatures.leaveOut(answer);
-  else {
-    await drawn("temperatures", hotAndCold, (found) => {
-      displayed.hotAndCold = found;
-      temperatures.show(found, answer);
-    });
-  }
-  await drawn("map-chart", everywhere, (found) => {
-    displayed.everywhere = found;
-    return charts.map(found, answer);
-  });
-  await drawn("film-chart", alongSpeed, (found) => curves.film(found, answer));
-  await drawn("pressure-chart", alongLoad, (found) => {
-    displayed.alongLoad = found;
-    return curves.pressure(found, answer);
-  });
-  await drawn("drawing", drawing, (found) => {
-    displayed.drawing = found;
-    drawings.show(found);
-  });
-  await others;
-}
-
-/**
- * The ends of a chart around the operating point, in SI: where that is negative, both signs are drawn.
- *
- * @param {number} value
- * @param {number} other the far end where the value is nothing
- * @returns {[number, number]}
- */
-function ends(value, other) {
-  const far = 2 * Math.abs(value) || other;
-  return [value < 0 ? -far : 0, far];
-}
-
-/**
- * Values from a share of the far end to it, and their negatives where the range has both signs: none is nothing.
- *
- * @param {[number, number]} range
- * @param {number} share
- * @param {number} count of one sign
- */
-function along([low, high], share, count) {
-  const found = Array.from(
-    { length: count },
-    (_, place) => high / share + (place * (high - high / share)) / (count - 1),
-  );
-  const rounded = found.map((value) => Number(value.toPrecision(DIGITS_OF_AXIS)));
-  return low < 0 ? [...rounded.map((value) => -value).toReversed(), ...rounded] : rounded;
 }
 
 /** Draw the torque over the speed, with its band where that is there. @param {Run} answer */
@@ -395,7 +429,7 @@ export async function keepWhole(found) {
   const { answer, body, whole } = displayed;
   if (!answer || !body || !(isMoving(whole) || (before && isMoving(before)))) return;
   try {
-    await showChecks(body, answer);
+    await showChecks(body);
   } catch (error) {
     results.fail(results.refusal(linesOf(error)));
   }
@@ -436,6 +470,7 @@ export function showBand(wanted) {
     results.show(answer, displayed);
   };
   if (!wanted) {
+    if (!band && !displayed.bandAlongSpeed) return;
     display(null);
     drawTorque(answer);
     return;
@@ -463,36 +498,6 @@ export function showBand(wanted) {
 }
 
 /**
- * All designs at the load and the speed of the first one, or each at its own.
- *
- * @param {Body[]} bodies
- * @param {boolean} own
- * @param {boolean} withBands
- * @param {AbortSignal} signal
- */
-async function showAll(bodies, own, withBands, signal) {
-  const { operation } = bodies[0]?.case ?? {};
-  /** @type {import("./compare.js").Answers} */
-  const found = {};
-  for (const [place, body] of bodies.entries()) {
-    const at = own || !operation ? body : { case: { ...body.case, operation } };
-    try {
-      found[LETTERS[place]] = { run: await ask("run", at, signal) };
-      if (bodies.length > 1) found[LETTERS[place]].checks = await checksOf(at, signal);
-    } catch (error) {
-      if (signal.aborted) return;
-      const [fault] = error instanceof Problem ? error.faults : [];
-      found[LETTERS[place]] = { reason: fault ? `${labelOf(fault.where)}: ${inWords(fault)}` : linesOf(error)[0] };
-    }
-  }
-  if (signal.aborted) return;
-  displayed.designs = found;
-  addBandsOfDesigns = () => addBands(bodies, own, signal);
-  await showDesigns(found, displayed.starts, mechanisms);
-  if (withBands && bodies.length > 1) addBandsOfDesigns();
-}
-
-/**
  * The bands of the designs side by side, or none of them.
  *
  * @param {boolean} wanted
@@ -508,18 +513,15 @@ export function showBandsOfDesigns(wanted) {
 /**
  * The bands of the designs, one after the other, once typing has come to rest.
  *
- * @param {Body[]} bodies
- * @param {boolean} own
- * @param {AbortSignal} signal
+ * @param {Question} asked
  */
-async function addBands(bodies, own, signal) {
+async function addBands({ designs, signal }) {
   await new Promise((resolve) => setTimeout(resolve, BAND_DELAY));
-  for (const [place, body] of bodies.entries()) {
+  for (const [place, body] of designs.entries()) {
     const one = displayed.designs?.[LETTERS[place]];
     if (signal.aborted || !one?.run || !displayed.band) continue;
-    const { operation } = bodies[0].case;
     try {
-      one.band = await ask("band", own ? body : { case: { ...body.case, operation } }, signal);
+      one.band = await ask("band", body, signal);
     } catch {
       continue; // of this design there is none
     }

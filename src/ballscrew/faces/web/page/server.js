@@ -133,6 +133,40 @@ export async function sendJson(address, body, signal) {
   return (await send(address, body, signal)).json();
 }
 
+/**
+ * The lines of JSON that answer a body, each as it comes.
+ *
+ * @param {string} address
+ * @param {object} body
+ * @param {AbortSignal} signal
+ * @returns {AsyncGenerator<AnswerLine>}
+ */
+export async function* sendLines(address, body, signal) {
+  const response = await send(address, body, signal);
+  let rest = "";
+  for await (const part of parts(response, signal)) {
+    const lines = `${rest}${part}`.split("\n");
+    rest = lines.pop() ?? "";
+    for (const line of lines) yield JSON.parse(line);
+  }
+}
+
+/**
+ * The parts of a text as they come; where they break off, the server is asked until it answers again.
+ *
+ * @param {Response} response
+ * @param {AbortSignal} signal
+ */
+async function* parts(response, signal) {
+  const reader = response.body?.pipeThrough(new TextDecoderStream()).getReader();
+  try {
+    for (let part = await reader?.read(); part && !part.done; part = await reader?.read()) yield part.value;
+  } catch (error) {
+    if (!signal.aborted) waitForServer();
+    throw error;
+  }
+}
+
 /** Most answers that are kept, and most characters of JSON of all of them together. */
 const MOST_KEPT = 50;
 const MOST_CHARACTERS = 20e6;
@@ -149,21 +183,32 @@ let characters = 0;
  * @param {() => Promise<any>} [compute] how it is asked, where not by a request that is waited for
  */
 export async function ask(address, body, signal, compute = () => sendJson(address, body, signal)) {
-  const key = `${address} ${JSON.stringify(body)}`;
-  const known = kept.get(key);
-  if (known) return known[0];
+  const before = known(address, body);
+  if (before) return before;
   const found = await compute();
-  keep(key, found);
+  keep(address, body, found);
   return found;
+}
+
+/**
+ * The answer of an address to a body, if it is kept.
+ *
+ * @param {string} address
+ * @param {object} body
+ */
+export function known(address, body) {
+  return kept.get(`${address} ${JSON.stringify(body)}`)?.[0];
 }
 
 /**
  * Keep an answer in place of the oldest ones; one that is larger than all of them may be is not kept.
  *
- * @param {string} key
+ * @param {string} address
+ * @param {object} body
  * @param {any} answer
  */
-function keep(key, answer) {
+export function keep(address, body, answer) {
+  const key = `${address} ${JSON.stringify(body)}`;
   const size = JSON.stringify(answer).length;
   if (size > MOST_CHARACTERS || kept.has(key)) return;
   kept.set(key, [answer, size]);

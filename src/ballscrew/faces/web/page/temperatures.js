@@ -6,34 +6,6 @@ import { data } from "./results.js";
 import { text } from "./texts.js";
 import * as units from "./units.js";
 
-/** A cold start and a hot machine, K. */
-const COLD = 273.15;
-const HOT = 353.15;
-/** What tells an oil that follows the temperature. */
-const FOLLOWS = ["grade", "oil", "kinematic_viscosity_40"];
-
-/**
- * The axes and outputs to ask for; none where the oil does not follow the temperature.
- *
- * @param {Run} answer
- */
-export function question(answer) {
-  const oil = /** @type {Record<string, any>} */ (answer.inputs.lubricant ?? {});
-  const { axial_load: load, screw_speed: speed } = operationOf(answer);
-  if (!FOLLOWS.some((name) => oil[name] !== undefined) || !load || !speed) return undefined;
-  const now = typeof oil.temperature === "number" ? [oil.temperature] : [];
-  const temperatures = [...new Set([COLD, ...now, HOT])].sort((one, other) => one - other);
-  const constant = replenishmentOf(answer);
-  return {
-    vary: {
-      temperature: `${temperatures.join(", ")} K`,
-      screw_speed: `0, ${speed} rad/s`,
-      ...(constant ? { "inlet.replenishment_constant": `0, ${constant}` } : {}),
-    },
-    outputs: ["screw_torque", "holding_torque"],
-  };
-}
-
 /** How slowly oil flows back into the track; none where it is always full. @param {Run} answer */
 function replenishmentOf(answer) {
   const inlet = /** @type {Record<string, any>} */ (answer.inputs.model).inlet;
