@@ -5,8 +5,9 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
+from ballscrew.basis.quantities import Ratio, Torque, Unit
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
@@ -47,31 +48,40 @@ class Row:
         return tuple(reason for reason, holds in self.result.validity.items() if not holds)
 
 
-class RuleRow(NamedTuple):
-    """A rule of one line on the same screw; NaN where it has no answer."""
+class ComparedRule(NamedTuple):
+    """A rule of one line that people use in place of a model; its numbers are NaN where it has no answer."""
 
+    #: Its short name.
     name: str
+    #: Its name for people.
     title: str
+    #: The rule in one line.
     formula: str
+    #: Where it is stated.
     source: str
-    #: Friction torque of the balls under the load, N m, and over that of the balls of the case, less one.
-    screw_torque: float
-    change: float
-    efficiency: float
-    #: Torque of the balls of the preloaded nut without load, N m, and over that of the balls of the case, less one.
-    drag_torque: float
-    drag_change: float
+    #: Friction torque of the balls under the load.
+    screw_torque: Torque
+    #: Friction torque over that of the balls of the case, less one.
+    change: Ratio
+    #: Efficiency that belongs to the torque.
+    efficiency: Ratio
+    #: Torque of the balls of the preloaded nut without load.
+    drag_torque: Torque
+    #: Torque without load over that of the balls of the case, less one.
+    drag_change: Ratio
 
 
 class OfBalls(NamedTuple):
     """A case without its seals and other losses, of which no rule knows: what the rules are held against."""
 
-    screw_torque: float
-    efficiency: float
-    #: Torque of the preloaded nut without load, N m; NaN without preload.
-    drag_torque: float
-    #: What is left out: the torque of each loss under the load, N m.
-    losses: Mapping[str, float]
+    #: Friction torque under the load.
+    screw_torque: Torque
+    #: Efficiency that belongs to it.
+    efficiency: Ratio
+    #: Torque of the preloaded nut without load; NaN without preload.
+    drag_torque: Torque
+    #: What is left out: the torque of each loss under the load.
+    losses: Annotated[Mapping[str, float], Unit("N m")]
 
 
 class Spread(NamedTuple):
@@ -89,7 +99,7 @@ class Comparison:
     models: Sequence[Row]
     laws: Sequence[Row]
     #: What people use in place of a model; in no spread.
-    rules: Sequence[RuleRow] = ()
+    rules: Sequence[ComparedRule] = ()
     #: Torque of the case's preloaded nut without load, seals and other losses included, N m; NaN without preload.
     drag_torque: float = math.nan
     #: The case without losses beside those of the balls; None where it has none.

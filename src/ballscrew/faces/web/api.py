@@ -55,9 +55,9 @@ from ballscrew.questions.band import compute as bands
 from ballscrew.questions.catalogue import answer as catalogue_answers
 from ballscrew.questions.check import answer as check_answers
 from ballscrew.questions.check.compute import with_nut_named
-from ballscrew.questions.compare import answer as compare_answers
 from ballscrew.questions.compare import document as comparison_documents
 from ballscrew.questions.compare.compute import comparison
+from ballscrew.questions.compare.response import Compare
 from ballscrew.questions.duty import compute as duties
 from ballscrew.questions.duty import document as duty_documents
 from ballscrew.questions.duty.answer import DutyResults
@@ -150,7 +150,7 @@ async def sweep(request: Request) -> Response:
 @router.post(
     "/compare",
     openapi_extra=openapi.body(CaseBody),
-    response_model=compare_answers.Compare,
+    response_model=Compare,
     responses=openapi.problems_of(),
 )
 async def compare(request: Request) -> Response:

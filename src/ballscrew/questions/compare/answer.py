@@ -1,118 +1,142 @@
-"""Response models of the API for a comparison of models, laws and rules."""
+"""A comparison of models, laws and rules, declared once: JSON, its units and its schema follow from the annotations."""
 
 from __future__ import annotations
 
-from typing import Annotated, TypeAlias
+import dataclasses
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any, Literal
 
-from pydantic import Field
-
-from ballscrew.basis.quantities import quantities_of
+from ballscrew.basis.quantities import Info, Ratio, Torque, Unit, quantities_of
 from ballscrew.cases.schema.schema import LAWS
+from ballscrew.engine.evaluation.comparison import ComparedRule, Comparison, OfBalls, Row
+from ballscrew.engine.evaluation.comparison import Spread as TwoRows
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.questions.shared.answer_parts import (
-    Closed,
-    Number,
-    Numbers,
-    Provenance,
-    Record,
-    Tables,
-    field,
-    model,
-    quantities,
-)
+from ballscrew.questions.shared.declared import LEFT_OUT
 
-_COMPARED = ("screw_torque", "efficiency", "back_driving_efficiency", "holding_torque")
+_KNOWN = quantities_of(FrictionResult)
+_Slot: Any = Literal[tuple(LAWS)]
 
 
-class _Row(Closed):
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class ComparedModel:
+    """The case with one model."""
+
+    #: Of the model, or of the law.
     name: str
-    change: Number = Field(description="friction torque over that of the case, less one")
-    contributions: Numbers
-    self_locking: bool
+    screw_torque: Annotated[Torque, _KNOWN["screw_torque"].info]
+    #: Friction torque over that of the case, less one.
+    change: Ratio
+    #: Parts of the friction torque.
+    contributions: Annotated[Mapping[str, float], Unit("N m")]
+    efficiency: Annotated[Ratio, _KNOWN["efficiency"].info]
+    back_driving_efficiency: Annotated[Ratio, _KNOWN["back_driving_efficiency"].info]
+    holding_torque: Annotated[Torque, _KNOWN["holding_torque"].info]
+    self_locking: Annotated[bool, _KNOWN["self_locking"].info]
+    #: True where all conditions of the model hold.
     valid: bool
-    not_valid_because: list[str]
+    #: The conditions that fail.
+    not_valid_because: Sequence[str]
 
 
-ComparedModel = model(
-    "ComparedModel",
-    "The case with one model.",
-    _Row,
-    **quantities({name: quantities_of(FrictionResult)[name] for name in _COMPARED}),
-)
-_Slot: TypeAlias = Annotated[str, Field(json_schema_extra={"enum": list(LAWS)})]
-ComparedLaw = model(
-    "ComparedLaw",
-    "The case with another law in one slot.",
-    ComparedModel,
-    slot=(_Slot, ...),
-    counts=(bool, field("false for a printed form that breaks a balance: it is in no spread")),
-)
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class ComparedLaw(ComparedModel):
+    """The case with another law in one slot."""
+
+    #: The slot of the law.
+    slot: _Slot  # pyright: ignore[reportInvalidTypeForm]  (known at run time)
+    #: False for a printed form that breaks a balance: it is in no spread.
+    counts: bool
 
 
-class ComparedRule(Closed):
-    """A rule of one line that people use in place of a model."""
-
-    name: str
-    title: str
-    formula: str
-    source: str
-    screw_torque: Number = Field(
-        description="friction torque of the balls under the load, N m; null where the rule has no answer"
-    )
-    change: Number = Field(description="friction torque over that of the balls of the case, less one")
-    efficiency: Number
-    drag_torque: Number = Field(description="torque of the balls of the preloaded nut without load, N m")
-    drag_change: Number = Field(description="torque without load over that of the balls of the case, less one")
-
-
-class OfBalls(Closed):
-    """The case without its seals and other losses, of which no rule knows: what the rules are held against."""
-
-    screw_torque: Number = Field(description="friction torque under the load, N m")
-    efficiency: Number
-    drag_torque: Number = Field(description="torque of the preloaded nut without load, N m")
-    losses: dict[str, Number] = Field(description="what is left out, N m")
-
-
-class SpreadEnd(Closed):
+@dataclasses.dataclass(frozen=True)
+class SpreadEnd:
     """The least or the greatest torque of some models or laws."""
 
-    slot: _Slot | None
+    #: The slot of the law; null of a model.
+    slot: _Slot | None  # pyright: ignore[reportInvalidTypeForm]  (known at run time)
+    #: Of the model, or of the law.
     name: str
-    screw_torque: Number
+    screw_torque: Annotated[Torque, _KNOWN["screw_torque"].info]
 
 
-class Ends(Closed):
+@dataclasses.dataclass(frozen=True)
+class Ends:
     """Least and greatest torque."""
 
+    #: The least.
     least: SpreadEnd
+    #: The greatest.
     greatest: SpreadEnd
 
 
-class Spread(Closed):
+@dataclasses.dataclass(frozen=True)
+class Spread:
     """Spread of the torque over models and over laws."""
 
+    #: Over all models; null where none has a torque.
     models: Ends | None
+    #: Over the laws that count and are valid here; null where none is.
     valid_laws: Ends | None
-    change_by_slot: dict[str, list[Number]]
+    #: Changes of the torque by the laws of each slot: the ends.
+    change_by_slot: Annotated[Mapping[str, Sequence[float]], Unit("1")]
 
 
-class Compare(Closed):
+@dataclasses.dataclass(frozen=True, eq=False)
+class Compared:
     """All models and all laws side by side."""
 
-    inputs: Tables
-    case: ComparedModel  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
-    models: list[ComparedModel]  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
-    laws: list[ComparedLaw]  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
-    rules: list[ComparedRule]
-    drag_torque: Number = Field(
-        description="torque of the case's preloaded nut without load, seals and other losses included, N m"
-    )
-    of_balls: OfBalls = field(optional=True)
+    #: The case with its own model.
+    case: ComparedModel
+    #: The case with each model.
+    models: Sequence[ComparedModel]
+    #: The model of the case with another law in one slot.
+    laws: Sequence[ComparedLaw]
+    #: How far models and laws are apart.
     spread: Spread
-    units: dict[str, str]
-    reasons: dict[str, str]
-    verdicts: list[Record] = field(optional=True)
-    checks: list[Record] = field(optional=True)
-    warnings: list[Record] = field(optional=True)
-    provenance: Provenance
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ByRules:
+    """The torque by rules of one line, and what they are held against."""
+
+    #: What people use in place of a model; in no spread.
+    rules: Sequence[ComparedRule]
+    drag_torque: Annotated[
+        Torque, Info("M_d", "torque of the case's preloaded nut without load, seals and other losses included")
+    ]
+    #: The case without its seals and other losses: what the rules are held against.
+    of_balls: Annotated[OfBalls | None, LEFT_OUT]
+
+
+def compared(found: Comparison) -> Compared:
+    """A comparison as it is answered."""
+    return Compared(
+        case=ComparedModel(**_numbers(found.case)),
+        models=[ComparedModel(**_numbers(row)) for row in found.models],
+        laws=[ComparedLaw(**_numbers(row), slot=row.candidate.slot, counts=row.candidate.counts) for row in found.laws],
+        spread=Spread(_ends(found.spread_of_models), _ends(found.spread_of_laws), found.spans),
+    )
+
+
+def by_rules(found: Comparison) -> ByRules:
+    """The rules of a comparison as they are answered."""
+    return ByRules(found.rules, found.drag_torque, found.of_balls)
+
+
+def _numbers(row: Row) -> dict[str, Any]:
+    """The fields of :class:`ComparedModel`."""
+    of_result = ("screw_torque", "efficiency", "back_driving_efficiency", "holding_torque", "self_locking")
+    return {
+        "name": row.candidate.name,
+        "change": row.change,
+        "contributions": row.result.contributions,
+        **{name: getattr(row.result, name) for name in of_result},
+        "valid": not row.outside,
+        "not_valid_because": row.outside,
+    }
+
+
+def _ends(spread: TwoRows | None) -> Ends | None:
+    if spread is None:
+        return None
+    return Ends(*(SpreadEnd(row.candidate.slot or None, row.candidate.name, row.torque) for row in spread))

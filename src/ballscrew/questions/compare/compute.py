@@ -10,7 +10,7 @@ from typing import Any
 from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.schema.schema import LAWS, MODELS, coefficients_of, name_of_law
-from ballscrew.engine.evaluation.comparison import Candidate, Comparison, OfBalls, Row, RuleRow, compare, same_law
+from ballscrew.engine.evaluation.comparison import Candidate, ComparedRule, Comparison, OfBalls, Row, compare, same_law
 from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.sizing.rules import RULES, Estimate, Subject
 from ballscrew.physics.solvers.load_distribution import preload_of
@@ -99,15 +99,15 @@ def subject_of(case: case_file.Case) -> Subject:
     )
 
 
-def _rules(case: case_file.Case, balls: OfBalls) -> list[RuleRow]:
+def _rules(case: case_file.Case, balls: OfBalls) -> list[ComparedRule]:
     """The rules of one line on the screw of the case, beside the torques of the balls of its model."""
     subject = subject_of(case)
-    rows: list[RuleRow] = []
+    rows: list[ComparedRule] = []
     for rule in RULES.values():
         found = rule.estimate(subject)
         friction, idle = float(found.screw_torque), float(found.drag_torque)
         rows.append(
-            RuleRow(
+            ComparedRule(
                 rule.name, rule.title, rule.formula, rule.source, friction, _change(friction, balls.screw_torque),
                 found.efficiency(subject.ideal_torque), idle, _change(idle, balls.drag_torque),
             )

@@ -10,10 +10,14 @@ from ballscrew.basis import units
 from ballscrew.basis.records import Record, documents
 from ballscrew.basis.version import __version__
 from ballscrew.cases.case_files import case_file
-from ballscrew.engine.evaluation.comparison import Comparison, Row, Spread
+from ballscrew.engine.evaluation.comparison import ComparedRule, Comparison, OfBalls, Row, Spread
 from ballscrew.physics.friction.validity import NUT_REASONS
+from ballscrew.questions.compare.answer import ComparedLaw, by_rules, compared
+from ballscrew.questions.shared import declared
 
 _TORQUE = "screw_torque"
+#: The units of the numbers by their names, which are the same in all rows.
+_UNITS = {name: unit for cls in (ComparedLaw, ComparedRule, OfBalls) for name, unit in declared.units_of(cls).items()}
 #: Components named in the verdict on what changes the torque most, and the least change that is shown.
 _MOST_SHOWN, LEAST_SHOWN = 3, 0.005
 
@@ -23,54 +27,20 @@ def document(case: case_file.Case, found: Comparison) -> dict[str, Any]:
     failing = {reason for row in found.rows for reason in row.outside}
     return {
         "inputs": case_file.inputs(case),
-        "case": _row(found.case),
-        "models": [_row(row) for row in found.models],
-        "laws": [{"slot": row.candidate.slot, **_row(row), "counts": row.candidate.counts} for row in found.laws],
-        "spread": {
-            "models": _ends(found.spread_of_models),
-            "valid_laws": _ends(found.spread_of_laws),
-            "change_by_slot": {slot: list(span) for slot, span in found.spans.items()},
-        },
-        "units": {"screw_torque": "N m", "contributions": "N m", "holding_torque": "N m", "drag_torque": "N m"},
+        **declared.document(compared(found)),
+        "units": dict(_UNITS),
         "reasons": {reason: text for reason, text in NUT_REASONS.items() if reason in failing},
         "verdicts": documents(verdicts(found)),
         "checks": [],
         "warnings": documents(warnings(case, found)),
         "provenance": {"version": __version__, "model": case.model.label, "references": case_file.references(case)},
-        "rules": [rule._asdict() for rule in found.rules],
-        "drag_torque": found.drag_torque,
-        **({} if found.of_balls is None else {"of_balls": found.of_balls._asdict()}),
+        **declared.document(by_rules(found)),
     }
 
 
 def warnings(case: case_file.Case, found: Comparison) -> list[Record]:
     """The warnings of the case itself."""
     return [*units.in_display_units_of(found.case.result.warning_records), *case.doubts]
-
-
-def _row(row: Row) -> dict[str, Any]:
-    r = row.result
-    return {
-        "name": row.candidate.name,
-        "screw_torque": r.screw_torque,
-        "change": row.change,
-        "contributions": dict(r.contributions),
-        "efficiency": r.efficiency,
-        "back_driving_efficiency": r.back_driving_efficiency,
-        "holding_torque": float(row.result.holding_torque),
-        "self_locking": bool(row.result.self_locking),
-        "valid": not row.outside,
-        "not_valid_because": list(row.outside),
-    }
-
-
-def _ends(spread: Spread | None) -> dict[str, Any] | None:
-    if spread is None:
-        return None
-    return {
-        end: {"slot": row.candidate.slot or None, "name": row.candidate.name, "screw_torque": row.torque}
-        for end, row in zip(("least", "greatest"), spread, strict=True)
-    }
 
 
 def verdicts(found: Comparison) -> list[Record]:
