@@ -17,7 +17,7 @@ def write(folder: Path) -> None:
     """Output of ``ballscrew sensitivity examples/feed_drive.toml``, and its figure with ``--to``."""
     folder.mkdir(parents=True, exist_ok=True)
     case = case_file.load(EXAMPLE)
-    report = sensitivity.sensitivity(case, sensitivity.Options())
+    report = sensitivity.sensitivity(case, sensitivity.SensitivityOptions())
     said = io.StringIO()
     with contextlib.redirect_stdout(said):
         text.print_sensitivity(case, report)

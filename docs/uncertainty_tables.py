@@ -42,7 +42,7 @@ def write(folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     case = case_file.load(EXAMPLES / "feed_drive.toml")
     with charts.house_style():
-        options = band.Options()
+        options = band.BandOptions()
         report = band.band(case, options)
         charts.save_as(figures.picture(case, report, band.curve(case, report, options)), folder / "band.svg", "svg")
     (folder / "assumed.md").write_text(assumed_table(), encoding="utf-8")
@@ -107,7 +107,7 @@ def coverage(model: FrictionModel, name: str) -> list[Covered]:
     """The rows of a set against the bands of a model at their conditions, without load."""
     found: list[Covered] = []
     for values, nut, stated in _rows(name):
-        of_row = band.band(_case(model, values, nut), band.Options(samples=SAMPLES)).band["screw_torque"]
+        of_row = band.band(_case(model, values, nut), band.BandOptions(samples=SAMPLES)).band["screw_torque"]
         low, high = of_row.both
         places = ("below" if one < low else "above" if one > high else "in" for one in stated)
         found.append(Covered(tuple(places), (high - low) / of_row.median))

@@ -81,7 +81,7 @@ def test_what_friction_holds_in_motion_alone_is_no_self_locking():
 
 def test_the_band_says_where_the_full_bath_lies():
     case = case_with()
-    report = band.band(case, band.Options(samples=2, only_given=True))
+    report = band.band(case, band.BandOptions(samples=2, only_given=True))
     found = {record.id: record for record in band_documents.verdicts(case, report)}["band.flooded"]
     assert found.value == run(case).friction.flooded_torque
     assert found.limit == report.band["screw_torque"].both.high < found.value  # nothing is uncertain here

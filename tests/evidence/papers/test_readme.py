@@ -8,7 +8,8 @@ import pytest
 
 from ballscrew.cases.case_files import case_file
 from ballscrew.physics.components.materials import TEMPERATURE
-from ballscrew.questions.sensitivity.compute import Options, sensitivity
+from ballscrew.questions.sensitivity.compute import sensitivity
+from ballscrew.questions.sensitivity.options import SensitivityOptions
 
 ROOT = Path(__file__).parents[3]
 
@@ -80,7 +81,7 @@ def test_the_comparison_with_vendors_is_up_to_date(make_readme, text):
 def test_the_inputs_said_to_move_the_torque_most_are_those_of_the_command(text):
     """In the order of ``ballscrew sensitivity examples/feed_drive.toml``; two of them are about as large."""
     case = case_file.load(ROOT / "examples" / "feed_drive.toml")
-    total = sensitivity(case, Options(samples=256)).result.total
+    total = sensitivity(case, SensitivityOptions(samples=256)).result.total
     shares = {name.rpartition(".")[2]: one.value for name, one in total.items()}
     first, *next_two, fourth = sorted(shares, key=shares.__getitem__, reverse=True)[:4]
     assert first == "share_of_load"

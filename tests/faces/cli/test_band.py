@@ -113,7 +113,7 @@ def test_run_and_report_say_so(example, ballscrew):
     process = ballscrew("run", vertical, "--band", "--samples", "256")
     (line,) = [line for line in process.stdout.splitlines() if "below the" in line]
     case = case_file.load(vertical)
-    report = band.band(case, band.Options(samples=256))
+    report = band.band(case, band.BandOptions(samples=256))
     torque = report.band["screw_torque"]
     assert torque.both.high < torque.parameters.high
     assert line.endswith(f"for a motor take {to_digits(torque.parameters.high, toward=1)} N m")
@@ -228,7 +228,7 @@ def test_pictures(kind, drive, ballscrew, tmp_path):
 )
 def test_what_a_picture_says(settings, axis, drive):
     case = case_file.load(drive, settings)
-    options = band.Options(samples=64)
+    options = band.BandOptions(samples=64)
     with charts.house_style():
         report = band.band(case, options)
         figure = figures.picture(case, report, band.curve(case, report, options))
@@ -327,9 +327,11 @@ def test_a_fit_is_drawn_with_its_correlation(example, tmp_path, ballscrew):
     assert joint.names == ("friction.boundary_friction_coefficient", "viscosity")
     alone = fitted(example, tmp_path, FIT.partition("[calibration]")[0])
     case = case_file.load(alone)
-    independent = band.band(case, band.Options(samples=1024, only_given=True)).band["screw_torque"].parameters
+    independent = band.band(case, band.BandOptions(samples=1024, only_given=True)).band["screw_torque"].parameters
     path = fitted(example, tmp_path)
-    found = band.band(case_file.load(path), band.Options(samples=1024, only_given=True)).band["screw_torque"].parameters
+    found = (
+        band.band(case_file.load(path), band.BandOptions(samples=1024, only_given=True)).band["screw_torque"].parameters
+    )
     assert found.high - found.low < 0.9 * (independent.high - independent.low)
     assert "friction" not in {law.slot for law in band.alternatives(case_file.load(path))}
     assert ballscrew("run", path).returncode == 0

@@ -37,11 +37,11 @@ def case():
 
 @pytest.fixture(scope="module", params=["sobol", "morris", "local"])
 def found(request, case):
-    return compute.sensitivity(case, compute.Options(method=request.param))
+    return compute.sensitivity(case, compute.SensitivityOptions(method=request.param))
 
 
 def of_method(case, method, **asked):
-    return compute.sensitivity(case, compute.Options(method=method, **asked))
+    return compute.sensitivity(case, compute.SensitivityOptions(method=method, **asked))
 
 
 # -- what is varied -------------------------------------------------------------------------------
@@ -282,7 +282,7 @@ def test_bad_input(options, line, ballscrew, example, tmp_path):
 )
 def test_faults_name_the_option(asked, line, case):
     with pytest.raises(InputError) as caught:
-        compute.sensitivity(case, compute.Options(**asked))
+        compute.sensitivity(case, compute.SensitivityOptions(**asked))
     assert caught.value.lines() == [line]
 
 

@@ -12,13 +12,13 @@ import xarray as xr
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
 from ballscrew.questions.band import compute as band
-from ballscrew.questions.band.compute import Options
+from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.sweep import compute as sweep
 from ballscrew.questions.sweep.band import with_band
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 DRIVE = EXAMPLES / "feed_drive.toml"
-OPTIONS = Options(samples=256)
+OPTIONS = BandOptions(samples=256)
 
 
 def swept(case, vary, outputs=("screw_torque", "efficiency"), options=OPTIONS, done=None):
@@ -100,10 +100,10 @@ def test_points_that_cannot_be_have_no_band_and_the_samples_are_counted():
 
 def test_nothing_uncertain_is_a_band_of_other_laws_alone():
     case = case_file.load(DRIVE)
-    alone = swept(case, ["screw_speed=100, 600 rpm"], options=Options(samples=256, only_given=True))
+    alone = swept(case, ["screw_speed=100, 600 rpm"], options=BandOptions(samples=256, only_given=True))
     for place, speed in enumerate((100, 600)):
         there = case_file.load(DRIVE, [f"operation.screw_speed={speed} rpm"])
-        one = band.band(there, Options(samples=256, only_given=True)).band["screw_torque"]
+        one = band.band(there, BandOptions(samples=256, only_given=True)).band["screw_torque"]
         assert [float(alone[f"screw_torque_{end}"][place]) for end in ("low", "high")] == pytest.approx(list(one.both))
 
 
@@ -148,4 +148,4 @@ def test_what_has_no_band_is_said(options, said, ballscrew, tmp_path):
 
 def test_options_of_a_band_are_checked_before_it():
     with pytest.raises(InputError, match=r"^--samples"):
-        swept(case_file.load(DRIVE), ["screw_speed=100, 200 rpm"], options=Options(samples=1))
+        swept(case_file.load(DRIVE), ["screw_speed=100, 200 rpm"], options=BandOptions(samples=1))

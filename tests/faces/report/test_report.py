@@ -196,7 +196,7 @@ def structure_of(reader):
 def test_the_numbers_are_those_of_the_program(pdf, page):
     found = run(case_of("catalogue_screw"))
     result = found.friction
-    bands = band.band(case_of("catalogue_screw"), band.Options(samples=SAMPLES)).band
+    bands = band.band(case_of("catalogue_screw"), band.BandOptions(samples=SAMPLES)).band
     torque = banded(float(result.screw_torque), *bands["screw_torque"].both, _TORQUE)
     share = banded_share(float(result.efficiency), *bands["efficiency"].both)
     said = [
@@ -212,7 +212,7 @@ def test_the_numbers_are_those_of_the_program(pdf, page):
 
 def test_it_says_how_far_off_it_may_be_and_why(pdf, page):
     case = case_of("catalogue_screw")
-    found = band.band(case, band.Options(samples=SAMPLES))
+    found = band.band(case, band.BandOptions(samples=SAMPLES))
     torque = found.band["screw_torque"]
     low, high = units.ends(*torque.both, _TORQUE)
     for words in (text_of(pdf), page.words):

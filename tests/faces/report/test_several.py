@@ -38,7 +38,7 @@ def test_each_column_is_what_the_design_has_by_itself(content):
     for place, name in enumerate(NAMES, start=1):
         case = case_of(name)
         value = float(run(case).friction.screw_torque)
-        both = band.band(case, band.Options(samples=SAMPLES)).band["screw_torque"].both
+        both = band.band(case, band.BandOptions(samples=SAMPLES)).band["screw_torque"].both
         said = banded(value, *both, _TORQUE)
         change = "" if place == 1 else f", {value / first - 1:+.0%}"
         assert torque[place] == f"{said.value} ({said.interval}){change}"

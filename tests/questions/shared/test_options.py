@@ -13,24 +13,66 @@ from typer.testing import CliRunner
 
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.faces.cli import condition, fit, service
+from ballscrew.faces.cli import (
+    condition,
+    duty,
+    fit,
+    hand_over,
+    optimise,
+    run,
+    select,
+    sensitivity,
+    service,
+    sweep,
+    warm_up,
+)
 from ballscrew.faces.cli.flags import flags_of
-from ballscrew.faces.web.log_bodies import FitBody, ServiceBody
+from ballscrew.faces.web.bodies import BandBody, NeedBody, SweepBody, WarmUpBody
+from ballscrew.faces.web.log_bodies import FitBody, HandOverBody, ServiceBody
 from ballscrew.faces.web.vocabulary import OPTIONS, vocabulary
+from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.condition.options import ConditionOptions
+from ballscrew.questions.duty.options import DutyOptions
 from ballscrew.questions.fit.options import FitOptions
 from ballscrew.questions.fit_motion.options import FitMotionOptions
+from ballscrew.questions.hand_over.options import HandOverOptions
+from ballscrew.questions.optimise.options import OptimiseOptions
+from ballscrew.questions.select.options import ListOptions, SelectOptions
+from ballscrew.questions.sensitivity.options import SensitivityOptions
 from ballscrew.questions.service.options import ReadingOptions, ServiceOptions
 from ballscrew.questions.shared.option_values import read
 from ballscrew.questions.shared.options import Option, Range, body_fields, options_of, vocabulary_of
+from ballscrew.questions.sweep.options import SweepOptions
+from ballscrew.questions.warm_up.options import DriftOptions, WarmUpOptions
 
 #: The classes of options of each command.
 COMMANDS = {
-    fit.fit: (FitOptions, FitMotionOptions),
-    service.service: (ServiceOptions, ReadingOptions),
     condition.condition: (ConditionOptions,),
+    duty.duty: (DutyOptions,),
+    fit.fit: (FitOptions, FitMotionOptions),
+    hand_over.hand_over: (HandOverOptions,),
+    optimise.optimise: (OptimiseOptions,),
+    run.run: (BandOptions,),
+    select.select: (SelectOptions, ListOptions),
+    sensitivity.sensitivity: (SensitivityOptions,),
+    service.service: (ServiceOptions, ReadingOptions),
+    sweep.sweep: (SweepOptions,),
+    warm_up.warm_up: (WarmUpOptions, DriftOptions),
 }
-BODIES = {"fit": FitBody, "service": ServiceBody}
+#: The body of the API for the options of a question.
+BODIES = {
+    BandOptions: BandBody,
+    FitOptions: FitBody,
+    HandOverOptions: HandOverBody,
+    SelectOptions: NeedBody,
+    ServiceOptions: ServiceBody,
+    SweepOptions: SweepBody,
+    WarmUpOptions: WarmUpBody,
+}
+
+
+def named(one):
+    return one.__name__
 
 
 def flags(command):
@@ -40,7 +82,7 @@ def flags(command):
     return {one.default: one.help for one in found if isinstance(one, typer.models.OptionInfo)}
 
 
-@pytest.mark.parametrize("command", COMMANDS, ids=lambda command: command.__name__)
+@pytest.mark.parametrize("command", COMMANDS, ids=named)
 def test_every_option_is_a_flag(command):
     """Also in the help; of an option that two classes have, the first one says what it means."""
     said = flags(command)
@@ -51,20 +93,28 @@ def test_every_option_is_a_flag(command):
     assert meanings.items() <= said.items()
 
 
+@pytest.mark.parametrize("cls", BODIES, ids=named)
+def test_every_option_is_in_the_api(cls):
+    schema = BODIES[cls].model_json_schema()["properties"]
+    for name, option in options_of(cls).items():
+        assert schema[name]["description"] == option.option.meaning
+        assert schema[name].get("x-si-unit") == (option.option.unit or None)
+
+
 @pytest.mark.parametrize("question", OPTIONS)
-def test_every_option_is_in_the_api_and_on_the_page(question):
+def test_every_option_is_on_the_page(question):
+    """Which draws a field for each."""
     options = options_of(OPTIONS[question])
-    schema = BODIES[question].model_json_schema()["properties"]
     fields = {one["name"]: one for one in vocabulary()["options"][question]}
     assert fields.keys() == options.keys()
+    assert OPTIONS[question] in BODIES
     for name, option in options.items():
-        assert schema[name]["description"] == fields[name]["meaning"] == option.option.meaning
-        assert schema[name].get("x-si-unit") == fields[name]["unit"] == (option.option.unit or None)
+        assert fields[name]["meaning"] == option.option.meaning
+        assert fields[name]["unit"] == (option.option.unit or None)
         assert fields[name]["flag"] == option.flag
-    assert OPTIONS.keys() == BODIES.keys()
 
 
-@pytest.mark.parametrize("cls", {cls for classes in COMMANDS.values() for cls in classes}, ids=lambda cls: cls.__name__)
+@pytest.mark.parametrize("cls", [cls for classes in COMMANDS.values() for cls in classes], ids=named)
 def test_nothing_written_is_the_default(cls):
     assert read(cls, {}) == cls()
     assert read(cls, {name: option.written_default for name, option in options_of(cls).items()}) == cls()
@@ -84,19 +134,23 @@ class Every:
     count: Annotated[int | None, Option("Of counts.")] = None
     text: Annotated[str | None, Option("Of text.")] = None
     switch: Annotated[bool, Option("Of switches.")] = False
+    table: Annotated[Sequence[str], Option("Of tables.", is_table=True)] = ()
 
 
 VALUES = Every(
     names=["two", "three"], ranges={"x": (0.001, 0.002)}, texts={"a": "b = c"}, choice="b", length=0.002, warmer=2.0,
     share=0.25, count=3, text="t", switch=True,
+    table=["x=1:2", "x=3"],
 )  # fmt: skip
 TYPED = [
     "--names", "two, three", "--ranges", "x=1:2 mm", "--texts", "a=b = c", "--choice", "b", "-l", "2 mm",
     "--warmer", "2 K", "--share", "0.25", "--count", "3", "--text", "t", "--switch",
+    "--table", "x=1:2", "--table", "x=3",
 ]  # fmt: skip
 SENT = {
     "names": ["two", "three"], "ranges": {"x": "1:2 mm"}, "texts": {"a": "b = c"}, "choice": "b", "length": "2 mm",
     "warmer": "2 K", "share": 0.25, "count": 3, "text": "t", "switch": True,
+    "table": {"x": "1:2", "y": "3"},
 }  # fmt: skip
 
 
@@ -119,13 +173,13 @@ def test_every_kind_on_the_command_line():
     assert CliRunner().invoke(app, ["case"]).exit_code == 0
     assert given == [("case", VALUES, True), ("case", Every(), False)]
     shown = CliRunner().invoke(app, ["--help"]).output
-    assert [option.option.meaning in shown for option in options_of(Every).values()] == [True] * 10
+    assert [option.option.meaning in shown for option in options_of(Every).values()] == [True] * 11
     assert "[default: 0.5]" in shown
 
 
 def test_every_kind_in_a_body():
     body = pydantic.create_model("Body", **body_fields(Every))
-    assert read(Every, dict(body(**SENT)), lengths) == VALUES
+    assert read(Every, dict(body(**SENT)), lengths) == dataclasses.replace(VALUES, table=["x=1:2", "y=3"])
     assert read(Every, dict(body()), lengths) == Every()
     with pytest.raises(pydantic.ValidationError):
         body(switch="yes")
@@ -134,6 +188,7 @@ def test_every_kind_in_a_body():
     assert {one["name"]: one["kind"] for one in vocabulary_of(Every)} == {
         "names": "names", "ranges": "ranges", "texts": "texts", "choice": "choice", "length": "quantity",
         "warmer": "quantity", "share": "number", "count": "whole", "text": "text", "switch": "switch",
+        "table": "texts",
     }  # fmt: skip
 
 

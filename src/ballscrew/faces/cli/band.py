@@ -13,11 +13,12 @@ from ballscrew.cases.case_files.case_file import Case
 from ballscrew.questions.band import compute as band
 from ballscrew.questions.band import document as documents
 from ballscrew.questions.band import text
+from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.run.compute import run as run_case
 from ballscrew.questions.shared import chart_files as files
 
 
-def check(wanted: bool, options: band.Options, to: Path | None, self_heating: bool) -> None:
+def check(wanted: bool, options: BandOptions, to: Path | None, self_heating: bool) -> None:
     """Raise :class:`~ballscrew.basis.errors.InputError` for options without a band, and a picture that cannot be."""
     given = {
         "--samples": options.samples,
@@ -40,7 +41,7 @@ def check(wanted: bool, options: band.Options, to: Path | None, self_heating: bo
         files.check_picture(to)
 
 
-def run_warm(case: Case, options: band.Options, as_json: bool, done: Callable[[int, int], None]) -> None:
+def run_warm(case: Case, options: BandOptions, as_json: bool, done: Callable[[int, int], None]) -> None:
     """The band of a case as warm as it makes itself: temperature and preload by samples of its surroundings."""
     from ballscrew.basis.output.wrapping import wrapped
     from ballscrew.questions.band.heat_samples import heat_samples
@@ -57,7 +58,7 @@ def run_warm(case: Case, options: band.Options, as_json: bool, done: Callable[[i
         text.print_band(heating.warm, report)
 
 
-def run(case: Case, options: band.Options, to: Path | None, as_json: bool, done: Callable[[int, int], None]) -> None:
+def run(case: Case, options: BandOptions, to: Path | None, as_json: bool, done: Callable[[int, int], None]) -> None:
     """Compute the band of a case, print it, and draw it where that is asked for."""
     report = band.band(case, options, done)
     if as_json:

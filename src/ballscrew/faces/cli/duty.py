@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName
+from ballscrew.faces.cli.flags import flags_of
+from ballscrew.questions.duty.options import DutyOptions
 
 if TYPE_CHECKING:
     from ballscrew.questions.duty.band import DutyBandReport
@@ -17,6 +20,7 @@ if TYPE_CHECKING:
 _TO = "--to"
 
 
+@flags_of(DutyOptions)
 def duty(
     case: CaseFile,
     model: ModelName = None,
@@ -38,13 +42,8 @@ def duty(
             "--trace", metavar="FILE", help="A recorded motion in place of [motion]: time, position or speed, force."
         ),
     ] = None,
-    band: Annotated[
-        bool, typer.Option("--band", help="How far off torques and energies may be, by uncertain inputs.")
-    ] = False,
-    samples: Annotated[int | None, typer.Option("--samples", metavar="N", help="With --band: samples, 1024.")] = None,
-    only_given: Annotated[
-        bool, typer.Option("--only-given", help="With --band: only what the file says is uncertain.")
-    ] = False,
+    *,
+    written: Mapping[str, Any],
     allow_code: AllowCode = False,
 ) -> None:
     """Torque of the motor over a cycle, and what follows: RMS and peak, energy, life, brake, motor.
@@ -58,6 +57,7 @@ def duty(
     from ballscrew.questions.duty import document as documents
     from ballscrew.questions.shared import chart_files as files
     from ballscrew.questions.shared import row_tables
+    from ballscrew.questions.shared.option_values import read
 
     tables = case_file.override(case_file.read(case), settings or [])
     if trace is not None:
@@ -72,7 +72,8 @@ def duty(
         else:
             files.check_picture(path, _TO)
     report = compute.duty(loaded)
-    bands = _banded(report, samples, only_given) if band or only_given or samples is not None else None
+    options = read(DutyOptions, written)
+    bands = _banded(report, options) if options.is_banded else None
     if as_json:
         typer.echo(json_text(documents.document(report) if bands is None else documents.with_band(bands)))
     else:
@@ -91,12 +92,12 @@ def duty(
         typer.echo(f"{path}: {len(report.duty.states.time)} states", err=as_json)
 
 
-def _banded(report: DutyReport, samples: int | None, only_given: bool) -> DutyBandReport:
+def _banded(report: DutyReport, options: DutyOptions) -> DutyBandReport:
     from ballscrew.faces.cli.progress import progress
     from ballscrew.questions.duty import band as duty_band  # loads xarray
 
     with progress("band") as done:
-        return duty_band.band(report, samples, only_given=only_given, done=done)
+        return duty_band.band(report, options.samples, only_given=options.only_given, done=done)
 
 
 def _check_kinds(to: list[Path]) -> None:

@@ -53,11 +53,8 @@ def fit_moving(
 def _check_unused(written: Mapping[str, Any], to: Path | None) -> None:
     """Raise :class:`~ballscrew.basis.errors.InputError` for options of logs of torques alone."""
     of_motion = options_of(FitMotionOptions)
-    unused = [
-        option.flag
-        for name, option in options_of(FitOptions).items()
-        if name not in of_motion and written[name] not in (None, [], option.written_default)
-    ]
+    others = {name: one for name, one in options_of(FitOptions).items() if name not in of_motion}
+    unused = [one.flag for one in others.values() if one.is_given(written)]
     remedy = "leave it out: the log is of a motion, not of torques at steady speed"
     raise_if_any(
         [

@@ -50,7 +50,8 @@ def _flag(option: OptionField) -> inspect.Parameter:
     said, default = option.option, option.written_default
     names = [option.flag, *([said.short] if said.short else [])]
     kind: Any = list[str] if option.kind in _TABLES else _TYPES.get(option.kind, str)
-    if default is None or option.kind in _TABLES:
+    if default in (None, "") or option.kind in _TABLES:
         kind, default = kind | None, None
-    annotation = Annotated[kind, typer.Option(*names, metavar=said.metavar or None, help=said.meaning)]
+    least = None if option.kind == "quantity" else said.at_least
+    annotation = Annotated[kind, typer.Option(*names, metavar=said.metavar or None, help=said.meaning, min=least)]
     return inspect.Parameter(option.name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName, Settings
+from ballscrew.faces.cli.flags import flags_of
+from ballscrew.questions.hand_over.options import HandOverOptions
 
 
+@flags_of(HandOverOptions)
 def hand_over(
     case: CaseFile,
     to: Annotated[str, typer.Option("--to", metavar="TARGET", help="What it is for; an unknown name lists them all.")],
@@ -17,23 +21,8 @@ def hand_over(
     model: ModelName = None,
     calibration: CalibrationName = None,
     settings: Settings = None,
-    ranges: Annotated[
-        list[str] | None,
-        typer.Option("--range", metavar="INPUT=LEAST:GREATEST", help='Of tables and fits: axial_load="-5:5 kN".'),
-    ] = None,
-    parameters: Annotated[
-        list[str] | None,
-        typer.Option("--parameter", metavar="INPUT", help="One more input, such as friction.limiting_film_parameter."),
-    ] = None,
-    outputs: Annotated[
-        list[str] | None, typer.Option("--output", metavar="NAME", help="One more output, as of sweeps.")
-    ] = None,
-    derivatives: Annotated[
-        list[str] | None, typer.Option("--derivatives", metavar="INPUT", help="Also derive the outputs by an input.")
-    ] = None,
-    options: Annotated[
-        list[str] | None, typer.Option("--option", metavar="NAME=VALUE", help="A choice that the target has.")
-    ] = None,
+    *,
+    written: Mapping[str, Any],
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
     allow_code: AllowCode = False,
 ) -> None:
@@ -43,10 +32,11 @@ def hand_over(
     from ballscrew.exports import requests
     from ballscrew.questions.hand_over import document as documents
     from ballscrew.questions.hand_over import text
+    from ballscrew.questions.shared.option_values import read
 
     requests.check_target(to)
     loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
-    request = requests.Request(ranges or (), parameters or (), outputs or (), derivatives or (), options or ())
+    request = requests.Request(**vars(read(HandOverOptions, written)))
     export = requests.of_case(loaded, to, request)
-    written = export.write(out)
-    typer.echo(json_text(documents.document(export, loaded, written)) if as_json else text.text(export, written))
+    files = export.write(out)
+    typer.echo(json_text(documents.document(export, loaded, files)) if as_json else text.text(export, files))

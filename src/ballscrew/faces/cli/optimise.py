@@ -2,34 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
 from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, ModelName
-from ballscrew.faces.cli.select import Need, Objectives, check_file, names_of
+from ballscrew.faces.cli.flags import flags_of
+from ballscrew.faces.cli.select import Need, check_file, objectives_of
+from ballscrew.questions.optimise.options import OptimiseOptions
 
 _TO = "--to"
 
 
+@flags_of(OptimiseOptions)
 def optimise(
     need: Need,
-    objectives: Objectives = None,
-    quantile: Annotated[
-        float | None,
-        typer.Option("--quantile", metavar="SHARE", help="Objectives at this quantile of the uncertain inputs: 0.9."),
-    ] = None,
-    population: Annotated[
-        int | None, typer.Option("--population", metavar="N", help="Designs of a generation; 200 if left out.")
-    ] = None,
-    generations: Annotated[
-        int | None, typer.Option("--generations", metavar="N", help="Generations with rigid bodies; 60 if left out.")
-    ] = None,
-    members: Annotated[
-        int | None, typer.Option("--members", metavar="N", help="Members shown, in full; 24 if left out.")
-    ] = None,
-    seed: Annotated[int | None, typer.Option("--seed", metavar="N", help="Of the search; 0 if left out.")] = None,
+    *,
+    written: Mapping[str, Any],
     model: ModelName = None,
     calibration: CalibrationName = None,
     settings: Annotated[
@@ -54,16 +45,19 @@ def optimise(
     from ballscrew.questions.optimise import text
     from ballscrew.questions.optimise.compute import optimise as optimised
     from ballscrew.questions.optimise.compute import plan
+    from ballscrew.questions.shared.option_values import read
 
     for path in to or []:
         check_file(path)
+    options = read(OptimiseOptions, written)
     asked: dict[str, Any] = {
-        "objectives": None if objectives is None else names_of(objectives), "population": population,
-        "generations": generations, "members": members, "quantile": quantile, "settings": settings or [],
+        "objectives": objectives_of(options.objectives), "population": options.population,
+        "generations": options.generations, "members": options.members, "quantile": options.quantile,
+        "settings": settings or [],
         "model": model, "calibration": calibration, "allow_code": allow_code,
     }  # fmt: skip
     with progress("designs", text.cost(plan(need, **asked))) as done:
-        found = optimised(need, seed=seed, done=done, **asked)
+        found = optimised(need, seed=options.seed, done=done, **asked)
     typer.echo(json_text(documents.document(found)) if as_json else text.text(found))
     for path in to or []:
         from ballscrew.questions.optimise.table import of_optimisation

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -21,12 +22,16 @@ from ballscrew.faces.cli.common_options import (
     check_rows,
     say_of_rows,
 )
+from ballscrew.faces.cli.flags import flags_of
+from ballscrew.questions.band.options import BandOptions
+from ballscrew.questions.shared.options import is_any_given
 
 if TYPE_CHECKING:
     from ballscrew.cases.case_files.case import Case
     from ballscrew.questions.shared.every_row import OfRows, RowCase
 
 
+@flags_of(BandOptions)
 def run(
     case: CaseFile,
     model: ModelName = None,
@@ -36,15 +41,8 @@ def run(
     band: Annotated[
         bool, typer.Option("--band", help="How far off the results may be: uncertain inputs, and other laws.")
     ] = False,
-    samples: Annotated[
-        int | None, typer.Option("--samples", metavar="N", help="With --band: samples, 16384; where balls differ 1024.")
-    ] = None,
-    level: Annotated[
-        float | None, typer.Option("--level", metavar="SHARE", help="With --band: share in the band, 0.95.")
-    ] = None,
-    only_given: Annotated[
-        bool, typer.Option("--only-given", help="With --band: only what the file says is uncertain.")
-    ] = False,
+    *,
+    written: Mapping[str, Any],
     to: Annotated[
         Path | None,
         typer.Option(
@@ -63,7 +61,7 @@ def run(
     """
     check_rows(rows, row)
     _check_self_heating(self_heating, rows)
-    has_band = band or only_given or (samples, level) != (None, None) or (to is not None and rows is None)
+    has_band = band or is_any_given(BandOptions, written) or (to is not None and rows is None)
     if rows is not None:
         cases = cases_of_rows(
             case, rows, row, settings, model, calibration=calibration, allow_code=allow_code, keep_going=keep_going
@@ -80,9 +78,9 @@ def run(
     if has_band:
         from ballscrew.faces.cli import band as band_command
         from ballscrew.faces.cli.progress import progress
-        from ballscrew.questions.band.compute import Options
+        from ballscrew.questions.shared.option_values import read
 
-        options = Options(samples, level, only_given)
+        options = read(BandOptions, written)
         band_command.check(band, options, to, self_heating)
         with progress("band") as done:
             if self_heating:

@@ -2,41 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, KeepGoing, ModelName, say_of_rows
+from ballscrew.faces.cli.flags import flags_of
+from ballscrew.questions.select.options import ListOptions, SelectOptions
 
 _TO = "--to"
 Need = Annotated[
     Path, typer.Argument(metavar="NEED", help="File (TOML) of what the screw has to do; a case file will do.")
 ]
-Objectives = Annotated[
-    str | None,
-    typer.Option(
-        "--objectives",
-        metavar="NAMES",
-        help="Compared, the first ranks: loss, inertia, reflected_mass, life, rigidity, drive_torque, …",
-    ),
-]
 
 
+@flags_of(SelectOptions, ListOptions)
 def select(
     need: Need,
     rows: Annotated[
         Path | None,
         typer.Option("--rows", metavar="FILE", help="A table of screws of your own, .csv or .xlsx, for the catalogue."),
     ] = None,
-    words: Annotated[
-        str | None,
-        typer.Option("--filter", metavar="WORDS", help='Only rows with these sizes and words: "rexroth 40x".'),
-    ] = None,
-    objectives: Objectives = None,
-    holds: Annotated[bool, typer.Option("--holds", help="Only candidates of which no check fails.")] = False,
-    front: Annotated[bool, typer.Option("--front", help="Only members of the Pareto front.")] = False,
-    first: Annotated[int, typer.Option("--first", metavar="N", min=0, help="Lines shown; 0 for all.")] = 20,
+    *,
+    written: Mapping[str, Any],
     model: ModelName = None,
     calibration: CalibrationName = None,
     settings: Annotated[
@@ -48,9 +38,6 @@ def select(
         list[Path] | None,
         typer.Option(_TO, "-o", metavar="FILE", help="Also write .csv or .xlsx, .png, .svg or .pdf; repeat."),
     ] = None,
-    complete: Annotated[
-        bool, typer.Option("--complete", help="The full model also of candidates that their loads alone rule out.")
-    ] = False,
     keep_going: KeepGoing = False,
     allow_code: AllowCode = False,
 ) -> None:
@@ -65,32 +52,37 @@ def select(
     from ballscrew.questions.select import text
     from ballscrew.questions.select.compute import plan
     from ballscrew.questions.select.compute import select as selected
+    from ballscrew.questions.shared.option_values import read
 
     for path in to or []:
         check_file(path)
+    options, listed = read(SelectOptions, written), read(ListOptions, written)
+    words = options.words or None
     planned = plan(need, rows=rows, words=words, settings=settings or [], keep_going=keep_going)
     with progress("candidates", text.cost(planned)) as done:
         found = selected(
             need,
             rows=rows,
             words=words,
-            objectives=None if objectives is None else names_of(objectives),
+            objectives=objectives_of(listed.objectives),
             settings=settings or [],
             model=model,
             calibration=calibration,
             allow_code=allow_code,
             keep_going=keep_going,
-            complete=complete,
+            complete=options.complete,
             done=done,
         )
-    kept = [each for each in found.ranked if (each.candidate.fits or not holds) and (each.pareto or not front)]
+    kept = [
+        each for each in found.ranked if (each.candidate.fits or not listed.holds) and (each.pareto or not listed.front)
+    ]
     if as_json:
         document = documents.document(found)
         ranks = {each.rank for each in kept}
         document["candidates"] = [each for each in document["candidates"] if each["rank"] in ranks]
         typer.echo(json_text(document))
     else:
-        typer.echo(text.text(found, kept, first))
+        typer.echo(text.text(found, kept, listed.first))
     for path in to or []:
         from ballscrew.questions.select import table as selection_tables
         from ballscrew.questions.shared import row_tables
@@ -106,9 +98,9 @@ def select(
     say_of_rows(found.notes, found.interrupted)
 
 
-def names_of(text: str) -> list[str]:
-    """Names between commas."""
-    return [name.strip().replace("-", "_") for name in text.split(",") if name.strip()]
+def objectives_of(written: Sequence[str]) -> list[str] | None:
+    """The names of objectives, also of those written with a dash; None for those of the need."""
+    return [name.replace("-", "_") for name in written] or None
 
 
 def check_file(path: Path) -> None:

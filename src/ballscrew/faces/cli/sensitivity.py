@@ -2,35 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName
+from ballscrew.faces.cli.flags import flags_of
+from ballscrew.questions.sensitivity.options import SensitivityOptions
 
 
+@flags_of(SensitivityOptions)
 def sensitivity(
     case: CaseFile,
-    output: Annotated[
-        str, typer.Option("--output", metavar="NAME", help="Of which result, for example efficiency.")
-    ] = "screw_torque",
-    method: Annotated[
-        str,
-        typer.Option(
-            "--method",
-            metavar="NAME",
-            help="sobol: shares of the variance; morris: screening of many inputs; local: derivatives.",
-        ),
-    ] = "sobol",
-    samples: Annotated[
-        int | None,
-        typer.Option("--samples", metavar="N", help="A power of two (sobol), or trajectories (morris)."),
-    ] = None,
-    seed: Annotated[int, typer.Option("--seed", metavar="N", help="The same seed gives the same numbers.")] = 0,
-    only_given: Annotated[
-        bool, typer.Option("--only-given", help="Only what the case file gives a distribution; nothing usual.")
-    ] = False,
+    *,
+    written: Mapping[str, Any],
     model: ModelName = None,
     calibration: CalibrationName = None,
     settings: Annotated[
@@ -56,13 +43,14 @@ def sensitivity(
     from ballscrew.questions.sensitivity import compute, text
     from ballscrew.questions.sensitivity import document as documents
     from ballscrew.questions.shared import chart_files as files
+    from ballscrew.questions.shared.option_values import read
 
     loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
-    chosen = compute.Options(output, method, samples, seed, only_given)
+    options = read(SensitivityOptions, written)
     if to is not None:
         files.check_picture(to)
     with progress.progress("sensitivity") as done:
-        report = compute.sensitivity(loaded, chosen, done)
+        report = compute.sensitivity(loaded, options, done)
     if as_json:
         typer.echo(json_text(documents.document(loaded, report)))
     else:

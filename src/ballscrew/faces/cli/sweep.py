@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import contextlib
 import sys
-from collections.abc import Generator, Sequence
+from collections.abc import Generator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -27,21 +27,18 @@ from ballscrew.faces.cli.common_options import (
     say_engine,
     say_of_rows,
 )
+from ballscrew.faces.cli.flags import flags_of
+from ballscrew.questions.sweep.options import SweepOptions
 
 if TYPE_CHECKING:
     from ballscrew.questions.shared.every_row import OfRows, RowCase
 
 
+@flags_of(SweepOptions)
 def sweep(
     case: CaseFile,
-    vary: Annotated[
-        list[str] | None,
-        typer.Option("--vary", metavar="FIELD=VALUES", help='Axis: axial_load="100:4000:14 N" or "100, 200 N".'),
-    ] = None,
-    output: Annotated[
-        list[str] | None,
-        typer.Option("--output", metavar="NAME", help="What to return, for example efficiency; may be repeated."),
-    ] = None,
+    *,
+    written: Mapping[str, Any],
     to: Annotated[
         Path | None,
         typer.Option(
@@ -67,19 +64,6 @@ def sweep(
         bool, typer.Option("--trust", help="Write into a .zarr that belongs to another user, who can change it.")
     ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
-    band: Annotated[
-        bool, typer.Option("--band", help="How far off each output may be: low and high beside it, as of run --band.")
-    ] = False,
-    samples: Annotated[
-        int | None,
-        typer.Option("--samples", metavar="N", help="With --band: samples a point, 16384; where balls differ 1024."),
-    ] = None,
-    level: Annotated[
-        float | None, typer.Option("--level", metavar="SHARE", help="With --band: share in the band, 0.95.")
-    ] = None,
-    only_given: Annotated[
-        bool, typer.Option("--only-given", help="With --band: only what the file says is uncertain.")
-    ] = False,
     model: ModelName = None,
     calibration: CalibrationName = None,
     settings: Settings = None,
@@ -103,12 +87,14 @@ def sweep(
     """
     from ballscrew.cases.case_files import case_file
     from ballscrew.faces.cli.progress import progress
+    from ballscrew.questions.shared.option_values import read
     from ballscrew.questions.sweep import compute as studies
     from ballscrew.questions.sweep import table as sweep_files
     from ballscrew.questions.sweep import text
 
     check_rows(rows, row)
-    banded = band or only_given or (samples, level) != (None, None)
+    options = read(SweepOptions, written)
+    banded = options.is_banded
     _check_self_heating(self_heating, rows, scheduler)
     _check_beside(banded, as_json, rows if row is None else None, self_heating)
     if rows is None:
@@ -120,19 +106,18 @@ def sweep(
         if row is None:
             studies.check_store_options(to, verify=verify, trust=trust)
             with studies.workers(scheduler, to):
-                _of_rows(cases, vary or [], output or [], to, keep_going=keep_going, verbose=verbose)
+                _of_rows(cases, options.vary, options.outputs, to, keep_going=keep_going, verbose=verbose)
             return
         say_of_rows(cases.notes, cases.interrupted)
         (loaded,) = (each.case for each in cases.found.values())
-    plan = studies.plan(loaded, vary or [], output or [], to, heats=self_heating, banded=banded)
+    plan = studies.plan(loaded, options.vary, options.outputs, to, heats=self_heating, banded=banded)
     studies.check_store_options(to, verify=verify, trust=trust)
     with _report_interruption(), studies.workers(scheduler, to) as cluster, progress("sweep") as done, log_on_stderr():
         dataset = studies.sweep(loaded, plan, done, to, cluster, verify=verify, trust=trust)
         if banded:
-            from ballscrew.questions.band.compute import Options
             from ballscrew.questions.sweep.band import with_band  # for those only who ask
 
-            dataset = with_band(loaded, plan, dataset, Options(samples, level, only_given), done)
+            dataset = with_band(loaded, plan, dataset, options.of_bands, done)
     if verbose:
         say_engine(dataset.attrs)
     if as_json:

@@ -2,40 +2,33 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ballscrew.faces.cli.common_options import AllowCode, CaseFile, ModelName
+from ballscrew.faces.cli.flags import flags_of
+from ballscrew.questions.warm_up.options import DriftOptions, WarmUpOptions
 
 if TYPE_CHECKING:
     from ballscrew.cases.case_files.case import Case
     from ballscrew.questions.warm_up.band import WarmUpBandReport
     from ballscrew.questions.warm_up.compute import WarmUpReport
 
-_TO, _BAND = "--to", "--band"
+_TO = "--to"
 #: Files that a folder gets.
 _TABLES, _COMPENSATION, _BANDS, _PICTURE = (
     ("warm_up.csv", "warm_up.xlsx"), "compensation.csv", "warm_up_band.csv", "warm_up.png"
 )  # fmt: skip
 
 
+@flags_of(DriftOptions, WarmUpOptions)
 def warm_up(
     case: CaseFile,
-    hours: Annotated[float, typer.Option("--hours", metavar="H", help="Hours of work.")] = 4.0,
-    cool_down: Annotated[
-        float | None, typer.Option("--cool-down", metavar="H", help="Hours of rest after them, 0.")
-    ] = None,
-    drift_cycle: Annotated[
-        bool,
-        typer.Option(
-            "--drift-cycle", help="A cycle like that of ISO 230-3: full stroke at a share of rapid, an hour of rest."
-        ),
-    ] = False,
-    feed_share: Annotated[
-        float | None, typer.Option("--feed-share", metavar="SHARE", help="With --drift-cycle: feed over rapid, 0.5.")
-    ] = None,
+    *,
+    written: Mapping[str, Any],
     model: ModelName = None,
     settings: Annotated[
         list[str] | None,
@@ -53,16 +46,6 @@ def warm_up(
             help="Write a folder of tables and a picture; or one .csv, .xlsx, .png, .svg or .pdf; repeat.",
         ),
     ] = None,
-    band: Annotated[
-        bool, typer.Option(_BAND, help="How far off it all may be, by uncertain surroundings and friction.")
-    ] = False,
-    samples: Annotated[int | None, typer.Option("--samples", metavar="N", help="With --band: transients, 512.")] = None,
-    level: Annotated[
-        float | None, typer.Option("--level", metavar="SHARE", help="With --band: share in the band, 0.95.")
-    ] = None,
-    only_given: Annotated[
-        bool, typer.Option("--only-given", help="With --band: only what the file says is uncertain.")
-    ] = False,
     allow_code: AllowCode = False,
 ) -> None:
     """Temperatures, growth, preload and torque over hours, and the state in which they end.
@@ -73,44 +56,44 @@ def warm_up(
     """
     from ballscrew.basis.errors import Fault, InputError, raise_if_any
     from ballscrew.basis.output.json_text import as_json as json_text
+    from ballscrew.questions.shared.option_values import read
     from ballscrew.questions.warm_up import compute as studies
     from ballscrew.questions.warm_up import document as documents
     from ballscrew.questions.warm_up import text
 
-    rest = (studies.REST if drift_cycle else 0.0) if cool_down is None else cool_down
-    studies.check_hours(hours, rest)
-    if feed_share is not None and not drift_cycle:
-        raise InputError(Fault("--feed-share", "needs --drift-cycle", f"{feed_share:g}", "add --drift-cycle"))
+    drift, cool_down = read(DriftOptions, written), written["cool_down"]
+    rest = (studies.REST if drift.drift_cycle else 0.0) if cool_down is None else cool_down
+    options = read(WarmUpOptions, {**written, "cool_down": rest})
+    studies.check_hours(options.hours, options.cool_down)
+    if drift.feed_share is not None and not drift.drift_cycle:
+        raise InputError(Fault("--feed-share", "needs --drift-cycle", f"{drift.feed_share:g}", "add --drift-cycle"))
     loaded = studies.load(case, settings or [], model, allow_code=allow_code)
-    if drift_cycle:
-        loaded = studies.drift_cycle(loaded, studies.FEED_SHARE if feed_share is None else feed_share)
-    raise_if_any(studies.option_faults(band, samples, level, only_given))
-    files = [path for place in to or [] for path in _files(place, band)]
-    if not band:
-        report, banded = studies.warmed_up(loaded, hours, rest), None
+    if drift.drift_cycle:
+        loaded = studies.drift_cycle(loaded, studies.FEED_SHARE if drift.feed_share is None else drift.feed_share)
+    raise_if_any(studies.option_faults(options.band, options.samples, options.level, options.only_given))
+    files = [path for place in to or [] for path in _files(place, options.band)]
+    if not options.band:
+        report, banded = studies.warmed_up(loaded, options.hours, options.cool_down), None
         typer.echo(json_text(documents.document(report)) if as_json else text.text(report))
     else:
-        banded = _banded(loaded, hours, rest, samples, level, only_given)
+        banded = _banded(loaded, options)
         report = banded.report
-        written = (
-            json_text(documents.with_band(banded)) if as_json else f"{text.text(report)}\n{text.band_text(banded)}"
-        )
-        typer.echo(written)
+        said = json_text(documents.with_band(banded)) if as_json else f"{text.text(report)}\n{text.band_text(banded)}"
+        typer.echo(said)
     for path in files:
         own = path.name if path.parent in (to or []) else ""
         _write(path, report, banded, own)
         typer.echo(f"{path}", err=as_json)
 
 
-def _banded(
-    case: Case, hours: float, cool_down: float, samples: int | None, level: float | None, only_given: bool
-) -> WarmUpBandReport:
+def _banded(case: Case, options: WarmUpOptions) -> WarmUpBandReport:
     from ballscrew.faces.cli.progress import progress
     from ballscrew.questions.warm_up import band as studies  # loads xarray
 
     with progress("band") as done:
         return studies.band(
-            case, hours, cool_down, samples=samples, level=level, only_given=only_given, done=done
+            case, options.hours, options.cool_down, samples=options.samples, level=options.level,
+            only_given=options.only_given, done=done,
         )  # fmt: skip
 
 

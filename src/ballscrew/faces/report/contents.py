@@ -18,6 +18,7 @@ from ballscrew.faces.report.curves import Curves, curves
 from ballscrew.faces.report.drawing import drawing
 from ballscrew.physics.sizing.dn_limits import GENERAL, speed_limit_of
 from ballscrew.questions.band import compute as band
+from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.check.compute import checked
 from ballscrew.questions.duty.compute import DutyReport, duty
 from ballscrew.questions.run.compute import Run, run
@@ -44,7 +45,7 @@ def content(case: case_file.Case, done: Done | None = None, samples: int | None 
     def of_band(finished: int, total: int) -> None:
         _tell(done, _ANSWERED + (_BANDED - _ANSWERED) * finished // max(total, 1))
 
-    uncertain = band.band(case, band.Options(samples=samples), of_band)
+    uncertain = band.band(case, BandOptions(samples=samples), of_band)
     _tell(done, _BANDED)
     pictures = _pictures(curves(case))
     _tell(done, _DRAWN)

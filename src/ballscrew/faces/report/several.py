@@ -19,6 +19,7 @@ from ballscrew.faces.report.numbers import banded, banded_share
 from ballscrew.physics.sizing.checks import Check
 from ballscrew.questions.band import compute as band
 from ballscrew.questions.band.compute import BandReport
+from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.check.compute import Checked, checked
 from ballscrew.questions.compare_designs import figure as figures
 from ballscrew.questions.run.compute import Run, run
@@ -51,7 +52,7 @@ def content(cases: Sequence[Case], done: Done | None = None, samples: int | None
             if done is not None:
                 done(int(ALL * (place + finished / max(total, 1)) / len(cases)), ALL)
 
-        uncertain = band.band(case, band.Options(samples=samples), told)
+        uncertain = band.band(case, BandOptions(samples=samples), told)
         designs.append(Design(name, case, found, uncertain, checked("", case, known=found)))
     sections = [
         Section("Answer", [_answer(one) for one in designs]),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 import threading
 from collections.abc import Mapping
@@ -23,6 +24,7 @@ from ballscrew.faces.web.bodies import (
     CycleBody,
     DutyBody,
     NeedBody,
+    NeedOfTable,
     ReportBody,
     SweepBody,
     WarmUpBody,
@@ -52,6 +54,7 @@ from ballscrew.questions.axis import document as chain_documents
 from ballscrew.questions.axis.answer import ChainResults
 from ballscrew.questions.band import answer as band_answers
 from ballscrew.questions.band import compute as bands
+from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.catalogue import answer as catalogue_answers
 from ballscrew.questions.check import answer as check_answers
 from ballscrew.questions.check.compute import with_nut_named
@@ -68,12 +71,14 @@ from ballscrew.questions.select import document as selection_documents
 from ballscrew.questions.select.compute import plan as planned_selection
 from ballscrew.questions.select.compute import select as selected
 from ballscrew.questions.select.need import need_of
-from ballscrew.questions.shared import answer_parts, schema_answer
+from ballscrew.questions.select.options import SelectOptions
+from ballscrew.questions.shared import answer_parts, option_values, schema_answer
 from ballscrew.questions.shared.declared import response
 from ballscrew.questions.sweep import answer as sweep_answers
 from ballscrew.questions.sweep import compute as sweeps
 from ballscrew.questions.sweep import document as sweep_documents
 from ballscrew.questions.sweep.band import with_band
+from ballscrew.questions.sweep.options import SweepOptions
 from ballscrew.questions.validate import answer as validate_answers
 from ballscrew.questions.validate import compute as validation
 from ballscrew.questions.validate import document as validation_documents
@@ -82,6 +87,7 @@ from ballscrew.questions.warm_up import compute as warm_ups
 from ballscrew.questions.warm_up import document as warm_up_documents
 from ballscrew.questions.warm_up.answer import WarmUpResults
 from ballscrew.questions.warm_up.band_answer import BesideWarmUp
+from ballscrew.questions.warm_up.options import WarmUpOptions
 
 #: Media types of a report, by its ``kind``.
 KINDS: Mapping[str, str] = {"pdf": "application/pdf", "html": "text/html; charset=utf-8"}
@@ -121,17 +127,17 @@ async def check(request: Request) -> Response:
 )
 async def sweep(request: Request) -> Response:
     """Friction over ranges of load, speed or any other field: the document of ``ballscrew sweep --json``."""
-    body: SweepBody = await read(request, SweepBody)
-    limits.check_size(body.vary, len(body.outputs), banded=body.band)
+    body: CaseBody = await read(request, SweepBody)
+    options = option_values.read(SweepOptions, dict(body))
+    limits.check_size(dict(each.split("=", 1) for each in options.vary), len(options.outputs), banded=options.band)
 
     def planned() -> tuple[case_file.Case, sweeps.Plan, int | None]:
         case = case_of(body.case)
-        if not body.vary:
-            limits.check_size(case.sweep, len(body.outputs), banded=body.band)
-        vary = [f"{name}={text}" for name, text in body.vary.items()]
-        plan = sweeps.plan(case, vary, body.outputs, None, banded=body.band)
+        if not options.vary:
+            limits.check_size(case.sweep, len(options.outputs), banded=options.band)
+        plan = sweeps.plan(case, options.vary, options.outputs, None, banded=options.band)
         limits.check_sweep(case, plan)
-        return case, plan, limits.samples_of_sweep(case, plan, body.samples) if plan.banded else None
+        return case, plan, limits.samples_of_sweep(case, plan, options.samples) if plan.banded else None
 
     queue = queue_of(request)
     case, plan, samples = await queue.quick(planned)
@@ -139,7 +145,8 @@ async def sweep(request: Request) -> Response:
     def work(done: Deadline) -> Response:
         found = sweeps.sweep(case, plan, done)
         if plan.banded:
-            found = with_band(case, plan, found, bands.Options(samples, body.level, body.only_given), done)
+            of_bands = dataclasses.replace(options.of_bands, samples=samples)
+            found = with_band(case, plan, found, of_bands, done)
         return as_json(sweep_documents.document(case, plan, found))
 
     if limits.is_short(case, plan):
@@ -169,12 +176,13 @@ async def compare(request: Request) -> Response:
 )
 async def band(request: Request) -> Response:
     """The band of a case and its causes: the document of ``ballscrew run --band --json``, with sentences."""
-    body: BandBody = await read(request, BandBody)
+    body: CaseBody = await read(request, BandBody)
+    options = option_values.read(BandOptions, dict(body))
 
     def work(done: Deadline) -> Response:
         case = case_of(body.case)
-        samples = limits.samples_of(case, body.samples)
-        found = bands.band(case, bands.Options(samples, body.level, body.only_given), done)
+        limited = dataclasses.replace(options, samples=limits.samples_of(case, options.samples))
+        found = bands.band(case, limited, done)
         return as_json(documents.band(case, found))
 
     return await heavy(request, work)
@@ -206,18 +214,19 @@ async def duty(request: Request) -> Response:
 )
 async def warm_up(request: Request) -> Response:
     """How a case warms up, and where that ends: the document of ``ballscrew warm-up --json``."""
-    body: WarmUpBody = await read(request, WarmUpBody)
-    raise_if_any(warm_ups.option_faults(body.band, body.samples, body.level, body.only_given))
-    warm_ups.check_hours(body.hours, body.cool_down)
+    body: CaseBody = await read(request, WarmUpBody)
+    options = option_values.read(WarmUpOptions, dict(body))
+    raise_if_any(warm_ups.option_faults(options.band, options.samples, options.level, options.only_given))
+    warm_ups.check_hours(options.hours, options.cool_down)
 
     def work(done: Deadline) -> Response:
         case = case_of(body.case, moves=warm_ups.moves(body.case))
-        limits.check_warm_up(case, body.samples)
-        if not body.band:
-            return as_json(warm_up_documents.document(warm_ups.warmed_up(case, body.hours, body.cool_down)))
+        limits.check_warm_up(case, options.samples)
+        if not options.band:
+            return as_json(warm_up_documents.document(warm_ups.warmed_up(case, options.hours, options.cool_down)))
         found = warm_up_bands.band(
-            case, body.hours, body.cool_down, samples=body.samples, level=body.level, only_given=body.only_given,
-            done=done,
+            case, options.hours, options.cool_down, samples=options.samples, level=options.level,
+            only_given=options.only_given, done=done,
         )  # fmt: skip
         return as_json(warm_up_documents.with_band(found))
 
@@ -235,15 +244,16 @@ async def select(request: Request) -> Response:
 
     As a job it may take longer than a request that is waited for, tells how far it is, and shows candidates meanwhile.
     """
-    body: NeedBody = await read(request, NeedBody)
+    body: NeedOfTable = await read(request, NeedBody)
+    options = option_values.read(SelectOptions, dict(body))
 
     def work(done: Deadline) -> Response:
         refuse_paths(body.need)
         need = limits.check_need(need_of(body.need))
         with written({} if body.table is None else {"table": body.table}) as paths:
             found = selected(
-                need, rows=paths.get("table"), words=body.words or None, keep_going=bool(paths),
-                complete=body.complete, done=done,
+                need, rows=paths.get("table"), words=options.words or None, keep_going=bool(paths),
+                complete=options.complete, done=done,
                 found_one=lambda one: done.row(as_bytes(selection_documents.row_document(one))),
             )  # fmt: skip
         return as_json(selection_documents.document(found))
@@ -259,13 +269,16 @@ async def select(request: Request) -> Response:
 )
 async def select_plan(request: Request) -> Response:
     """What a selection would do: its candidates, its time, and the inputs without which checks are not judged."""
-    body: NeedBody = await read(request, NeedBody)
+    body: NeedOfTable = await read(request, NeedBody)
+    options = option_values.read(SelectOptions, dict(body))
 
     def work() -> Response:
         refuse_paths(body.need)
         need = limits.check_need(need_of(body.need))
         with written({} if body.table is None else {"table": body.table}) as paths:
-            found = planned_selection(need, rows=paths.get("table"), words=body.words or None, keep_going=bool(paths))
+            found = planned_selection(
+                need, rows=paths.get("table"), words=options.words or None, keep_going=bool(paths)
+            )
         return as_json(selection_documents.plan_document(found))
 
     if body.table is None:

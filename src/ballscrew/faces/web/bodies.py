@@ -10,10 +10,10 @@ import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, ClassVar, NoReturn
+from typing import Any, ClassVar, NoReturn, TypeVar
 
 import anyio
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, create_model
 from starlette.requests import ClientDisconnect, Request
 
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
@@ -24,6 +24,11 @@ from ballscrew.cases.schema.schema import read_table
 from ballscrew.faces.web.limits import check_motion
 from ballscrew.faces.web.problems import Refused
 from ballscrew.physics.sizing.catalogue import catalogue
+from ballscrew.questions.band.options import BandOptions
+from ballscrew.questions.select.options import SelectOptions
+from ballscrew.questions.shared.options import body_fields
+from ballscrew.questions.sweep.options import SweepOptions
+from ballscrew.questions.warm_up.options import WarmUpOptions
 
 #: A case file has one or two kilobytes.
 MOST_BYTES = 65_536
@@ -40,6 +45,7 @@ READ_TIMEOUT = 10.0
 #: Bytes of a request with a project or a table of screws.
 MOST_FILE_BYTES = 1_048_576
 
+B = TypeVar("B", bound="Body")
 Tables = dict[str, Any]
 #: A file: its ``name``, which says what kind it is, and its content as ``text``, or any bytes in ``base64``.
 SentFile = dict[str, str]
@@ -63,6 +69,11 @@ class CaseBody(Body):
     case: Tables
 
 
+def body_of(name: str, base: type[B], options: type, words: str) -> type[B]:
+    """A body with a field for each option of a dataclass beside those of another body."""
+    return create_model(name, __base__=base, __doc__=words, **body_fields(options))
+
+
 class DutyBody(CaseBody):
     """A case with an axis and a motion; it needs no operating point."""
 
@@ -76,31 +87,33 @@ class CycleBody(DutyBody):
     trace: SentFile | None = None
 
 
-class WarmUpBody(CaseBody):
-    """A case that warms up by its motion or its operating point, the hours of work and of rest, perhaps with bands."""
-
-    hours: float = Field(default=4.0, strict=True)
-    cool_down: float = Field(default=0.0, strict=True)
-    band: bool = Field(default=False, strict=True)
-    samples: int | None = Field(default=None, strict=True)
-    level: float | None = Field(default=None, strict=True)
-    only_given: bool = Field(default=False, strict=True)
+WarmUpBody = body_of(
+    "WarmUpBody",
+    CaseBody,
+    WarmUpOptions,
+    "A case that warms up by its motion or its operating point, the hours of work and of rest, perhaps with bands.",
+)
 
 
-class NeedBody(Body):
-    """A need: the tables of a file of ``ballscrew select`` as JSON, and words that rows must have.
-
-    ``table`` is a table of one's own in place of the catalogue.
-    A ``complete`` list has the full model also of those that their loads alone rule out.
-    """
+class NeedOfTable(Body):
+    """A need: the tables of a file of ``ballscrew select`` as JSON, and a table of one's own, not the catalogue."""
 
     most_bytes: ClassVar[int] = MOST_FILE_BYTES
     files: ClassVar[tuple[str, ...]] = ("table",)
 
     need: Tables
-    words: str = Field(default="", strict=True)
     table: SentFile | None = None
-    complete: bool = Field(default=False, strict=True)
+
+
+NeedBody = body_of(
+    "NeedBody",
+    NeedOfTable,
+    SelectOptions,
+    """A need: the tables of a file of ``ballscrew select`` as JSON, and words that rows must have.
+
+``table`` is a table of one's own in place of the catalogue.
+A ``complete`` list has the full model also of those that their loads alone rule out.""",
+)
 
 
 class OpenBody(Body):
@@ -129,20 +142,13 @@ class ReportBody(CaseBody):
     beside: list[Tables] = Field(default_factory=list[Tables], description="other designs, three at most", max_length=3)
 
 
-class BandBody(CaseBody):
-    """A case, and the options of its band."""
-
-    samples: int | None = Field(default=None, strict=True)
-    level: float | None = Field(default=None, strict=True)
-    only_given: bool = Field(default=False, strict=True)
-
-
-class SweepBody(BandBody):
-    """A case, the axes to vary (as ``--vary``), the outputs to return, perhaps with the ends of their bands."""
-
-    vary: dict[str, str] = Field(default_factory=dict)
-    outputs: list[str] = Field(default_factory=list)
-    band: bool = Field(default=False, strict=True)
+BandBody = body_of("BandBody", CaseBody, BandOptions, "A case, and the options of its band.")
+SweepBody = body_of(
+    "SweepBody",
+    CaseBody,
+    SweepOptions,
+    "A case, the axes to vary (as ``--vary``), the outputs to return, perhaps with the ends of their bands.",
+)
 
 
 async def read(request: Request, kind: type[Body]) -> Any:

@@ -18,7 +18,7 @@ from ballscrew.exports import requests
 from ballscrew.faces.web import limits, log_documents, openapi, sent_files, starts
 from ballscrew.faces.web.bodies import case_of, read
 from ballscrew.faces.web.endpoint_parts import as_bytes, as_json, heavy, kept
-from ballscrew.faces.web.log_bodies import FitBody, HandOverBody, LogBody, LogsBody, ServiceBody, assignments
+from ballscrew.faces.web.log_bodies import FitBody, HandOverBody, LogBody, LogsBody, ServiceBody, TargetBody
 from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.files.torque_logs.preview import preview
 from ballscrew.questions.fit import answer as fit_answers
@@ -29,6 +29,7 @@ from ballscrew.questions.fit.log import read_options, steady_log
 from ballscrew.questions.fit_motion.log import is_moving
 from ballscrew.questions.hand_over import answer as hand_over_answers
 from ballscrew.questions.hand_over import document as hand_over_documents
+from ballscrew.questions.hand_over.options import HandOverOptions
 from ballscrew.questions.service import answer as service_answers
 from ballscrew.questions.service import compute as services
 from ballscrew.questions.service.options import ServiceOptions
@@ -109,15 +110,17 @@ async def service(request: Request) -> Response:
 )
 async def hand_over(request: Request) -> Response:
     """A case as files for another program: the document of ``ballscrew hand-over --json``, with the files."""
-    body: HandOverBody = await read(request, HandOverBody)
+    body: TargetBody = await read(request, HandOverBody)
+    options = option_values.read(HandOverOptions, dict(body))
 
     def work(_: Deadline) -> Response:
         requests.check_target(body.to)
-        case: Case = limits.check_hand_over(case_of(body.case), body.parameters, body.outputs, body.derivatives)
-        asked = requests.Request(
-            assignments(body.ranges), body.parameters, body.outputs, body.derivatives, assignments(body.options)
+        case: Case = limits.check_hand_over(
+            case_of(body.case), options.parameters, options.outputs, options.derivatives
         )
-        return as_json(log_documents.hand_over(case, requests.of_case(case, body.to, asked)))
+        return as_json(
+            log_documents.hand_over(case, requests.of_case(case, body.to, requests.Request(**vars(options))))
+        )
 
     return await heavy(request, work)
 

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any, ClassVar
 
-from pydantic import Field, create_model
+from pydantic import Field
 
-from ballscrew.faces.web.bodies import CaseBody, SentFile, Tables
+from ballscrew.faces.web.bodies import CaseBody, SentFile, Tables, body_of
 from ballscrew.questions.fit.options import FitOptions
+from ballscrew.questions.hand_over.options import HandOverOptions
 from ballscrew.questions.service.options import ServiceOptions
-from ballscrew.questions.shared.options import body_fields
 
 #: Bytes of a request with a log: some 100,000 rows as text.
 MOST_LOG_BYTES = 4_194_304
@@ -26,11 +25,11 @@ class LogBody(CaseBody):
     columns: dict[str, str] = Field(default_factory=dict)
 
 
-FitBody = create_model(
+FitBody = body_of(
     "FitBody",
-    __base__=LogBody,
-    __doc__="A case, a log of torques, and the options of ``ballscrew fit``, as text with units.",
-    **body_fields(FitOptions),
+    LogBody,
+    FitOptions,
+    "A case, a log of torques, and the options of ``ballscrew fit``, as text with units.",
 )
 
 
@@ -44,28 +43,26 @@ class LogsBody(CaseBody):
     worn: SentFile
 
 
-ServiceBody = create_model(
+ServiceBody = body_of(
     "ServiceBody",
-    __base__=LogsBody,
-    __doc__="A case, the log of the worn screw, perhaps that of the new one, and the options of ``ballscrew service``.",
-    **body_fields(ServiceOptions),
+    LogsBody,
+    ServiceOptions,
+    "A case, the log of the worn screw, perhaps that of the new one, and the options of ``ballscrew service``.",
 )
 
 
-class HandOverBody(CaseBody):
-    """A case, a target, and the options of ``ballscrew hand-over``, as text."""
+class TargetBody(CaseBody):
+    """A case, and a target."""
 
     to: str = Field(strict=True)
-    ranges: dict[str, str] = Field(default_factory=dict)
-    parameters: list[str] = Field(default_factory=list)
-    outputs: list[str] = Field(default_factory=list)
-    derivatives: list[str] = Field(default_factory=list)
-    options: dict[str, str] = Field(default_factory=dict)
 
 
-def assignments(given: Mapping[str, Any]) -> list[str]:
-    """``name=value``, as on the command line."""
-    return [f"{name}={value}" for name, value in given.items()]
+HandOverBody = body_of(
+    "HandOverBody",
+    TargetBody,
+    HandOverOptions,
+    "A case, a target, and the options of ``ballscrew hand-over``, as text.",
+)
 
 
 #: Logs to try, made by the model with noise of 0.2 %: of the paper's screw, and of it with a preload of 3 kN and 2 kN.

@@ -24,7 +24,9 @@ from ballscrew.engine.uncertainty.distributions import Distribution
 from ballscrew.engine.uncertainty.sampling import Joint, JointParts
 from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.friction.calibrations import PARAMETERS
+from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.compare import compute as comparison
+from ballscrew.questions.shared.options import options_of
 
 if TYPE_CHECKING:  # its solvers are slow to import
     from ballscrew.questions.band.heat_samples import HeatSamples
@@ -33,18 +35,9 @@ if TYPE_CHECKING:  # its solvers are slow to import
 _POINTS, _NUT_POINTS, _BEYOND = 25, 9, 2.0
 #: Share of the samples in a band by default.
 LEVEL = 0.95
-#: Where a fault of the analysis stands on the command line.
-_OPTIONS = {"band.samples": "--samples", "band.level": "--level"}
+#: Flags of the command line by the fields in which the analysis finds faults.
+_FLAGS = {f"band.{name}": option.flag for name, option in options_of(BandOptions).items()}
 Done = Callable[[int, int], None]
-
-
-@dataclasses.dataclass(frozen=True)
-class Options:
-    """Settings of a band; None stands for the default."""
-
-    samples: int | None = None
-    level: float | None = None
-    only_given: bool = False
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -94,7 +87,7 @@ def alternatives(case: Case) -> list[Candidate]:
 
 
 @overflow_as_input_error()
-def band(case: Case, options: Options, done: Done | None = None, heat: HeatSamples | None = None) -> BandReport:
+def band(case: Case, options: BandOptions, done: Done | None = None, heat: HeatSamples | None = None) -> BandReport:
     """Band of a case, with what its heat leaves open where it is given.
 
     Raises :class:`~ballscrew.basis.errors.InputError` that names options of the command line.
@@ -122,7 +115,7 @@ def options_named() -> Generator[None]:
     try:
         yield
     except InputError as error:
-        faults = (dataclasses.replace(f, where=_OPTIONS.get(f.where, f.where)) for f in error.faults)
+        faults = (dataclasses.replace(f, where=_FLAGS.get(f.where, f.where)) for f in error.faults)
         raise InputError(*faults) from None
 
 
@@ -137,7 +130,7 @@ def axis_of_curve(case: Case) -> str:
     return "axial_load" if float(case.operation.screw_speed) == 0 else "screw_speed"
 
 
-def curve(case: Case, report: BandReport, options: Options, done: Done | None = None) -> BandCurve:
+def curve(case: Case, report: BandReport, options: BandOptions, done: Done | None = None) -> BandCurve:
     """Band of the friction torque from rest, or no load, to twice the operating point."""
     along = axis_of_curve(case)
     here = float(getattr(case.operation, along)) or 1.0
@@ -152,7 +145,7 @@ def curve(case: Case, report: BandReport, options: Options, done: Done | None = 
 
 
 def _arguments(
-    case: Case, inputs: Mapping[str, Uncertain], options: Options, heat: HeatSamples | None = None
+    case: Case, inputs: Mapping[str, Uncertain], options: BandOptions, heat: HeatSamples | None = None
 ) -> dict[str, Any]:
     """Arguments that the band and the curve have in common."""
     uncertain, joint = distributions(case, inputs, heat)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable, Mapping
-from typing import NamedTuple, cast
+from typing import cast
 
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Quantity, fields_of
@@ -14,16 +14,7 @@ from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty import sensitivity as analysis
 from ballscrew.engine.uncertainty.sensitivity import ANOTHER_METHOD, Method, Sensitivity
 from ballscrew.physics.components.materials import TEMPERATURE
-
-
-class Options(NamedTuple):
-    """Settings of a sensitivity analysis."""
-
-    output: str = "screw_torque"
-    method: str = "sobol"
-    samples: int | None = None
-    seed: int = 0
-    only_given: bool = False
+from ballscrew.questions.sensitivity.options import SensitivityOptions
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -44,7 +35,7 @@ class SensitivityReport:
 
 
 def sensitivity(
-    case: case_file.Case, options: Options, done: Callable[[int, int], None] | None = None
+    case: case_file.Case, options: SensitivityOptions, done: Callable[[int, int], None] | None = None
 ) -> SensitivityReport:
     """Sensitivity of a case. Raises ``InputError`` that names options of the command line."""
     uncertain = all_of(case, options.only_given)

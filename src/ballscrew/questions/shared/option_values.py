@@ -64,7 +64,9 @@ def _names(option: OptionField, given: Sequence[str], faults: list[Fault]) -> Se
     return names
 
 
-def _texts(option: OptionField, given: Mapping[str, str] | Sequence[str], faults: list[Fault]) -> dict[str, str]:
+def _texts(option: OptionField, given: Mapping[str, str] | Sequence[str], faults: list[Fault]) -> Any:
+    if option.option.is_table:
+        return assignments(given)
     found: dict[str, str] = {}
     for text in assignments(given):
         name, equals, value = text.partition("=")

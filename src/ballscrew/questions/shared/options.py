@@ -56,6 +56,8 @@ class Option:
     #: The name of the flag, where it is not that of the field; a short one.
     flag: str = ""
     short: str = ""
+    #: True for a sequence of ``name=text`` that the question itself reads.
+    is_table: bool = False
     #: Of a choice, for the message on one that is unknown; an example of a table.
     noun: str = ""
     example: str = ""
@@ -82,7 +84,7 @@ class OptionField:
         if bare is Literal:
             return "choice"
         if bare is Sequence:
-            return "names"
+            return "texts" if self.option.is_table else "names"
         if bare is Mapping:
             return "texts" if get_args(self.type)[1] is str else "ranges"
         return "quantity" if self.option.unit else _SIMPLE[bare]
@@ -104,7 +106,11 @@ class OptionField:
             return []
         if self.kind in ("texts", "ranges"):
             return {}
-        return self.default if self.kind in ("switch", "whole", "number") else None
+        return self.default if self.kind in ("switch", "whole", "number", "text") else None
+
+    def is_given(self, written: Mapping[str, Any]) -> bool:
+        """Test whether another value than the default was written."""
+        return written[self.name] not in (None, [], self.written_default)
 
 
 @functools.cache
@@ -123,6 +129,11 @@ def options_of(cls: type) -> Mapping[str, OptionField]:
 def _without_none(annotation: Any) -> Any:
     several = [one for one in get_args(annotation) if one is not type(None)]
     return several[0] if type(None) in get_args(annotation) and len(several) == 1 else annotation
+
+
+def is_any_given(cls: type, written: Mapping[str, Any]) -> bool:
+    """Test whether any option of a dataclass is given, by what was written."""
+    return any(one.is_given(written) for one in options_of(cls).values())
 
 
 def body_fields(cls: type) -> dict[str, Any]:

@@ -23,7 +23,8 @@ from ballscrew.engine.uncertainty.distributions import Distribution, scaled
 from ballscrew.engine.uncertainty.sampling import Joint
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.questions.band import compute as bands
-from ballscrew.questions.band.compute import LEVEL, Options
+from ballscrew.questions.band.compute import LEVEL
+from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.sweep import compute as sweeps
 from ballscrew.questions.sweep.compute import Plan
 
@@ -43,7 +44,7 @@ class _Inputs(NamedTuple):
 
 @overflow_as_input_error()
 def with_band(
-    case: Case, plan: Plan, dataset: xr.Dataset, options: Options, done: Callable[[int, int], None] | None = None
+    case: Case, plan: Plan, dataset: xr.Dataset, options: BandOptions, done: Callable[[int, int], None] | None = None
 ) -> xr.Dataset:
     """The dataset of a sweep with the ends of the band of each output, and of the validity, beside it.
 

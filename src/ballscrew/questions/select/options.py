@@ -1,0 +1,37 @@
+"""The options of a selection."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from typing import Annotated
+
+from ballscrew.questions.shared.options import Option
+
+Objectives = Annotated[
+    Sequence[str],
+    Option(
+        "Compared, the first ranks: loss, inertia, reflected_mass, life, rigidity, drive_torque, …", metavar="NAMES"
+    ),
+]
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class SelectOptions:
+    """What is asked of a selection beside the need."""
+
+    words: Annotated[
+        str, Option('Only rows with these sizes and words: "rexroth 40x".', metavar="WORDS", flag="filter")
+    ] = ""
+    complete: Annotated[bool, Option("The full model also of candidates that their loads alone rule out.")] = False
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class ListOptions:
+    """How the candidates are ranked, and which of them are listed."""
+
+    #: Empty for those of the need.
+    objectives: Objectives = ()
+    holds: Annotated[bool, Option("Only candidates of which no check fails.")] = False
+    front: Annotated[bool, Option("Only members of the Pareto front.")] = False
+    first: Annotated[int, Option("Lines shown; 0 for all.", metavar="N", at_least=0)] = 20
