@@ -117,7 +117,8 @@ def state_maps(duty: Duty) -> StateMaps:
     inputs: dict[str, Any] = {"axial_load": load, "screw_speed": speed, "temperature": temperatures[:, None, None]}
     if preloads.size > 1:
         inputs["nut.preload"] = preloads[None, :, None]
-    heat = _torque(driven, inputs) * np.abs(speed)
+    subject = Configuration(driven.model, driven.screw, driven.lubricant)
+    heat = torque_at(subject, inputs) * np.abs(speed)
     power = np.array(np.broadcast_to(heat, (temperatures.size, preloads.size, load.size)))
     return StateMaps(temperatures, preloads, power, back.reshape(-1), used)
 
@@ -134,13 +135,12 @@ def grid_of(screw: BallScrew) -> tuple[Numbers, Numbers]:
     return np.linspace(COLDEST, HOTTEST, _TEMPERATURES), preloads
 
 
-def _torque(driven: ModelledScrew, inputs: dict[str, Any]) -> Numbers:
+def torque_at(subject: Configuration, inputs: dict[str, Any]) -> Numbers:
     """Friction torque at all combinations of the inputs; compiled where there are many."""
     shape = np.broadcast_shapes(*(np.shape(values) for values in inputs.values()))
-    screw = driven.screw
-    balls = screw.nut.halves * int(screw.loaded_balls) if screw.nut.one_by_one else 1
-    if np.prod(shape) * balls > WORTH_COMPILING:
-        ready = evaluator(driven.model, driven.screw, driven.lubricant, inputs=tuple(inputs), outputs=["screw_torque"])
+    if np.prod(shape) * subject.balls > WORTH_COMPILING:
+        ready = evaluator(
+            subject.model, subject.screw, subject.lubricant, inputs=tuple(inputs), outputs=["screw_torque"]
+        )  # fmt: skip
         return ready(**inputs)["screw_torque"]
-    every = {name: np.broadcast_to(values, shape) for name, values in inputs.items()}
-    return Configuration(driven.model, driven.screw, driven.lubricant).at(every).screw_torque
+    return subject.at({name: np.broadcast_to(values, shape) for name, values in inputs.items()}).screw_torque

@@ -11,7 +11,7 @@ import numpy as np
 from ballscrew.axis.duty_cycle.to_and_fro import to_and_fro
 from ballscrew.axis.motion.states import Numbers
 from ballscrew.axis.thermal.equilibrium import equilibrium
-from ballscrew.axis.thermal.friction_map import WORTH_COMPILING, FrictionMap, grid_of
+from ballscrew.axis.thermal.friction_map import FrictionMap, grid_of, torque_at
 from ballscrew.axis.thermal.network import (
     Network,
     approach_of,
@@ -25,7 +25,6 @@ from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.basis.quantities import Length
-from ballscrew.engine.evaluation.evaluator import evaluator
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.physics.components.nut import SingleNut
@@ -169,14 +168,6 @@ def _maps(design: Configuration, load: Numbers, speed: Numbers) -> list[Friction
     }
     if preloads.size > 1:
         inputs["nut.preload"] = preloads[:, None]
-    shape = np.broadcast_shapes(*(values.shape for values in inputs.values()))
-    if np.prod(shape) * design.balls > WORTH_COMPILING:
-        ready = evaluator(
-            design.model, design.screw, design.lubricant, inputs=tuple(inputs), outputs=["screw_torque"]
-        )  # fmt: skip
-        torque = ready(**inputs)["screw_torque"]
-    else:
-        torque = design.at({name: np.broadcast_to(values, shape) for name, values in inputs.items()}).screw_torque
     shape = (load.size, temperatures.size, preloads.size, 2)
-    power = np.mean(np.broadcast_to(torque, shape), axis=-1) * speed[:, None, None]
+    power = np.mean(np.broadcast_to(torque_at(design, inputs), shape), axis=-1) * speed[:, None, None]
     return [FrictionMap(temperatures, preloads, one) for one in power]
