@@ -10,11 +10,11 @@ import ballscrew as bs
 from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.cases.case_files import case_file
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.faces.report import duty_section, warm_up_section
 from ballscrew.physics.components.film_laws import Inlet
 from ballscrew.questions.band import compute as band
 from ballscrew.questions.band import document as band_documents
 from ballscrew.questions.duty import document as duty_documents
+from ballscrew.questions.duty import report as duty_report
 from ballscrew.questions.duty.compute import duty as duty_of
 from ballscrew.questions.run import document as run_documents
 from ballscrew.questions.run.compute import run
@@ -24,6 +24,7 @@ from ballscrew.questions.sweep import compute as sweep
 from ballscrew.questions.sweep import document as sweep_documents
 from ballscrew.questions.warm_up import compute as warm_up
 from ballscrew.questions.warm_up import document as warm_up_documents
+from ballscrew.questions.warm_up import report as warm_up_report
 from ballscrew.questions.warm_up import self_heating
 from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 from support.commands import ROOT
@@ -327,11 +328,11 @@ def test_an_export_is_judged_without_load_too():
 
 
 def test_the_report_has_both_torques_of_a_cycle_and_of_warming_up(monkeypatch):
-    monkeypatch.setattr(duty_section, "_bands", lambda report: None)
+    monkeypatch.setattr(duty_report, "_bands", lambda report: None)
     case = case_file.build(tables_of_duty("-5 degC"), moves=True)
     cold = warm_up.warmed_up(warm_up.load(ROOT / "examples" / "warm_up.toml", ["surroundings.ambient=-5 degC"], None))
-    for blocks in (duty_section.blocks(duty_of(case)), warm_up_section.blocks(cold)):
+    for blocks in (duty_report.blocks(duty_of(case)), warm_up_report.blocks(cold)):
         assert "in a full bath of oil" in blocks[0].text
-    steady = warm_up_section.blocks(cold)[1].left[0]
+    steady = warm_up_report.blocks(cold)[1].left[0]
     assert steady.columns == ("", "value", "in a full bath of oil")
     assert {len(row) for row in steady.rows} == {3}

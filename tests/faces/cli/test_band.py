@@ -13,8 +13,6 @@ from ballscrew.basis.units import to_digits
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.uncertain_inputs import all_of, joint_of
 from ballscrew.engine.uncertainty.bands import Interval, OutputBand
-from ballscrew.faces.report import band_section
-from ballscrew.faces.report.blocks import Paragraph
 from ballscrew.physics.components.rolling_laws import biboulet_houpert_rolling as reference_rolling
 from ballscrew.physics.components.traits import LawTraits, traits_of
 from ballscrew.physics.friction.law_names import LAWS
@@ -22,8 +20,10 @@ from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.band import compute as band
 from ballscrew.questions.band import document as documents
 from ballscrew.questions.band import figure as figures
+from ballscrew.questions.band import report as band_report
 from ballscrew.questions.compare import compute as comparison
 from ballscrew.questions.shared import charts
+from ballscrew.questions.shared.report_blocks import Paragraph
 
 
 @pytest.fixture
@@ -117,7 +117,7 @@ def test_run_and_report_say_so(example, ballscrew):
     torque = report.band["screw_torque"]
     assert torque.both.high < torque.parameters.high
     assert line.endswith(f"for a motor take {to_digits(torque.parameters.high, toward=1)} N m")
-    said = [block.text for block in band_section.blocks(case, report) if isinstance(block, Paragraph)]
+    said = [block.text for block in band_report.blocks(case, report) if isinstance(block, Paragraph)]
     assert any("of the inputs alone: most other laws give less torque than the model's" in text for text in said)
 
 

@@ -8,9 +8,9 @@ import pytest
 from ballscrew.basis.output.plain_numbers import plain
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.basis.units import shown, to_digits
-from ballscrew.faces.report.blocks import Paragraph, Picture, Report, Section, as_data
-from ballscrew.faces.report.numbers import banded, banded_share
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.questions.shared.report_blocks import Paragraph, Picture, Report, Section, as_data
+from ballscrew.questions.shared.report_numbers import banded, banded_share
 
 KNOWN = quantities_of(FrictionResult)
 TORQUE = KNOWN["screw_torque"]

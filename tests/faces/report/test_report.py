@@ -27,14 +27,12 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.named_calibration import vendor_rows_like
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.faces.cli import report as command
-from ballscrew.faces.report import contents, warm_up_section
+from ballscrew.faces.report import contents
 from ballscrew.faces.report import curve_figures as figures
-from ballscrew.faces.report.blocks import Bar, Columns, Links, Picture, Table, value
 from ballscrew.faces.report.curves import curves
 from ballscrew.faces.report.files import report_bytes
 from ballscrew.faces.report.heading import Heading
 from ballscrew.faces.report.html import html_bytes
-from ballscrew.faces.report.numbers import banded, banded_share
 from ballscrew.faces.report.pdf import pdf_bytes
 from ballscrew.physics.components.nut_losses import ConstantTorque
 from ballscrew.physics.friction.result import FrictionResult
@@ -42,6 +40,9 @@ from ballscrew.questions.band import compute as band
 from ballscrew.questions.check.compute import checked
 from ballscrew.questions.duty.compute import NUMBERS, duty
 from ballscrew.questions.run.compute import run
+from ballscrew.questions.shared.report_blocks import Bar, Columns, Links, Picture, Table, value
+from ballscrew.questions.shared.report_numbers import banded, banded_share
+from ballscrew.questions.warm_up import report as warm_up_report
 from ballscrew.questions.warm_up.compute import warmed_up
 from ballscrew.questions.warm_up.records import verdicts
 
@@ -674,15 +675,15 @@ def test_heat_that_cannot_be_computed_says_why():
     """A case with surroundings whose oil has no temperature still has its report."""
     case = case_of("feed_drive")
     oil = bs.Lubricant(viscosity=0.1)
-    blocks = warm_up_section.blocks_of(
+    blocks = warm_up_report.blocks_of(
         dataclasses.replace(case, lubricant=oil, oil={}, surroundings=bs.Surroundings(shaft_length=1.0))
     )
     assert "Heat is not computed: lubricant.viscosity: has no temperature" in str(blocks)
 
 
 def test_heat_is_that_of_the_command():
-    report = warmed_up(case_of("warm_up"), warm_up_section.HOURS)
-    words = str(warm_up_section.blocks(report))
+    report = warmed_up(case_of("warm_up"), warm_up_report.HOURS)
+    words = str(warm_up_report.blocks(report))
     for record in verdicts(report):
         assert record.text[1:] in words
     assert all(line in words for line in report.assumed)

@@ -8,13 +8,13 @@ from tests.faces.report.test_report import _EXPONENT, _NO_NUMBERS, LEAST_FILLED,
 
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.faces.report import several
-from ballscrew.faces.report.blocks import as_data
-from ballscrew.faces.report.numbers import banded
 from ballscrew.faces.report.pdf import pdf_bytes
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.band import compute as band
 from ballscrew.questions.check.compute import checked
 from ballscrew.questions.run.compute import run
+from ballscrew.questions.shared.report_blocks import as_data
+from ballscrew.questions.shared.report_numbers import banded
 
 NAMES = ("catalogue_screw", "feed_drive", "rig")
 _TORQUE = quantities_of(FrictionResult)["screw_torque"]

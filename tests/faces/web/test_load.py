@@ -9,9 +9,9 @@ from pathlib import Path
 import psutil
 import pytest
 
-from ballscrew.faces.report.blocks import Report
 from ballscrew.faces.report.pdf import pdf_bytes
 from ballscrew.faces.web import memory
+from ballscrew.questions.shared.report_blocks import Report
 
 SCRIPT = Path(__file__).parents[3] / "benchmarks" / "serve.py"
 

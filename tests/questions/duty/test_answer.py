@@ -5,9 +5,9 @@ import math
 import pytest
 
 from ballscrew.cases.case_files import case_file
-from ballscrew.faces.report import duty_section
 from ballscrew.faces.web.vocabulary import vocabulary
 from ballscrew.questions.duty import compute, document, table, text
+from ballscrew.questions.duty import report as duty_report
 from ballscrew.questions.duty.answer import DutyResults
 from ballscrew.questions.duty.compute import IF_ANY, NUMBERS
 from ballscrew.questions.shared import declared
@@ -31,7 +31,7 @@ def test_every_number_is_on_every_face(report):
     """A number is one property: nothing else has to name it."""
     answer, schema = document.document(report), declared.schema(DutyResults).model_json_schema()["properties"]
     rows, words = {row[0] for row in table.numbers(report).rows}, text.text(report)
-    of_report = {row[0] for row in duty_section._numbers(report, None).rows}
+    of_report = {row[0] for row in duty_report._numbers(report, None).rows}
     for name, quantity in NUMBERS.items():
         meaning = quantity.info.meaning
         assert math.isfinite(answer["results"][name])

@@ -4,10 +4,10 @@ import math
 
 import pytest
 
-from ballscrew.faces.report import warm_up_section
 from ballscrew.faces.web.vocabulary import vocabulary
 from ballscrew.questions.shared import declared
 from ballscrew.questions.warm_up import document, table, text
+from ballscrew.questions.warm_up import report as warm_up_report
 from ballscrew.questions.warm_up.answer import WarmUpResults
 from ballscrew.questions.warm_up.band_answer import BesideWarmUp
 from ballscrew.questions.warm_up.compute import EQUILIBRIUM, SERIES, load, warmed_up
@@ -48,7 +48,7 @@ def test_every_number_of_the_steady_state_is_on_every_face(report):
     answer, schema = document.document(report), declared.schema(WarmUpResults).model_json_schema()
     described = schema["$defs"]["Equilibrium"]["properties"]
     words, rows = text.text(report), {row[0] for row in table.steady(report).rows}
-    of_report = {row[0] for row in warm_up_section._steady(report).rows}
+    of_report = {row[0] for row in warm_up_report._steady(report).rows}
     for name, quantity in EQUILIBRIUM.items():
         meaning = quantity.info.meaning
         assert math.isfinite(answer["results"]["equilibrium"][name])

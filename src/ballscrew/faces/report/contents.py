@@ -11,17 +11,30 @@ import numpy as np
 from ballscrew.basis.output import bibliography
 from ballscrew.basis.version import __version__
 from ballscrew.cases.case_files import case_file, descriptions
-from ballscrew.faces.report import band_section, input_tables, result_tables
-from ballscrew.faces.report.blocks import Block, Columns, Links, Paragraph, Picture, Report, Section, Table, sentence
+from ballscrew.faces.report import input_tables
 from ballscrew.faces.report.contact_geometry import drawn_ball
 from ballscrew.faces.report.curves import Curves, curves
 from ballscrew.faces.report.drawing import drawing
 from ballscrew.physics.sizing.dn_limits import GENERAL, speed_limit_of
 from ballscrew.questions.band import compute as band
+from ballscrew.questions.band import report as band_report
 from ballscrew.questions.band.options import BandOptions
+from ballscrew.questions.check import report as check_report
 from ballscrew.questions.check.compute import checked
 from ballscrew.questions.duty.compute import DutyReport, duty
+from ballscrew.questions.run import report as run_report
 from ballscrew.questions.run.compute import Run, run
+from ballscrew.questions.shared.report_blocks import (
+    Block,
+    Columns,
+    Links,
+    Paragraph,
+    Picture,
+    Report,
+    Section,
+    Table,
+    sentence,
+)
 
 Done = Callable[[int, int], None]
 #: How far along the work is after its steps, of a hundred: the answer, the band, the curves.
@@ -50,20 +63,20 @@ def content(case: case_file.Case, done: Done | None = None, samples: int | None 
     pictures = _pictures(curves(case))
     _tell(done, _DRAWN)
     inputs = input_tables.tables(case)
-    bands = uncertain.band.outputs if band_section.has_band(uncertain) else {}
-    beside = band_section.vendor_blocks(case)
+    bands = uncertain.band.outputs if band_report.has_band(uncertain) else {}
+    beside = band_report.vendor_blocks(case)
     cycle = _duty(case)
     sections = [
-        Section("Answer", [band_section.answer(found, uncertain)]),
+        Section("Answer", [band_report.answer(found, uncertain)]),
         _checks(case, found, cycle),
-        Section("Result", [Columns.of(result_tables.results(found, bands)), *_drawing(found)]),
-        Section("Where the torque comes from", result_tables.parts(found)),
+        Section("Result", [Columns.of(run_report.results(found, bands)), *_drawing(found)]),
+        Section("Where the torque comes from", run_report.parts(found)),
         Section("Around the operating point", pictures),
-        Section("How far off it may be", band_section.blocks(case, uncertain)),
+        Section("How far off it may be", band_report.blocks(case, uncertain)),
         *([Section("Beside a vendor's rows", beside)] if beside else []),
         *_cycle(cycle),
         *_heat(case),
-        Section("What to beware of", result_tables.beware(found)),
+        Section("What to beware of", run_report.beware(found)),
         Section(
             "Inputs and model", [*_model(case), Columns.of([*inputs, input_tables.laws(case)]), origins(case, inputs)]
         ),
@@ -84,28 +97,26 @@ def _checks(case: case_file.Case, found: Run, cycle: DutyReport | None) -> Secti
     """The checks over the cycle where there is one, else of the operating point: one verdict, and of what it is."""
     of_point = checked("", case, known=found)
     if cycle is None:
-        return Section("Checks", result_tables.checks(of_point))
-    from ballscrew.faces.report import duty_section
-
-    return Section("Checks over the cycle", duty_section.checks(cycle, of_point))
+        return Section("Checks", check_report.checks(of_point))
+    return Section("Checks over the cycle", check_report.over_a_cycle(cycle, of_point))
 
 
 def _cycle(cycle: DutyReport | None) -> list[Section]:
     """The section on the cycle of a case."""
     if cycle is None:
         return []
-    from ballscrew.faces.report import duty_section
+    from ballscrew.questions.duty import report
 
-    return [Section("Over a cycle of the motion", duty_section.blocks(cycle))]
+    return [Section("Over a cycle of the motion", report.blocks(cycle))]
 
 
 def _heat(case: case_file.Case) -> list[Section]:
     """The section on the heat of a case that has surroundings."""
     if case.surroundings is None:
         return []
-    from ballscrew.faces.report import warm_up_section
+    from ballscrew.questions.warm_up import report
 
-    return [Section("As it warms up", warm_up_section.blocks_of(case))]
+    return [Section("As it warms up", report.blocks_of(case))]
 
 
 def subtitle(case: case_file.Case) -> list[str]:
@@ -134,7 +145,8 @@ def _drawing(found: Run) -> list[Block]:
 
 def _pictures(found: Curves) -> list[Picture]:
     # matplotlib takes its time: only for those who want a report
-    from ballscrew.faces.report.curve_figures import named, pictures
+    from ballscrew.faces.report.curve_figures import pictures
+    from ballscrew.questions.shared.chart_svg import named
 
     speed, load = (f"{value:.6g}" for value in found.here)
     here = "the dashed line is the operating point"

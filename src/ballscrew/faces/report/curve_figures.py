@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import io
+import functools
 import math
-import re
-import threading
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -15,18 +13,13 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
-from ballscrew.faces.report import svg
 from ballscrew.faces.report.curves import Curves
 from ballscrew.physics.friction.result import MECHANISMS
 from ballscrew.questions.shared import charts
+from ballscrew.questions.shared.chart_svg import svg_of
 
 #: Inches: the width of an A4 page between its margins.
 _WIDTH, _HEIGHT = 7.1, 2.5
-_SMALL: Any = {
-    "font.size": 8.5, "axes.titlesize": 9, "axes.labelsize": 8.5, "legend.fontsize": 7.5, "xtick.labelsize": 8,
-    "ytick.labelsize": 8, "lines.linewidth": 1.5, "svg.fonttype": "none", "figure.facecolor": "none",
-    "axes.facecolor": "none", "legend.framealpha": 0.0, "axes.formatter.limits": (-9, 9),
-}  # fmt: skip
 _SPEED, _LOAD = "speed of the screw (rpm)", "axial load (N)"
 #: From pale to strong, so that black numbers are read on it.
 _PALE = LinearSegmentedColormap.from_list("pale", ["#F7FBFF", "#9ECAE1"])
@@ -35,23 +28,12 @@ _OTHERS = (charts.GREY, charts.YELLOW, "#999999")
 _HERE: Mapping[str, Any] = {"color": charts.RED, "linewidth": 1.0, "linestyle": "--"}
 #: A veil over what lies outside the model's validity.
 _VEIL, _THIN = charts.GREY, 0.25
-#: The style of matplotlib is one for all threads.
-_LOCK = threading.Lock()
 
 
 def pictures(curves: Curves) -> dict[str, str]:
     """All figures by name, as SVG text without a title."""
     drawn: Mapping[str, Callable[[Curves], Figure]] = {"speed": _over_speed, "load": _over_load, "maps": _maps}
-    with _LOCK, charts.house_style():
-        charts.mpl.rcParams.update(_SMALL)
-        return {name: _text_of(draw(curves), name) for name, draw in drawn.items()}
-
-
-def svg_of(draw: Callable[[], Figure], name: str) -> str:
-    """One figure as SVG text without a title, in the style of a report."""
-    with _LOCK, charts.house_style():
-        charts.mpl.rcParams.update(_SMALL)
-        return _text_of(draw(), name)
+    return {name: svg_of(functools.partial(draw, curves), name) for name, draw in drawn.items()}
 
 
 def _panels() -> tuple[Figure, Axes, Axes]:
@@ -156,36 +138,3 @@ def _map(panel: Axes, curves: Curves, values: Any) -> None:
     panel.set_ylim(0, float(curves.map_loads[-1]))
     panel.set_xlabel(_SPEED)
     panel.set_ylabel(_LOAD)
-
-
-def _text_of(figure: Figure, name: str) -> str:
-    """The SVG of a figure: identifiers of its own, ink in the colour of the page, no style that leaks."""
-    buffer = io.BytesIO()
-    charts.save_as(figure, buffer, "svg")
-    text = buffer.getvalue().decode()
-    text = text[text.index("<svg") :]
-    text = re.sub(r"<metadata>.*?</metadata>\s*", "", text, flags=re.DOTALL)
-    text = re.sub(r"<defs>\s*<style[^>]*>.*?</style>\s*</defs>\s*", "", text, flags=re.DOTALL)
-    text = re.sub(r"<!--.*?-->\s*", "", text, flags=re.DOTALL)
-    text = re.sub(r'\bid="', f'id="{name}-', text)
-    text = re.sub(r"url\(#", f"url(#{name}-", text)
-    text = re.sub(r'href="#', f'href="#{name}-', text)
-    text = re.sub(charts.INK, "currentColor", text, flags=re.IGNORECASE)
-    text = re.sub(charts.GREY, "currentColor", text, flags=re.IGNORECASE)
-    text = re.sub(r"stroke: #e4e4e4", "stroke: currentColor; stroke-opacity: 0.14", text, flags=re.IGNORECASE)
-    head = f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" viewBox="{_box(text)}"'
-    lines = 'stroke-linejoin="round" stroke-linecap="butt" fill="currentColor"'
-    return re.sub(r"<svg[^>]*>", f"{head} {lines}>", text, count=1)
-
-
-def _box(text: str) -> str:
-    box = re.search(r'viewBox="([^"]*)"', text)
-    assert box is not None
-    return box[1]
-
-
-def named(text: str, words: str) -> str:
-    """An SVG with its name in words, for those who cannot see it."""
-    return re.sub(
-        r"<svg([^>]*)>", lambda m: f'<svg{m[1]} role="img">\n<title>{svg.text_of(words)}</title>', text, count=1
-    )

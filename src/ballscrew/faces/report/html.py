@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from importlib import resources
 
-from ballscrew.faces.report.blocks import Report, as_data
+from ballscrew.questions.shared.report_blocks import Report, as_data
 
 
 def html_bytes(report: Report) -> bytes:

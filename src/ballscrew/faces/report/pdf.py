@@ -9,7 +9,7 @@ from pathlib import Path
 from ballscrew.basis import child_process
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.faces.report import typesetting
-from ballscrew.faces.report.blocks import Report, as_data
+from ballscrew.questions.shared.report_blocks import Report, as_data
 
 
 def pdf_bytes(report: Report) -> bytes:

@@ -11,19 +11,31 @@ from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
-from ballscrew.faces.report import band_section, contents, input_tables, result_tables
-from ballscrew.faces.report.blocks import Block, Columns, Links, Paragraph, Picture, Report, Section, Table, sentence
+from ballscrew.faces.report import contents, input_tables
 from ballscrew.faces.report.contents import ALL, Done
-from ballscrew.faces.report.curve_figures import named, svg_of
-from ballscrew.faces.report.numbers import banded, banded_share
 from ballscrew.physics.sizing.checks import Check
 from ballscrew.questions.band import compute as band
+from ballscrew.questions.band import report as band_report
 from ballscrew.questions.band.compute import BandReport
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.check.compute import Checked, checked
 from ballscrew.questions.compare_designs import figure as figures
+from ballscrew.questions.run import report as run_report
 from ballscrew.questions.run.compute import Run, run
 from ballscrew.questions.shared import check_lines
+from ballscrew.questions.shared.chart_svg import named, svg_of
+from ballscrew.questions.shared.report_blocks import (
+    Block,
+    Columns,
+    Links,
+    Paragraph,
+    Picture,
+    Report,
+    Section,
+    Table,
+    sentence,
+)
+from ballscrew.questions.shared.report_numbers import banded, banded_share
 
 #: Pages at most of what is side by side, and of each design.
 _PAGES, _PAGES_OF_EACH = 2, 2
@@ -74,7 +86,7 @@ def content(cases: Sequence[Case], done: Done | None = None, samples: int | None
 
 
 def _answer(one: Design) -> Paragraph:
-    said = band_section.answer(one.run, one.band).text
+    said = band_report.answer(one.run, one.band).text
     return Paragraph(f"{one.name}: {said} Checks: {one.checked.verdict}.", strong=True)
 
 
@@ -103,7 +115,7 @@ def _table(designs: Sequence[Design]) -> Table:
     ]  # fmt: skip
     for name in BAND_OUTPUTS:
         quantity = known_outputs(designs[0].case.screw.nut)[name].quantity
-        rows.append((result_tables.meaning(name, quantity), *(_cell(one, name, designs[0]) for one in designs)))
+        rows.append((run_report.meaning(name, quantity), *(_cell(one, name, designs[0]) for one in designs)))
     texts = tuple(range(len(designs) + 1))
     note = "In brackets the band, then the change of the value against the first design."
     return Table(
@@ -114,7 +126,7 @@ def _table(designs: Sequence[Design]) -> Table:
 def _cell(one: Design, name: str, first: Design) -> str:
     quantity = known_outputs(one.case.screw.nut)[name].quantity
     value, start = (float(getattr(each.run.friction, name)) for each in (one, first))
-    ends = one.band.band[name].both if band_section.has_band(one.band) else (math.nan, math.nan)
+    ends = one.band.band[name].both if band_report.has_band(one.band) else (math.nan, math.nan)
     share = name.endswith("efficiency")
     said = banded_share(value, *ends) if share else banded(value, *ends, quantity)
     words = said.value + (f" ({said.interval})" if said.interval else "")
@@ -143,13 +155,13 @@ def _picture(designs: Sequence[Design]) -> list[Block]:
 
 
 def _of_one(one: Design) -> list[Block]:
-    bands = one.band.band.outputs if band_section.has_band(one.band) else {}
+    bands = one.band.band.outputs if band_report.has_band(one.band) else {}
     return [
-        Columns.of(result_tables.results(one.run, bands)),
-        *result_tables.parts(one.run),
-        *band_section.swings(one.case, one.band),
-        *band_section.vendor_blocks(one.case),
-        *result_tables.beware(one.run),
+        Columns.of(run_report.results(one.run, bands)),
+        *run_report.parts(one.run),
+        *band_report.swings(one.case, one.band),
+        *band_report.vendor_blocks(one.case),
+        *run_report.beware(one.run),
     ]
 
 

@@ -6,11 +6,11 @@ page. Lines and text are in ``currentColor``: they follow the page into the dark
 
 from __future__ import annotations
 
-import html
 import math
-import re
 from collections.abc import Sequence
 from typing import NamedTuple
+
+from ballscrew.basis.output.markup import escaped
 
 Point = tuple[float, float]
 
@@ -22,18 +22,11 @@ class Panel(NamedTuple):
     bottom: float
 
 
-#: What may not stand in XML at all, not even escaped.
-_FORBIDDEN = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _FONT = "DejaVu Sans, sans-serif"
 #: Colours of Okabe and Ito that are seen on white and on black alike, and how faint an area is.
 GREEN, BLUE, RED, FAINT = "#009E73", "#0072B2", "#D55E00", 0.09
 #: Sizes of letters.
 TITLE, TEXT = 14.0, 13.0
-
-
-def text_of(words: str) -> str:
-    """Words as they stand between tags and in attributes."""
-    return html.escape(_FORBIDDEN.sub("\N{REPLACEMENT CHARACTER}", words))
 
 
 def number(value: float) -> str:
@@ -44,7 +37,7 @@ def number(value: float) -> str:
 def element(tag: str, inner: str = "", /, **attributes: str | float) -> str:
     """An element; ``stroke_width=2`` is written ``stroke-width="2"``."""
     written = "".join(
-        f' {name.rstrip("_").replace("_", "-")}="{text_of(value) if isinstance(value, str) else number(value)}"'
+        f' {name.rstrip("_").replace("_", "-")}="{escaped(value) if isinstance(value, str) else number(value)}"'
         for name, value in attributes.items()
     )
     return f"<{tag}{written}>{inner}</{tag}>" if inner else f"<{tag}{written}/>"
@@ -58,7 +51,7 @@ def group(*parts: str, **attributes: str | float) -> str:
 def text(at: Point, words: str, size: float = TEXT, anchor: str = "start", **attributes: str | float) -> str:
     """A line of text."""
     return element(
-        "text", text_of(words), x=at[0], y=at[1], font_size=size, text_anchor=anchor, fill="currentColor",
+        "text", escaped(words), x=at[0], y=at[1], font_size=size, text_anchor=anchor, fill="currentColor",
         **attributes,
     )  # fmt: skip
 
@@ -110,7 +103,7 @@ def document(width: float, height: float, title: str, description: str, parts: S
     """A whole drawing that says in words what it shows."""
     return element(
         "svg",
-        "\n" + "\n".join([element("title", text_of(title)), element("desc", text_of(description)), *parts]) + "\n",
+        "\n" + "\n".join([element("title", escaped(title)), element("desc", escaped(description)), *parts]) + "\n",
         xmlns="http://www.w3.org/2000/svg",
         viewBox=f"0 0 {number(width)} {number(height)}",
         role="img",

@@ -9,16 +9,16 @@ from ballscrew.basis.quantities import quantities_of
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.named_calibration import vendor_rows_like
 from ballscrew.engine.uncertainty.bands import Interval
-from ballscrew.faces.report.blocks import Bar, Block, Bullets, Paragraph, Picture, Table, sentence
-from ballscrew.faces.report.blocks import value as value_of
-from ballscrew.faces.report.curve_figures import named, svg_of
-from ballscrew.faces.report.numbers import banded, banded_share
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.band import text as band
 from ballscrew.questions.band import tornado_figure as figures
 from ballscrew.questions.band.compute import BandReport
 from ballscrew.questions.band.tornado import tornado
 from ballscrew.questions.run.compute import Run
+from ballscrew.questions.shared.chart_svg import named, svg_of
+from ballscrew.questions.shared.report_blocks import Bar, Block, Bullets, Paragraph, Picture, Table, sentence
+from ballscrew.questions.shared.report_blocks import value as value_of
+from ballscrew.questions.shared.report_numbers import banded, banded_share
 
 _ONE = quantities_of(FrictionResult)
 _TORQUE = _ONE["screw_torque"]

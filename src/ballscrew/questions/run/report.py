@@ -1,27 +1,23 @@
-"""The results of a case for its report: tables of torque, parts, contacts and checks."""
+"""The results of a case for its report: tables of torque, parts and contacts."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 from ballscrew.basis.quantities import Quantity, quantities_of
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files import descriptions
-from ballscrew.cases.screw_tables.nut_kinds import LISTED
 from ballscrew.engine.uncertainty.bands import OutputBand
-from ballscrew.faces.report.blocks import Bar, Block, Bullets, Paragraph, Table, sentence
-from ballscrew.faces.report.blocks import value as value_of
-from ballscrew.faces.report.numbers import banded
 from ballscrew.physics.components.contact import RaceState
 from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
-from ballscrew.physics.sizing.checks import Check
 from ballscrew.physics.solvers.load_distribution import BallLoads
-from ballscrew.questions.check.compute import Checked
 from ballscrew.questions.run.compute import Run
 from ballscrew.questions.run.text import SHORT, rigidity_rows, stiffness_fields, unloaded_rows
-from ballscrew.questions.shared import check_lines
+from ballscrew.questions.shared.report_blocks import Bar, Block, Bullets, Paragraph, Table, sentence
+from ballscrew.questions.shared.report_blocks import value as value_of
+from ballscrew.questions.shared.report_numbers import banded
 
 _ONE, _LOADS = quantities_of(FrictionResult), quantities_of(BallLoads)
 _CONTACT = quantities_of(RaceState)
@@ -116,53 +112,6 @@ def parts(run: Run) -> list[Block]:
     ]
     rows.append(("together", value_of(total, _TORQUE), "100.0%", Bar(0.0, 1.0)))
     return [Table("Parts of the friction torque on the screw", ("", "torque", "share", ""), rows, wide=3)]
-
-
-# -- the checks -----------------------------------------------------------------------------------
-
-
-def checks(found: Checked) -> list[Block]:
-    """Checks, line by line."""
-    return [
-        said_of_checks(found.verdict, found),
-        check_table("Limits, and how much of each is used", found.checks),
-    ]
-
-
-def said_of_checks(verdict: str, found: Checked) -> Paragraph:
-    """The verdict on checks, and on what they rest."""
-    said = [verdict]
-    if found.case.nut is None:
-        said.append("the case has no nut: it is checked as a single nut without preload")
-    said += _computed_ratings(found)
-    return Paragraph(" ".join(f"{sentence(words)}." for words in said), strong=True)
-
-
-def check_table(caption: str, found: Sequence[Check]) -> Table:
-    """A line for each check."""
-    return Table(caption, ("", "value", "limit", "used", "verdict"), [check_row(one) for one in found], (0, 4), 4)
-
-
-def _computed_ratings(found: Checked) -> list[str]:
-    """The ratings that nobody lists and that the checks took from the geometry instead."""
-    unlisted = [name for name in ("dynamic", "static") if found.case.listed.get(f"{name}_load_rating") is None]
-    if found.computed is None or not unlisted:
-        return []
-    values = [value_of(getattr(found.computed, name), LISTED[f"{name}_load_rating"]) for name in unlisted]
-    ratings = " and ".join(f"{name} {value}" for name, value in zip(unlisted, values, strict=True))
-    return [f"load ratings that are not listed are computed from the geometry, by ISO 3408-5 as recalled: {ratings}"]
-
-
-def check_row(one: Check) -> tuple[str, ...]:
-    """A check: value, limit, share of it that is used, verdict."""
-    verdict = {True: "passes", False: "FAILS", None: ""}[one.holds]  # the words then say what is missing
-    return (
-        one.name.replace("_", " "),
-        check_lines.shown(one, one.value),
-        check_lines.shown(one, one.limit),
-        check_lines.used_of(one),
-        ": ".join(filter(None, [verdict, one.text])),
-    )
 
 
 # -- words ----------------------------------------------------------------------------------------

@@ -6,18 +6,16 @@ from collections.abc import Sequence
 
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.quantities import Quantity
-from ballscrew.faces.report import result_tables
-from ballscrew.faces.report.blocks import Bar, Block, Bullets, Columns, Paragraph, Picture, Table, sentence
-from ballscrew.faces.report.blocks import value as value_of
-from ballscrew.faces.report.curve_figures import named, svg_of
-from ballscrew.faces.report.numbers import banded
-from ballscrew.questions.check.compute import Checked
 from ballscrew.questions.duty import band as duty_band
 from ballscrew.questions.duty import figure as figures
 from ballscrew.questions.duty import records as duty_records
 from ballscrew.questions.duty import text
 from ballscrew.questions.duty.band import DutyBandReport
 from ballscrew.questions.duty.compute import NUMBERS, DutyReport
+from ballscrew.questions.shared.chart_svg import named, svg_of
+from ballscrew.questions.shared.report_blocks import Bar, Block, Bullets, Columns, Paragraph, Picture, Table, sentence
+from ballscrew.questions.shared.report_blocks import value as value_of
+from ballscrew.questions.shared.report_numbers import banded
 
 _TORQUE, _ENERGY = NUMBERS["torque_rms"], NUMBERS["energy_lost"]
 #: Samples of the bands of a cycle, and where its balls are solved one by one: a fifth of the time of a report.
@@ -49,15 +47,6 @@ def blocks(report: DutyReport) -> list[Block]:
         Picture(drawn, words, caption),
         *_power_off(report),
         *([Bullets(warned)] if warned else []),
-    ]
-
-
-def checks(report: DutyReport, of_point: Checked) -> list[Block]:
-    """The checks over the cycle, in place of those of the operating point as if it lasted for ever."""
-    verdict = next(record for record in duty_records.verdicts(report) if record.id == "verdict.checks")
-    return [
-        result_tables.said_of_checks(verdict.text, of_point),
-        result_tables.check_table("Limits over the cycle, and how much of each is used", report.checks),
     ]
 
 

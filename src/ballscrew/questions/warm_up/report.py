@@ -5,8 +5,8 @@ from __future__ import annotations
 from ballscrew.basis import units
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files.case import Case
-from ballscrew.faces.report.blocks import Block, Bullets, Columns, Paragraph, Picture, Table, sentence
-from ballscrew.faces.report.curve_figures import named, svg_of
+from ballscrew.questions.shared.chart_svg import named, svg_of
+from ballscrew.questions.shared.report_blocks import Block, Bullets, Columns, Paragraph, Picture, Table, sentence
 from ballscrew.questions.shared.text_tables import shown_or_dash
 from ballscrew.questions.warm_up import figure as figures
 from ballscrew.questions.warm_up import records as warm_up_records
