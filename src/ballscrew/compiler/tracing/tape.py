@@ -55,7 +55,9 @@ class Tape:
         """Record a step, or find the equal one already recorded; return its index."""
         coded = tuple(("step", o.index) if isinstance(o, Traced) else ("constant", o) for o in operands)
         step = Step(function, coded, is_mask)
-        if step not in self._known:
+        index = self._known.get(step)  # a step's hash is long to compute
+        if index is None:
+            index = self._known[step] = len(self.steps)
             self.steps.append(step)
             self.groups.append(0)
             for kind, operand in coded:
@@ -63,8 +65,7 @@ class Tape:
             if function in REDUCTIONS:
                 self.groups[-1] = COLUMNS | REDUCED
             self.nonnegative.append(self._is_nonnegative(step))
-            self._known[step] = len(self.steps) - 1
-        return self._known[step]
+        return index
 
     def _is_nonnegative(self, step: Step) -> bool:
         if step.function in (np.exp, np.sqrt, np.absolute):
@@ -87,7 +88,7 @@ class Tape:
 
     def value(self, index: int) -> Traced:
         """The value of a step."""
-        return Traced(self, {index: 1.0}, 1.0)
+        return Traced(self, {index: 1.0}, 1.0, index=index)
 
     def is_mask(self, index: int) -> bool:
         """Return whether a step yields truth values."""
@@ -125,12 +126,20 @@ class Traced(np.lib.mixins.NDArrayOperatorsMixin):
     Where the mask ``zero`` holds (the index of a step), the product is zero whatever its factors are.
     """
 
-    def __init__(self, tape: Tape, powers: Mapping[int, float], scale: float, zero: int | None = None) -> None:
+    def __init__(
+        self,
+        tape: Tape,
+        powers: Mapping[int, float],
+        scale: float,
+        zero: int | None = None,
+        *,
+        index: int | None = None,
+    ) -> None:
         self.tape = tape
         self.powers = dict(powers)
         self.scale = np.float64(scale)  # divides by zero as arrays do
         self.zero = zero
-        self._index: int | None = None
+        self._index = index
 
     @property
     def index(self) -> int:
