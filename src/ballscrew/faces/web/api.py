@@ -66,8 +66,8 @@ from ballscrew.questions.duty import document as duty_documents
 from ballscrew.questions.duty.answer import DutyResults
 from ballscrew.questions.optimise.need_schema import json_schema as schema_of_needs
 from ballscrew.questions.run import answer as run_answers
-from ballscrew.questions.select import answer as select_answers
 from ballscrew.questions.select import document as selection_documents
+from ballscrew.questions.select import response as select_answers
 from ballscrew.questions.select.compute import plan as planned_selection
 from ballscrew.questions.select.compute import select as selected
 from ballscrew.questions.select.need import need_of

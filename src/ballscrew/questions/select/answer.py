@@ -1,95 +1,182 @@
-"""Response models of the API for screws that are ranked for a need."""
+"""A candidate of a selection, declared once: JSON, its units and its schema follow from the annotations."""
 
 from __future__ import annotations
 
-from pydantic import Field
+import dataclasses
+import math
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any, Literal, NamedTuple
 
-from ballscrew.questions.shared.answer_parts import Closed, Number, Numbers, Open, Provenance, Record, Tables, field
+from ballscrew.basis.quantities import Force, Info, Length, Ratio, Torque, quantities_of
+from ballscrew.cases.screw_tables.nut_kinds import NUT_FIELDS
+from ballscrew.physics.sizing.catalogue import CatalogueRow
+from ballscrew.questions.duty.answer import FullBath
+from ballscrew.questions.duty.compute import NUMBERS, DutyReport
+from ballscrew.questions.select.candidates import Candidate
+from ballscrew.questions.select.compute import Ranked
+from ballscrew.questions.select.objectives import OBJECTIVES
+from ballscrew.questions.shared.declared import FINITE, table_of
+
+_ROW = quantities_of(CatalogueRow)
+CycleOfNeed = table_of("CycleOfNeed", "Numbers of the cycle of a need.", NUMBERS)
+Objectives = table_of("Objectives", "The numbers compared.", {name: one.quantity for name, one in OBJECTIVES.items()})
 
 
-class Failing(Closed):
+class Failing(NamedTuple):
     """A check that fails."""
 
+    #: Of the check.
     name: str
-    utilisation: Number = Field(description="demand over capacity; null where the check is a question of yes or no")
+    #: Demand over capacity; null where the check is a question of yes or no.
+    utilisation: Ratio
 
 
-class RowSizes(Closed):
+class RowSizes(NamedTuple):
     """Sizes of a row, and its source."""
 
-    nominal_diameter: float = field("nominal diameter, SI", "m")
-    lead: float = field("lead, SI", "m")
+    nominal_diameter: Annotated[Length, _ROW["nominal_diameter"].info, FINITE]
+    lead: Annotated[Length, _ROW["lead"].info, FINITE]
+    #: Where the row is from.
     source: str
 
 
-class Candidate(Open):
-    """A row with a nut, a preload and an oil: the document of its check, with its rank."""
-
-    rank: int
-    name: str = Field(description="of the row")
-    label: str = Field(description="row, nut, preload and oil")
-    row: RowSizes
-    nut: str
-    preload: Number = field("axial preload, SI", "N")
-    oil: str
-    holds: bool = Field(description="true where all checks were judged and hold")
-    complete: bool = Field(
-        description="false where its loads alone rule it out: friction was not computed, results are empty"
-    )
-    valid: bool
-    pareto: bool = Field(description="true where no other candidate that fits is better in all objectives")
-    rigid_lift_off_load: Number = field(
-        "load above which rigid bodies lose the preload, SI, of a nut that has none left; null where some is left", "N"
-    )
-    worst: Number = Field(description="largest utilisation")
-    fails: list[Failing]
-    verdict: str
-    objectives: Numbers
-    case: Tables = Field(description="its case file as tables")
-    starved: bool = Field(
-        description="true where the torque in a full bath of oil is larger: loss and torques compared are the larger"
-    )
-    results: Tables
-    checks: list[Tables]
-    judged: int = Field(description="number of the checks that were judged; the others lack an input")
-    verdicts: list[Record]
-    warnings: list[Record]
-
-
-class OneObjective(Closed):
+class OneObjective(NamedTuple):
     """A number that is compared."""
 
+    #: In options and documents.
     name: str
+    #: What it is.
     meaning: str
-    unit: str = Field(description="SI")
-    better: str = Field(description="less or more")
+    #: SI.
+    unit: str
+    #: The direction that is better.
+    better: Literal["less", "more"]
 
 
-class Unasked(Closed):
-    """An input that a need leaves empty, and the checks that are not judged without it."""
+@dataclasses.dataclass(frozen=True, eq=False)
+class OneCandidate:
+    """A row with a nut, a preload and an oil, its rank, and the numbers compared."""
 
-    input: str = Field(description="by section.field of a case file")
-    checks: list[str]
+    #: From 1, the best.
+    rank: int
+    #: Of the row.
+    name: str
+    #: Row, nut, preload and oil.
+    label: str
+    #: Of the row.
+    row: RowSizes
+    #: Kind of the nut.
+    nut: str
+    preload: Annotated[Force, NUT_FIELDS["preload"].info]
+    #: Name of the oil.
+    oil: str
+    #: True where all checks were judged and hold.
+    holds: bool
+    #: False where its loads alone rule it out: friction was not computed, results are empty.
+    complete: bool
+    #: True within the validity of the model, as far as it was computed.
+    valid: bool
+    #: True where no other candidate that fits is better in all objectives.
+    pareto: bool
+    rigid_lift_off_load: Annotated[
+        Force | None,
+        Info("F_l", "load above which rigid bodies lose the preload, of a nut that has none left; null: some is left"),
+    ]
+    #: Largest utilisation.
+    worst: Ratio
+    #: The checks that fail.
+    fails: Sequence[Failing]
+    #: All checks in a few words.
+    verdict: str
+    #: The numbers compared.
+    objectives: Objectives  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
+    #: Its case file as tables.
+    case: Mapping[str, Any]
+    #: True where the torque in a full bath of oil is larger: loss and torques compared are the larger.
+    starved: bool
 
 
-class Plan(Closed):
-    """What a selection would do, before it is done."""
+class MotorTorque(NamedTuple):
+    """The torques that a motor is chosen by."""
 
-    candidates: int
-    seconds: float = field("time of one processor, at most", "s")
-    unasked: list[Unasked]
+    torque_peak: Annotated[Torque, NUMBERS["torque_peak"].info]
+    torque_rms: Annotated[Torque, NUMBERS["torque_rms"].info]
 
 
-class Select(Closed):
-    """Candidates for a need, the best first."""
+class BrakeOfNeed(NamedTuple):
+    """What the brake of an axis must hold."""
 
-    need: Tables
-    objectives: list[OneObjective]
-    best: str | None = Field(description="label of the first that holds within the validity of the model")
-    holding: int
-    ruled_out: int = Field(description="candidates that their loads alone rule out, without the full model")
-    candidates: list[Candidate]
-    notes: list[str]
-    warnings: list[Record] = Field(description="lubricant.starved, of the first candidate that is")
-    units: Tables
-    provenance: Provenance | None
+    #: True where the axis starts to move by itself, or goes on once started.
+    falls: bool
+    holding_torque: Annotated[Torque, Info("M_h", "largest torque that keeps the axis at rest")]
+    load_torque: Annotated[Torque, Info("M_l", "torque of the load without any friction")]
+    brake_torque: Annotated[Torque, Info("M_b", "rated torque of a brake")]
+
+
+#: The torques of the brake.
+BRAKE = tuple(quantities_of(BrakeOfNeed))
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class OfMotion:
+    """What a candidate has beside the others where the need has a motion."""
+
+    #: Numbers of its cycle.
+    duty: CycleOfNeed  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
+    #: Those in a full bath of oil; null by the rule of catalogues, which knows no oil.
+    full_bath: FullBath | None  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
+    #: The torques that a motor is chosen by.
+    motor_torque: MotorTorque
+    #: What the brake must hold.
+    brake: BrakeOfNeed
+
+
+def candidate(ranked: Ranked, verdict: str, case: Mapping[str, Any]) -> OneCandidate:
+    """A candidate with its rank, all checks in a few words, and its case file."""
+    found, row = ranked.candidate, ranked.candidate.variant.row
+    return OneCandidate(
+        rank=ranked.rank,
+        name=found.name,
+        label=found.variant.label,
+        row=RowSizes(row.nominal_diameter, row.lead, row.source),
+        nut=found.variant.nut,
+        preload=found.preload,
+        oil=found.variant.oil_name,
+        holds=found.holds,
+        complete=found.complete,
+        valid=found.valid,
+        pareto=ranked.pareto,
+        rigid_lift_off_load=found.rigid_lift_off_load,
+        worst=worst(found),
+        fails=fails(found),
+        verdict=verdict,
+        objectives=Objectives(**found.objectives),
+        case=case,
+        starved=bool(found.starved),
+    )
+
+
+def worst(found: Candidate) -> float | None:
+    """The largest utilisation; None where it is not finite."""
+    return found.worst if math.isfinite(found.worst) else None
+
+
+def fails(found: Candidate) -> list[Failing]:
+    """The checks that fail."""
+    return [Failing(check.name, check.utilisation) for check in found.failed]
+
+
+def of_motion(duty: DutyReport) -> OfMotion:
+    """The cycle of a candidate."""
+    return OfMotion(
+        CycleOfNeed(**duty.numbers),
+        None if duty.by_rule else FullBath(**duty.full_bath),
+        MotorTorque(**duty.motor_torque),
+        BrakeOfNeed(*(getattr(duty.brake, name) for name in BrakeOfNeed._fields)),
+    )
+
+
+def objective(name: str) -> OneObjective:
+    """An objective with meaning, unit, and the direction that is better."""
+    one = OBJECTIVES[name]
+    return OneObjective(name, one.quantity.info.meaning, one.quantity.unit, "more" if one.larger_is_better else "less")

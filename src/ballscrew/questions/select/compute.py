@@ -7,11 +7,12 @@ import math
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
 from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.quantities import Duration
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.compiler.kernels import kernel as kernels
@@ -31,6 +32,7 @@ from ballscrew.questions.select.candidates import (
 from ballscrew.questions.select.need import Need, need_of
 from ballscrew.questions.select.objectives import OBJECTIVES, USUAL_OBJECTIVES, objectives_named
 from ballscrew.questions.select.pareto import front
+from ballscrew.questions.shared.declared import FINITE
 from ballscrew.questions.shared.every_row import Done, each
 
 #: Variants at most: more take hours.
@@ -48,8 +50,10 @@ SECONDS: Mapping[str, float] = {"point": 0.08, "cycle": 0.35, "recorded": 0.15}
 class Unasked(NamedTuple):
     """An input that a need leaves empty, and the checks that nobody can judge without it."""
 
+    #: By section.field of a case file.
     input: str
-    checks: tuple[str, ...]
+    #: The checks that are not judged without it.
+    checks: Sequence[str]
 
 
 #: What a need may leave empty though checks need it.
@@ -62,11 +66,13 @@ UNASKED = (
 
 @dataclasses.dataclass(frozen=True)
 class Plan:
-    """What a selection would do."""
+    """What a selection would do, before it is done."""
 
+    #: Rows, nuts, preloads and oils, each with each.
     candidates: int
-    #: Seconds of one processor, at most: those that their loads rule out cost next to nothing.
-    seconds: float
+    #: Time of one processor at most: those that their loads rule out cost next to nothing.
+    seconds: Annotated[Duration, FINITE]
+    #: Inputs that the need leaves empty.
     unasked: Sequence[Unasked]
 
 

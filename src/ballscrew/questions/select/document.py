@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping
 from typing import Any
 
-from ballscrew.axis.duty_cycle.brake import Brake
 from ballscrew.basis import units
 from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.basis.records import Message, documents
@@ -16,16 +13,22 @@ from ballscrew.physics.friction.starvation import STARVED
 from ballscrew.physics.sizing.checks import failing, judged, verdict_of
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.check import document as check_documents
-from ballscrew.questions.duty.compute import NUMBERS, OF_BATH
+from ballscrew.questions.select.answer import (
+    OfMotion,
+    OneCandidate,
+    candidate,
+    fails,
+    objective,
+    of_motion,
+    worst,
+)  # fmt: skip
 from ballscrew.questions.select.candidates import Candidate, case_tables
 from ballscrew.questions.select.compute import Plan, Ranked, Selection
 from ballscrew.questions.select.need import Need
-from ballscrew.questions.select.objectives import OBJECTIVES
 from ballscrew.questions.select.requirements import Requirements
+from ballscrew.questions.shared import declared
 
 _LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
-#: Numbers of the brake, with their units.
-BRAKE: Mapping[str, str] = {"holding_torque": "N m", "load_torque": "N m", "brake_torque": "N m"}
 #: What is the same for all candidates, or too long for a list.
 _LEFT_OUT = ("units", "provenance", "loads", "name", "checks", "judged", "holds", "verdict")
 
@@ -47,30 +50,16 @@ def document(found: Selection) -> dict[str, Any]:
         "warnings": documents(next((each.candidate.starved for each in found.ranked if each.candidate.starved), [])),
         "units": {
             **known,
-            "objectives": {name: each.quantity.unit for name, each in OBJECTIVES.items()},
-            **(_of_motion() if moves else {}),
+            **declared.units_of(OneCandidate),
+            **(declared.units_of(OfMotion) if moves else {}),
         },
         "provenance": provenance.of_case(found.ranked[0].candidate.case) if found.ranked else None,
     }
 
 
-def _of_motion() -> dict[str, dict[str, str]]:
-    """Units of what a candidate with a motion has beside the others."""
-    return {
-        "duty": {name: each.unit for name, each in NUMBERS.items()},
-        "full_bath": {name: each.unit for name, each in OF_BATH.items()},
-        "motor_torque": {name: NUMBERS[name].unit for name in ("torque_peak", "torque_rms")},
-        "brake": dict(BRAKE),
-    }
-
-
 def plan_document(plan: Plan) -> dict[str, Any]:
     """What a selection would do, before it is done."""
-    return {
-        "candidates": plan.candidates,
-        "seconds": plan.seconds,
-        "unasked": [{"input": one.input, "checks": list(one.checks)} for one in plan.unasked],
-    }
+    return declared.document(plan)
 
 
 def row_document(found: Candidate) -> dict[str, Any]:
@@ -80,8 +69,8 @@ def row_document(found: Candidate) -> dict[str, Any]:
         "complete": found.complete,
         "fits": found.fits,
         "holds": found.holds,
-        "worst": found.worst if math.isfinite(found.worst) else None,
-        "fails": [{"name": c.name, "utilisation": c.utilisation} for c in found.failed],
+        "worst": worst(found),
+        "fails": declared.document(fails(found)),
         "objectives": dict(found.objectives),
     }
 
@@ -106,15 +95,7 @@ def need_document(need: Need) -> dict[str, Any]:
 
 def objectives_document(names: Any) -> list[dict[str, Any]]:
     """Objectives with meaning, unit, and the direction that is better."""
-    return [
-        {
-            "name": name,
-            "meaning": OBJECTIVES[name].quantity.info.meaning,
-            "unit": OBJECTIVES[name].quantity.unit,
-            "better": "more" if OBJECTIVES[name].larger_is_better else "less",
-        }
-        for name in names
-    ]
+    return [declared.document(objective(name)) for name in names]
 
 
 def candidate_document(ranked: Ranked, need: Need) -> dict[str, Any]:
@@ -129,48 +110,14 @@ def candidate_document(ranked: Ranked, need: Need) -> dict[str, Any]:
         if not any(one["id"] == STARVED for name in ("verdicts", "warnings") for one in whole[name]):
             # of the cycle, or of the nut without load
             whole["warnings"] = [*documents(found.starved), *whole["warnings"]]
-    duty: dict[str, Any] = {}
-    if found.duty is not None:
-        duty = {
-            "duty": dict(found.duty.numbers),
-            "full_bath": None if found.duty.by_rule else dict(found.duty.full_bath),
-            "motor_torque": dict(found.duty.motor_torque),
-            "brake": brake_document(found.duty.brake),
-        }
     return {
-        "rank": ranked.rank,
-        "name": found.name,
-        "label": found.variant.label,
-        "row": {
-            "nominal_diameter": found.variant.row.nominal_diameter,
-            "lead": found.variant.row.lead,
-            "source": found.variant.row.source,
-        },
-        "nut": found.variant.nut,
-        "preload": found.preload,
-        "oil": found.variant.oil_name,
-        "holds": found.holds,
-        "complete": found.complete,
-        "valid": found.valid,
-        "pareto": ranked.pareto,
-        "rigid_lift_off_load": found.rigid_lift_off_load,
-        "worst": found.worst if math.isfinite(found.worst) else None,
-        "fails": [{"name": c.name, "utilisation": c.utilisation} for c in found.failed],
-        "verdict": verdict(found),
-        "objectives": dict(found.objectives),
-        "case": _case(found, need),
-        "starved": bool(found.starved),
+        **declared.document(candidate(ranked, verdict(found), _case(found, need))),
         "results": whole.pop("results"),
-        **duty,
+        **({} if found.duty is None else declared.document(of_motion(found.duty))),
         "checks": [check_documents.check_document(check) for check in found.checks],
         "judged": judged(found.checks),
         **{name: part for name, part in whole.items() if name not in (*_LEFT_OUT, "nut")},
     }
-
-
-def brake_document(brake: Brake) -> dict[str, Any]:
-    """What the brake of an axis must hold, without the conditions one by one."""
-    return {name: getattr(brake, name) for name in ("falls", *BRAKE)}
 
 
 def _case(found: Candidate, need: Need) -> dict[str, Any]:

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 from ballscrew.questions.check.table import of_checks
 from ballscrew.questions.duty.compute import NUMBERS
+from ballscrew.questions.select.answer import BRAKE
 from ballscrew.questions.select.compute import Ranked
-from ballscrew.questions.select.document import BRAKE, verdict
+from ballscrew.questions.select.document import verdict
 from ballscrew.questions.select.objectives import OBJECTIVES
 from ballscrew.questions.shared.row_tables import RowTable, of_cells, put
 

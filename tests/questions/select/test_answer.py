@@ -1,0 +1,77 @@
+"""The answer of a selection: a candidate is declared once, and the same on every face."""
+
+import pytest
+
+import ballscrew as bs
+from ballscrew.basis import units
+from ballscrew.basis.quantities import quantities_of
+from ballscrew.questions.select import document, table
+from ballscrew.questions.select.answer import BrakeOfNeed, MotorTorque, OfMotion, OneCandidate, OneObjective
+from ballscrew.questions.select.compute import Plan, plan
+from ballscrew.questions.select.objectives import OBJECTIVES
+from ballscrew.questions.select.response import Candidate, Select
+from ballscrew.questions.shared import declared
+from support.answers import undescribed, without_unit
+
+POINT = {"force": "2 kN", "feed": "10 m/min", "preload": "5 %", "rows": "hiwin-40-20k4"}
+MOVING = {
+    "mass": "400 kg", "inclination": "90 deg", "acceleration": "3 m/s^2", "feed": "15 m/min", "stroke": "600 mm",
+    "nut": "double", "preload": "5 %", "rows": "hiwin-40-20k4",
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module", params=[POINT, MOVING], ids=["a point", "a motion"])
+def found(request):
+    return bs.select(request.param)
+
+
+def test_the_numbers_compared_are_on_every_face(found):
+    answer, headings = document.document(found), table.of_selection(found.ranked).headings
+    schema = declared.schema(OneCandidate).model_json_schema()["$defs"]["Objectives"]["properties"]
+    for name, objective in OBJECTIVES.items():
+        quantity = objective.quantity
+        assert name in answer["candidates"][0]["objectives"]
+        assert answer["units"]["objectives"][name] == quantity.unit == schema[name].get("x-si-unit", "1")
+        assert schema[name]["description"].startswith(quantity.info.meaning)
+        assert units.heading(quantity) in headings
+    named = {one["name"]: one for one in answer["objectives"]}
+    assert {name: one["meaning"] for name, one in named.items()} == {
+        name: OBJECTIVES[name].quantity.info.meaning for name in found.objectives
+    }
+
+
+def test_torques_of_motor_and_brake_are_on_every_face():
+    found = bs.select(MOVING)
+    answer, headings = document.document(found), " ".join(table.of_selection(found.ranked).headings)
+    candidate, schema = answer["candidates"][0], Candidate.model_json_schema()["$defs"]
+    for part, cls, word in (("motor_torque", MotorTorque, "motor"), ("brake", BrakeOfNeed, "brake")):
+        for name, quantity in quantities_of(cls).items():
+            described = schema[cls.__name__]["properties"][name]
+            assert candidate[part][name] > 0
+            assert answer["units"][part][name] == quantity.unit == described["x-si-unit"]
+            assert described["description"].startswith(quantity.info.meaning)
+            assert f"{word} {name}".replace("_", " ") in headings
+
+
+def test_answers_are_valid_by_their_schema(found):
+    answer = document.document(found)
+    Select.model_validate(answer)
+    assert ("duty" in answer["candidates"][0]) == found.need.moves
+
+
+def test_every_number_has_a_unit(found):
+    answer = document.document(found)
+    (candidate,) = answer["candidates"]
+    parts = [*declared.parts_of(OneCandidate), *(declared.parts_of(OfMotion) if found.need.moves else ())]
+    assert list(without_unit({name: candidate[name] for name in parts if name != "case"}, answer["units"])) == []
+
+
+def test_a_plan_is_valid_by_its_schema():
+    answer = document.plan_document(plan(POINT))
+    declared.schema(Plan).model_validate(answer)
+    assert answer["unasked"][0].keys() == {"input", "checks"}
+
+
+@pytest.mark.parametrize("cls", [OneCandidate, OneObjective, OfMotion, Plan])
+def test_every_part_is_described(cls):
+    assert list(undescribed(cls)) == []
