@@ -18,6 +18,7 @@ from ballscrew.faces.cli import (
     duty,
     fit,
     hand_over,
+    main,
     optimise,
     run,
     select,
@@ -26,7 +27,7 @@ from ballscrew.faces.cli import (
     sweep,
     warm_up,
 )
-from ballscrew.faces.cli.flags import flags_of
+from ballscrew.faces.cli.flags import flags_of, with_flags
 from ballscrew.faces.web.bodies import BandBody, NeedBody, SweepBody, WarmUpBody
 from ballscrew.faces.web.log_bodies import FitBody, HandOverBody, ServiceBody
 from ballscrew.faces.web.vocabulary import OPTIONS, vocabulary
@@ -77,9 +78,13 @@ def named(one):
 
 def flags(command):
     """The flags of a command and what its help says of them."""
-    annotations = [one.annotation for one in inspect.signature(command, eval_str=True).parameters.values()]
+    annotations = [one.annotation for one in inspect.signature(with_flags(command), eval_str=True).parameters.values()]
     found = [one.__metadata__[0] for one in annotations if hasattr(one, "__metadata__")]
     return {one.default: one.help for one in found if isinstance(one, typer.models.OptionInfo)}
+
+
+def test_every_command_with_options_is_looked_at():
+    assert {one for one in main.COMMANDS.values() if with_flags(one) is not one} == COMMANDS.keys()
 
 
 @pytest.mark.parametrize("command", COMMANDS, ids=named)
@@ -163,10 +168,11 @@ def test_every_kind_on_the_command_line():
     app = typer.Typer(rich_markup_mode=None)
     given = []
 
-    @app.command()
     @flags_of(Every)
     def command(case: str, *, written: Mapping[str, object], loud: bool = False) -> None:
         given.append((case, read(Every, written, lengths), loud))
+
+    app.command()(with_flags(command))
 
     done = CliRunner().invoke(app, ["case", *TYPED, "--loud"])
     assert done.exit_code == 0, done.output

@@ -10,11 +10,11 @@ import functools
 import io
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated, Any, NoReturn
 
 import typer
-from typer.core import TyperCommand
+from typer.core import TyperCommand, TyperGroup
 
 from ballscrew.basis import pint_plugins as _pint_plugins
 from ballscrew.faces.cli import (
@@ -45,17 +45,7 @@ from ballscrew.faces.cli import (
     warm_up,
 )
 from ballscrew.faces.cli.common_options import CALIBRATION_NAMES, MODEL_NAMES, compiling_on_terminal
-
-app = typer.Typer(
-    name="ballscrew",
-    help="What a ball screw loses to friction: torque, efficiency, back-driving, and why, term by term.",
-    no_args_is_help=True,
-    pretty_exceptions_enable=False,
-    rich_markup_mode=None,
-)
-app.add_typer(catalogue.app, name="catalogue")
-app.add_typer(card.app, name="card")
-app.add_typer(oils.app, name="oils")
+from ballscrew.faces.cli.flags import with_flags
 
 
 class _Command(TyperCommand):
@@ -81,31 +71,68 @@ class _Command(TyperCommand):
         super().format_help(ctx, formatter)
 
 
-for command in (
-    run.run,
-    compare.compare,
-    sweep.sweep,
-    reproduce.reproduce,
-    check.check,
-    select.select,
-    optimise.optimise,
-    fit.fit,
-    hand_over.hand_over,
-    report.report,
-    duty.duty,
-    axis.axis,
-    warm_up.warm_up,
-    compensation.compensation,
-    sensitivity.sensitivity,
-    serve.serve,
-    service.service,
-    condition.condition,
-    validate.validate,
-    schema.schema,
-    cite.cite,
-):
-    app.command(cls=_Command)(command)
-app.command("list", cls=_Command)(names.list_names)
+#: The commands by their names, in the order of the help.
+COMMANDS: Mapping[str, Callable[..., None]] = {
+    command.__name__.replace("_", "-"): command
+    for command in (
+        run.run,
+        compare.compare,
+        sweep.sweep,
+        reproduce.reproduce,
+        check.check,
+        select.select,
+        optimise.optimise,
+        fit.fit,
+        hand_over.hand_over,
+        report.report,
+        duty.duty,
+        axis.axis,
+        warm_up.warm_up,
+        compensation.compensation,
+        sensitivity.sensitivity,
+        serve.serve,
+        service.service,
+        condition.condition,
+        validate.validate,
+        schema.schema,
+        cite.cite,
+    )
+} | {"list": names.list_names}
+
+
+class _Commands(TyperGroup):
+    """Commands whose parameters are read for the one that is asked for: those of all take as long as all else."""
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        name, command, others = super().resolve_command(ctx, args)
+        function = COMMANDS.get(name or "")
+        return name, command if name is None or function is None else command_of(name, function), others
+
+
+def command_of(name: str, function: Callable[..., None]) -> Any:
+    """A command with its parameters."""
+    alone = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
+    alone.command(name, cls=_Command)(with_flags(function))
+    return typer.main.get_command(alone)
+
+
+def _listed() -> None:
+    """Stand for a command in the list of them."""
+
+
+app = typer.Typer(
+    name="ballscrew",
+    cls=_Commands,
+    help="What a ball screw loses to friction: torque, efficiency, back-driving, and why, term by term.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+)
+app.add_typer(catalogue.app, name="catalogue")
+app.add_typer(card.app, name="card")
+app.add_typer(oils.app, name="oils")
+for _name, _function in COMMANDS.items():
+    app.command(_name, help=_function.__doc__)(_listed)
 
 
 def _version(wanted: bool) -> None:
