@@ -42,6 +42,8 @@ screw_speed = "1000 rpm"
 [surroundings]
 shaft_length = "1 m"
 """
+#: Where places and lengths are looked at, friction may be that of the paper: the model is recorded in no time.
+SIMPLE = "model.name=olaru2005"
 DOUBLE = '[nut]\ntype = "double"\npreload = "3 kN"\n'
 
 
@@ -197,7 +199,7 @@ def test_stroke_and_length_are_those_of_the_case(case):
     mounted = POINT.replace('[surroundings]\nshaft_length = "1 m"', "[installation]") + (
         'unsupported_length = "0.8 m"\nends = "fixed-supported"\n'
     )
-    report = warmed_up(case(mounted, "surroundings.stroke=200 mm"), hours=0.1)
+    report = warmed_up(case(mounted, "surroundings.stroke=200 mm", SIMPLE), hours=0.1)
     assert report.duty.states.stroke == pytest.approx(0.2)
     assert report.warm_up.network.shaft.length == 0.8
     assert "shaft of 0.8 m: the length of [installation]" in report.assumed
@@ -215,7 +217,7 @@ def test_stroke_and_length_are_those_of_the_case(case):
 )  # fmt: skip
 def test_a_length_that_is_not_given_is_assumed_and_warned_of(case, settings, length):
     written = POINT.partition("[surroundings]")[0]
-    report = warmed_up(case(written, *settings), hours=0.02)
+    report = warmed_up(case(written, *settings, SIMPLE), hours=0.02)
     assert report.warm_up.network.shaft.length == pytest.approx(length)
     warned = records(plain(document_of(report)), "warnings")["warm_up.assumed_length"]
     assert warned["value"] == pytest.approx(length)
