@@ -9,6 +9,7 @@ import { titleOf } from "./designs.js";
 import { byId } from "./dom.js";
 import * as drawings from "./drawing.js";
 import { inWords, labelOf } from "./faults.js";
+import { jump } from "./form.js";
 import { showFailure } from "./plot.js";
 import * as results from "./results.js";
 import { withoutCards } from "./schema.js";
@@ -17,6 +18,7 @@ import { LETTERS } from "./state.js";
 import * as stiffness from "./stiffness.js";
 import * as temperatures from "./temperatures.js";
 import { text } from "./texts.js";
+import { vocabulary } from "./vocabulary.js";
 
 /** Every how many points of the curve over the speed have a band: of a screw, and of a whole nut. */
 const STEP_OF_BAND = { screw: 2, nut: 4 };
@@ -45,33 +47,18 @@ const PAINT_TIMEOUT = 500;
  * @property {Sweep} [hotAndCold]
  * @property {Template} [drawing]
  * @property {import("./compare.js").Answers} [designs]
+ * @property {Question} [asked] what the designs answer
  * @property {Compare} [models]
  */
 
-/** @type {Mechanisms} */
-let mechanisms;
 let requests = new AbortController();
 let bandRequest = new AbortController();
 /** That of the checks: an edit of a card asks for them alone. */
 let checksRequest = new AbortController();
 /** @type {ReturnType<typeof setTimeout>} */
 let bandTimer;
-/** Adds the bands of the designs that stand side by side. */
-let addBandsOfDesigns = () => {};
-/** Goes to a field of the form. @type {(path: string) => void} */
-let jump = () => {};
 /** @type {Displayed} */
 let displayed = { band: null, starts: [] };
-
-/**
- * @param {Vocabulary} vocabulary
- * @param {(path: string) => void} goTo goes to a field of the form
- */
-export function setVocabulary(vocabulary, goTo) {
-  mechanisms = vocabulary.mechanisms;
-  stiffness.setVocabulary(vocabulary);
-  jump = goTo;
-}
 
 /** The answer on the page, or none yet. */
 export function current() {
@@ -222,11 +209,11 @@ async function follow(asked) {
  */
 function showNumbers(answer, { body, whole, band: wanted, report, start, signal }) {
   const key = JSON.stringify(body);
-  const { designs, starts } = displayed;
+  const { designs, asked, starts } = displayed;
   /** @type {Displayed} */
   const before = displayed.key === key ? displayed : { band: null, starts };
   const { checks: checked, band, bandAlongSpeed } = before;
-  displayed = { body, whole, key, answer, checks: checked, band, bandAlongSpeed, designs, starts };
+  displayed = { body, whole, key, answer, checks: checked, band, bandAlongSpeed, designs, asked, starts };
   report([]);
   results.succeed();
   if (wanted && !displayed.band) displayed.band = { state: "pending" };
@@ -330,9 +317,9 @@ async function showTable(asked, refused) {
       : { run: known("run", one), ...(designs.length > 1 && { checks: known("check", one) }) };
   }
   displayed.designs = found;
-  addBandsOfDesigns = () => addBands(asked);
-  await showDesigns(found, displayed.starts, mechanisms);
-  if (band && designs.length > 1 && !refused.has(body)) addBandsOfDesigns();
+  displayed.asked = asked;
+  await showDesigns(found, displayed.starts, vocabulary.mechanisms);
+  if (band && designs.length > 1 && !refused.has(body)) addBands(asked);
 }
 
 /** Why a design has no answer, in words. @param {unknown} error */
@@ -387,7 +374,7 @@ function nextTask() {
 /** Draw the torque over the speed, with its band where that is there. @param {Run} answer */
 function drawTorque(answer) {
   const { alongSpeed, band, bandAlongSpeed } = displayed;
-  return alongSpeed && charts.torque(alongSpeed, answer, mechanisms, band ? bandAlongSpeed : undefined);
+  return alongSpeed && charts.torque(alongSpeed, answer, vocabulary.mechanisms, band ? bandAlongSpeed : undefined);
 }
 
 /**
@@ -450,7 +437,7 @@ export function redisplay() {
   if (alongLoad) curves.pressure(alongLoad, answer);
   if (displayed.hotAndCold) temperatures.show(displayed.hotAndCold, answer);
   if (drawing) drawings.show(drawing);
-  if (designs) showDesigns(designs, starts, mechanisms);
+  if (designs) showDesigns(designs, starts, vocabulary.mechanisms);
   if (models) showModels(models);
 }
 
@@ -503,11 +490,11 @@ export function showBand(wanted) {
  * @param {boolean} wanted
  */
 export function showBandsOfDesigns(wanted) {
-  const { designs, starts } = displayed;
-  if (!designs || Object.keys(designs).length < 2) return;
+  const { designs, starts, asked } = displayed;
+  if (!designs || !asked || Object.keys(designs).length < 2) return;
   for (const one of Object.values(designs)) delete one.band;
-  if (wanted) addBandsOfDesigns();
-  else showDesigns(designs, starts, mechanisms);
+  if (wanted) addBands(asked);
+  else showDesigns(designs, starts, vocabulary.mechanisms);
 }
 
 /**
@@ -525,7 +512,7 @@ async function addBands({ designs, signal }) {
     } catch {
       continue; // of this design there is none
     }
-    if (!signal.aborted && displayed.designs) showDesigns(displayed.designs, displayed.starts, mechanisms);
+    if (!signal.aborted && displayed.designs) showDesigns(displayed.designs, displayed.starts, vocabulary.mechanisms);
   }
 }
 

@@ -3,6 +3,7 @@
 import * as schema from "./schema.js";
 import { get } from "./server.js";
 import * as states from "./state.js";
+import { vocabulary } from "./vocabulary.js";
 
 /** Sections that belong to the use of a screw, not to the screw. */
 const OF_USE = ["operation", "lubricant", "model", "losses", "installation", "limits"];
@@ -22,8 +23,6 @@ const OF_OIL = [
 /** Letters of a name that stand in the name of a file. */
 const NOT_IN_FILES = /[^\p{L}\p{N}._-]+/gu;
 
-/** @type {Vocabulary} */
-let vocabulary;
 /** @type {states.State} */
 let state;
 /** Writes the state into the address and shows it. @type {(options: Follow) => Promise<void>} */
@@ -34,11 +33,9 @@ const starts = new Map();
 /** @typedef {{ rebuild?: boolean, keep?: boolean, formOnly?: boolean, path?: string, ofCards?: boolean }} Follow */
 
 /**
- * @param {Vocabulary} words
  * @param {(options: Follow) => Promise<void>} listener follows changes that cards make
  */
-export function setUp(words, listener) {
-  vocabulary = words;
+export function setUp(listener) {
   follow = listener;
 }
 
@@ -56,7 +53,7 @@ export function current() {
   return state.designs[state.show];
 }
 
-/** All designs and which of them is shown, to be read. @returns {Readonly<states.State>} */
+/** The state of the page: all designs, and which of them is shown. */
 export function all() {
   return state;
 }

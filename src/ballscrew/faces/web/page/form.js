@@ -7,7 +7,9 @@ import { choiceField, labelIn, numberField, showEffective } from "./fields.js";
 import * as help from "./help.js";
 import { slidersOf } from "./operating_point.js";
 import { definition, fieldOf, fieldsOf, isLaw, LEFT_OUT, SECTIONS } from "./schema.js";
+import { valueAt } from "./state.js";
 import { text, textOr } from "./texts.js";
+import { vocabulary } from "./vocabulary.js";
 
 /** @typedef {import("./schema.js").SchemaNode} SchemaNode */
 /** @typedef {import("./state.js").State} State */
@@ -30,29 +32,18 @@ const OPEN = ["operation", "screw", "nut", "lubricant"];
 const OPEN_ON_PHONE = ["operation"];
 const NARROW = "(max-width: 46rem)";
 
-/** @type {(change: Change) => void} */
-let onChange;
-
-/** @param {(change: Change) => void} listener */
-export function setListener(listener) {
-  onChange = listener;
-}
-
 /**
  * Build the whole form.
  *
- * @param {State} state
- * @param {Vocabulary} vocabulary
- * @param {Source["given"]} given
- * @param {Source["lawOf"]} lawOf
+ * @param {Source & { state: State }} source
  */
-export function build(state, vocabulary, given, lawOf) {
+export function build(source) {
+  const { state } = source;
   const form = byId("form");
   const sections = [...form.querySelectorAll("details")];
   const open = new Set(sections.filter((one) => one.open).map((one) => one.dataset.section));
   const isFirst = !form.children.length;
   const openFirst = matchMedia(NARROW).matches ? OPEN_ON_PHONE : OPEN;
-  const source = { state, given, lawOf, onChange };
   const parts = Object.entries(SECTIONS).map(([name, title]) =>
     section(
       name,
@@ -63,7 +54,7 @@ export function build(state, vocabulary, given, lawOf) {
     ),
   );
   // the list of starts stays: typing the first letters of one is not interrupted
-  if (isFirst) form.append(startField(vocabulary));
+  if (isFirst) form.append(startField(source));
   while (form.children.length > 1) form.lastChild?.remove();
   form.append(...parts, help.placeIn(form));
   const { start, changes, file } = state.designs[state.show];
@@ -138,8 +129,9 @@ function fieldAt(path) {
   return [...fields].find((one) => one.dataset.path === path);
 }
 
-/** @param {Vocabulary} vocabulary */
-function startField({ starts, rows }) {
+/** @param {Source} source */
+function startField({ onChange }) {
+  const { starts, rows } = vocabulary;
   /** @type {Map<string, Vocabulary["rows"]>} */
   const groups = new Map();
   for (const row of rows) groups.set(row.source, [...(groups.get(row.source) ?? []), row]);
@@ -255,14 +247,14 @@ function lawFields(path, node, source) {
 /**
  * Show what counts where nothing is typed.
  *
- * @param {(path: string) => unknown} effective values in SI, by path
+ * @param {import("./state.js").Tables} values in SI
  */
-export function showValues(effective) {
+export function showValues(values) {
   /** @type {NodeListOf<HTMLElement>} */
   const fields = byId("form").querySelectorAll("[data-path]");
   for (const field of fields) {
     const path = field.dataset.path ?? "";
-    showEffective(field, fieldOf(path), effective(path));
+    showEffective(field, fieldOf(path), valueAt(values, path) ?? undefined);
   }
 }
 

@@ -6,6 +6,7 @@ import { helpIn, labelIn } from "./fields.js";
 import { fieldOf } from "./schema.js";
 import { symbol } from "./symbols.js";
 import { languageOf, sentence, text, textOr } from "./texts.js";
+import { vocabulary } from "./vocabulary.js";
 
 /** Pages of the theory, by field, or else by section. @type {Record<string, string>} */
 const PAGES = {
@@ -45,14 +46,6 @@ const PAGES = {
 
 /** Remedies of which the form has no need. */
 const NEEDLESS = /^(in kelvin|in .* in Python|lengths are positive|give a whole number.*)$/;
-
-/** The address of the documentation, where the package has one. @type {string | null} */
-let documentation = null;
-
-/** @param {Vocabulary} vocabulary */
-export function setVocabulary(vocabulary) {
-  documentation = vocabulary.documentation;
-}
 
 const place = element("aside", { id: "help", "aria-label": text("help.label") });
 
@@ -97,6 +90,7 @@ function theoryOf(path) {
   const [section, field] = path.split(".");
   const page = PAGES[`${section}.${field}`] ?? PAGES[section];
   if (!page) return "";
+  const { documentation } = vocabulary;
   const words = text("help.theory", { page: textOr(`help.page.${page}`, page) });
   if (!documentation) return words;
   const address = `${documentation.replace(/\/$/, "")}/theory/${page}.html`;

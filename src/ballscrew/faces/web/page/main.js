@@ -9,7 +9,6 @@ import { byId, element, nameFiles, within } from "./dom.js";
 import * as downloads from "./downloads.js";
 import * as files from "./files.js";
 import * as form from "./form.js";
-import * as help from "./help.js";
 import * as entries from "./history.js";
 import * as keeping from "./keeping.js";
 import * as results from "./results.js";
@@ -18,15 +17,12 @@ import { get, linesOf, onReturn } from "./server.js";
 import * as states from "./state.js";
 import { followMenu, text } from "./texts.js";
 import * as units from "./units.js";
+import { fill, vocabulary } from "./vocabulary.js";
 
 const LONGEST_QUOTE = 40;
 /** The calibration of the button: that of both of its numbers, to the vendor whose rows are shown beside it. */
 const CALIBRATION = "rexroth-2006";
 
-/** @type {Vocabulary} */
-let vocabulary;
-/** @type {states.State} */
-let state;
 /** Laws of the answer that the form was built with. @type {string | undefined} */
 let laws;
 /** Leads in SI that are no plain number in their design, by its screw as it is given. @type {Map<unknown, number>} */
@@ -47,7 +43,7 @@ function onChange({ path = "", text = "", unit, start, reset, rebuild }) {
     return;
   }
   if (unit !== undefined) {
-    state.fields[path] = unit;
+    designs.all().fields[path] = unit;
     follow({ rebuild: true, formOnly: true });
     return;
   }
@@ -78,12 +74,6 @@ function readAddress() {
   return found;
 }
 
-/** @param {states.State} found */
-function use(found) {
-  state = found;
-  designs.use(found);
-}
-
 /** @param {string} name */
 function quoted(name) {
   return name.length > LONGEST_QUOTE ? `${name.slice(0, LONGEST_QUOTE)}…` : name;
@@ -103,6 +93,7 @@ function showNotice(...words) {
  *   ``ofCards`` changes what only cards ask about
  */
 async function follow({ rebuild = false, keep = false, formOnly = false, path, ofCards = false } = {}) {
+  const state = designs.all();
   if (!formOnly && !ofCards) byId("results").setAttribute("aria-busy", "true");
   const fragment = states.toFragment(state);
   keeping.keep(fragment, state.designs.map(designs.titleOf).join(" · "));
@@ -123,6 +114,7 @@ async function follow({ rebuild = false, keep = false, formOnly = false, path, o
 }
 
 async function update() {
+  const state = designs.all();
   answers.clearModels();
   await answers.update(
     () => Promise.all(state.designs.map(designs.caseOf)),
@@ -135,7 +127,7 @@ async function update() {
         laws = found;
         showForm();
       }
-      form.showValues(faults.length ? () => undefined : effective);
+      form.showValues(faults.length ? {} : effective());
       return form.showFaults(faults);
     },
   );
@@ -156,17 +148,16 @@ function keepLead(answer) {
   return true;
 }
 
-/**
- * The value in SI that counts at a path: of the answer, or the usual limit.
- *
- * @param {string} path
- */
-function effective(path) {
+/** The values in SI that count: those of the answer, and the usual limits. @returns {states.Tables} */
+function effective() {
   const { inputs } = answers.current().answer ?? {};
-  return states.valueAt(inputs, path) ?? states.valueAt({ limits: vocabulary.limits }, path) ?? undefined;
+  const given = /** @type {Record<string, unknown>} */ (inputs?.limits ?? {});
+  const limits = Object.entries(vocabulary.limits).map(([name, usual]) => [name, given[name] ?? usual]);
+  return { ...inputs, limits: { ...given, ...Object.fromEntries(limits) } };
 }
 
 async function showForm() {
+  const state = designs.all();
   units.setSystem(state.system);
   select("system").value = units.currentSystem();
   checkbox("band").checked = state.band;
@@ -189,8 +180,8 @@ async function showForm() {
   };
   nameFiles(designs.fileName(design));
   keepFocus(() => {
-    form.build(state, vocabulary, given, lawOf);
-    form.showValues(effective);
+    form.build({ state, given, lawOf, onChange });
+    form.showValues(effective());
     showTabs();
   });
 }
@@ -206,13 +197,15 @@ function keepFocus(rebuild) {
   const selection = focused instanceof HTMLInputElement ? [focused.selectionStart, focused.selectionEnd] : [];
   rebuild();
   const again = id && document.activeElement?.id !== id ? document.getElementById(id) : null;
-  if (again instanceof HTMLButtonElement && again.disabled) byId(`design-${states.LETTERS[state.show]}`).focus();
+  const { show } = designs.all();
+  if (again instanceof HTMLButtonElement && again.disabled) byId(`design-${states.LETTERS[show]}`).focus();
   else again?.focus({ preventScroll: true });
   const [from, to] = selection;
   if (again instanceof HTMLInputElement && typeof from === "number") again.setSelectionRange(from, to ?? from);
 }
 
 function showTabs() {
+  const state = designs.all();
   /** @param {() => void} action */
   const turn = (action) => () => {
     action();
@@ -284,6 +277,7 @@ async function copyLink() {
 }
 
 async function changeSystem() {
+  const state = designs.all();
   state.system = select("system").value;
   state.fields = {};
   await follow({ rebuild: true, formOnly: true });
@@ -294,13 +288,14 @@ function addListeners() {
   followMenu(select("language"));
   byId("system").addEventListener("change", changeSystem);
   byId("band").addEventListener("change", () => {
-    state.band = checkbox("band").checked;
+    const band = checkbox("band").checked;
+    designs.all().band = band;
     follow({ formOnly: true });
-    answers.showBand(state.band);
-    answers.showBandsOfDesigns(state.band);
+    answers.showBand(band);
+    answers.showBandsOfDesigns(band);
   });
   byId("own").addEventListener("change", () => {
-    state.own = checkbox("own").checked;
+    designs.all().own = checkbox("own").checked;
     follow();
   });
   byId("calibrate").addEventListener("click", () => {
@@ -321,7 +316,7 @@ function addListeners() {
     byId("results").focus();
   });
   entries.begin(() => {
-    use(readAddress());
+    designs.use(readAddress());
     follow({ rebuild: true });
     cards.openAll();
   });
@@ -335,18 +330,15 @@ function addListeners() {
 
 async function begin() {
   const [words, document_, latest] = await Promise.all([get("vocabulary"), get("schema"), keeping.begin()]);
-  vocabulary = words;
+  fill(words);
   units.setVocabulary(words);
-  answers.setVocabulary(words, form.jump);
   schema.setSchema(document_);
-  form.setListener(onChange);
-  help.setVocabulary(vocabulary);
   byId("version").textContent = text("page.version", { version: vocabulary.version });
-  designs.setUp(vocabulary, follow);
+  designs.setUp(follow);
   if (latest) history.replaceState(null, "", latest.fragment);
-  use(readAddress());
+  designs.use(readAddress());
   if (latest) files.sayRestored(latest, showNotice);
-  units.setSystem(state.system);
+  units.setSystem(designs.all().system);
   addListeners();
   cards.setUp({
     vocabulary,

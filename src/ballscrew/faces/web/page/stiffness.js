@@ -5,14 +5,7 @@ import { byId, element, table } from "./dom.js";
 import { draw, hide, layout } from "./plot.js";
 import { ofServer, text } from "./texts.js";
 import * as units from "./units.js";
-
-/** Kinds of nuts by name. @type {Vocabulary["nuts"]} */
-let nuts = {};
-
-/** @param {Vocabulary} vocabulary */
-export function setVocabulary(vocabulary) {
-  nuts = vocabulary.nuts;
-}
+import { vocabulary } from "./vocabulary.js";
 
 /** Rows of the table: the place in the answer, words, SI unit, display unit. @type {[string, import("./texts.js").Key, string, string][]} */
 const ROWS = [
@@ -81,7 +74,7 @@ function shown(value, si, unit) {
 /** The halves of the nut of an answer, which follow each other with a distance between them. @param {Run} answer */
 function halvesOf({ inputs }) {
   const { type } = /** @type {{ type?: string }} */ (inputs.nut ?? {});
-  return nuts[type ?? ""]?.halves ?? 1;
+  return vocabulary.nuts[type ?? ""]?.halves ?? 1;
 }
 
 /**
