@@ -57,10 +57,11 @@ Test = Callable[[Any], bool]
 
 
 class Walk(NamedTuple):
-    """The modules on the way of a value in their order, and how often each function of ballscrew was called."""
+    """The modules on the way of a value in their order, and how often each function was called, and with the value."""
 
     stops: Sequence[str]
     calls: Counter[str]
+    carrying: Counter[str]
 
     @property
     def back(self) -> int:
@@ -109,19 +110,25 @@ def walk(work: Callable[[], Any], test: Test) -> Walk:
     """The way of a value through some work."""
     stops: list[str] = []
     calls: Counter[str] = Counter()
+    carrying: Counter[str] = Counter()
 
     def profile(frame: FrameType, event: str, result: Any) -> None:
         code = frame.f_code
         if event not in ("call", "return") or not code.co_filename.startswith(SOURCE) or code.co_name in WITHIN:
             return
         module = code.co_filename.removeprefix(SOURCE)
+        function = f"{module}: {code.co_qualname}"
         if event == "call":
-            calls[f"{module}: {code.co_qualname}"] += 1
+            calls[function] += 1
             given = code.co_argcount + code.co_kwonlyargcount + bool(code.co_flags & 4) + bool(code.co_flags & 8)
             values = [frame.f_locals.get(name) for name in code.co_varnames[:given]]
         else:
             values = [result]
-        if stops[-1:] != [module] and not module.startswith(BUFFERS) and any(holds(value, test) for value in values):
+        if module.startswith(BUFFERS) or not any(holds(value, test) for value in values):
+            return
+        if event == "call":
+            carrying[function] += 1
+        if stops[-1:] != [module]:
             stops.append(module)
 
     sys.setprofile(profile)
@@ -129,7 +136,7 @@ def walk(work: Callable[[], Any], test: Test) -> Walk:
         work()
     finally:
         sys.setprofile(None)
-    return Walk(stops, calls)
+    return Walk(stops, calls, carrying)
 
 
 # -- the walks in Python ----------------------------------------------------------------------------
@@ -149,7 +156,7 @@ def swept() -> None:
     """A preload varied by a sweep."""
     bs.sweep(
         bs.FrictionModel.reference(), SCREW, OIL, nut=bs.DoubleNut(preload=1000.0), axial_load=[100.0, 2000.0],
-        screw_speed=[10.0, 60.0], **{"nut.preload": [2000.0, PRELOAD]},
+        screw_speed=[10.0, 60.0], **{"nut.preload": [2000.0, PRELOAD]},  # pyright: ignore[reportArgumentType]
     )  # fmt: skip
 
 
@@ -274,7 +281,7 @@ def page() -> None:
 
 #: Functions whose calls are printed with a walk.
 TELLING: dict[str, Sequence[str]] = {
-    "set, as text": ("units.py: parse", "parse_uncertain", "in_ascii"),
+    "set, as text": ("units.py: parse", "uncertain_value.py: _by_pattern", "case_file.py: build"),
     "set, as number": ("fault_of", "without_unit"),
     "sweep": ("Configuration.inputs", "outputs.py: inputs_of", "fields_of", "Configuration.changed"),
     "fit": ("Configuration.inputs", "inputs_of", "case_file.py: build"),
@@ -296,8 +303,9 @@ def main() -> None:
         work()  # what is imported and kept by the first one is no part of the way
         found = walk(work, test)
         called = {key: n for part in TELLING[name] for key, n in found.calls.items() if key.endswith(part)}
+        with_value = {key: found.carrying[key] for key in called}
         print(f"{name}: {len(found.stops)} stops, {found.back} back, in {len(set(found.stops))} modules")
-        print("".join(f"    {count} × {key}\n" for key, count in called.items()), end="")
+        print("".join(f"    {n} × {key}, {with_value[key]} with the value\n" for key, n in called.items()), end="")
         if asked.stops:
             print("".join(f"      {stop}\n" for stop in found.stops), end="")
     if asked.page:
