@@ -20,7 +20,7 @@ from ballscrew.questions.check import document as check_documents
 from ballscrew.questions.run import compute as runs
 from ballscrew.questions.run import document as run_documents
 
-#: Runs that are kept: the page asks for the drawing of what it has just asked the numbers of.
+#: Runs that are kept: who has asked for the numbers of a case often asks for its drawing or its checks next.
 _MOST_RUNS = 4
 _runs: OrderedDict[str, runs.Run] = OrderedDict()
 _runs_lock = threading.Lock()
