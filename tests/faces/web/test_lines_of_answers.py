@@ -1,6 +1,7 @@
 """All answers about a case in one request: those of the addresses, line by line, of a case that is built once."""
 
 import asyncio
+import concurrent.futures
 import json
 import threading
 import tomllib
@@ -87,7 +88,9 @@ def test_too_many_designs_are_refused(server, paper):
 
 
 def run_scene(scene):
-    asyncio.run(asyncio.wait_for(scene, LONG))
+    """Run in a thread of its own: an open browser keeps a loop running in the main thread of this process."""
+    with concurrent.futures.ThreadPoolExecutor(1) as pool:
+        pool.submit(asyncio.run, asyncio.wait_for(scene, LONG)).result()
 
 
 def test_a_case_is_built_and_run_once(monkeypatch, paper):
