@@ -4,13 +4,13 @@ import json
 import tomllib
 
 import pytest
+import tomli_w
 import tomlkit
 
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file, project
 from ballscrew.cases.case_files.opened_file import opened
 from ballscrew.cases.case_files.project import Design
-from ballscrew.cases.case_files.toml_text import as_toml
 
 CASE = {
     "screw": {"catalogue": "hiwin-40-20k4", "contact_angle": "45 ± 2 deg"},
@@ -103,12 +103,12 @@ def test_results_are_no_case(tmp_path):
     ],
 )
 def test_tables_are_the_same_after_their_text(tables):
-    assert tomllib.loads(as_toml(tables)) == tables
+    assert tomllib.loads(tomli_w.dumps(tables)) == tables
 
 
 def test_the_text_of_a_case_is_laid_out_as_people_write_it():
     case = {"model": {"name": "a"}, "losses": {"x": {"law": "known", "torque": "1 N m"}}}
-    assert as_toml(project.tables_of([project.Design("one", case)])) == (
+    assert tomli_w.dumps(project.tables_of([project.Design("one", case)])) == (
         'ballscrew_project = 1\n\n[[designs]]\nname = "one"\n\n[designs.case.model]\nname = "a"\n\n'
         '[designs.case.losses.x]\nlaw = "known"\ntorque = "1 N m"\n'
     )

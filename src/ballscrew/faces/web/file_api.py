@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any
 
+import tomli_w
 from fastapi import APIRouter, Query, Request
 from starlette.responses import Response
 
@@ -11,7 +12,6 @@ from ballscrew.basis.errors import Fault, InputError, nearest
 from ballscrew.basis.output.json_text import as_json as json_text
 from ballscrew.cases.case_files import project as projects
 from ballscrew.cases.case_files.opened_file import opened
-from ballscrew.cases.case_files.toml_text import as_toml
 from ballscrew.faces.web import openapi
 from ballscrew.faces.web.bodies import CaseBody, OpenBody, ProjectBody, case_of, read, refuse_nulls
 from ballscrew.faces.web.endpoint_parts import as_json, heavy, queue_of
@@ -47,7 +47,7 @@ async def toml(request: Request) -> Response:
 
     def text() -> str:
         case_of(body.case)
-        return as_toml(body.case)
+        return tomli_w.dumps(body.case)
 
     return Response(await queue_of(request).quick(text), media_type="application/toml")
 
@@ -66,6 +66,6 @@ async def project(
         refuse_nulls(body.designs)
         found = projects.designs_of({projects.KEY: projects.VERSION, "designs": body.designs}, "request")
         tables = projects.tables_of(found)
-        return Response(as_toml(tables) if kind == "toml" else json_text(tables), media_type=KINDS[kind])
+        return Response(tomli_w.dumps(tables) if kind == "toml" else json_text(tables), media_type=KINDS[kind])
 
     return await heavy(request, work)
