@@ -30,8 +30,8 @@ from ballscrew.questions.fit_motion.log import is_moving
 from ballscrew.questions.hand_over import answer as hand_over_answers
 from ballscrew.questions.hand_over import document as hand_over_documents
 from ballscrew.questions.hand_over.options import HandOverOptions
-from ballscrew.questions.service import answer as service_answers
 from ballscrew.questions.service import compute as services
+from ballscrew.questions.service import response as service_answers
 from ballscrew.questions.service.options import ServiceOptions
 from ballscrew.questions.shared import option_values
 

@@ -1,33 +1,142 @@
-"""Response models of the API for a service."""
+"""The results of a service, declared once: JSON, its units and its schema follow from the annotations."""
 
 from __future__ import annotations
 
-from ballscrew.questions.shared.answer_parts import Closed, Record, Tables, Template
+import dataclasses
+import math
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any, Literal, NamedTuple
+
+from ballscrew.basis.quantities import AngularSpeed, Force, Info, Ratio, Temperature, Torque, Unit
+from ballscrew.evidence.service.alternatives import Alternative
+from ballscrew.evidence.service.preload_change import PreloadChange
+from ballscrew.evidence.service.preload_estimate import PreloadEstimate
+from ballscrew.questions.service.compute import TORQUE, ServiceReport
+from ballscrew.questions.shared.declared import LEFT_OUT
 
 
-class ServiceWords(Closed):
-    """What a service says beside its verdicts."""
+class Estimate(NamedTuple):
+    """A preload with its interval of 95 %, and the log that it is from."""
 
-    title: str
-    causes: list[str]
+    preload: Annotated[Force, Info("F_{pr}", "preload: the median")]
+    low: Annotated[Force, Info("", "lower end of the interval")]
+    high: Annotated[Force, Info("", "upper end of the interval")]
+    #: Standard deviation of the logarithm of the preload.
+    deviation_of_logarithm: Ratio
+    #: By unknown, the share of the variance of the logarithm that goes along with it.
+    shares: Annotated[Mapping[str, float], Unit("1")]
+    #: Mean temperature of the log.
+    temperature: Temperature | None
+    #: Rows of the log that count; null of a preload that is not from a log.
+    rows: int | None
+    #: Rows of the log that were read.
+    rows_read: int | None
+    #: Rows that were left out, by reason.
+    left_out: Mapping[str, int]
+    #: What is to be said of the log.
+    notes: Sequence[str]
+    #: Rows whose load takes the preload off one side: they tell nothing of it.
+    rows_beyond_lift_off: int
+    residual_rms: Annotated[Torque, Info("", "root mean square of the residuals, outliers left out")]
 
 
-class ServiceDisplay(Closed):
-    """The verdicts, to be shown in any units."""
+class PreloadLeft(NamedTuple):
+    """The preload over what it was, with its interval of 95 %."""
 
-    verdicts: list[Template]
+    #: The median.
+    value: Ratio
+    #: Lower end of the interval.
+    low: Ratio
+    #: Upper end of the interval.
+    high: Ratio
+    #: By unknown, the share of the variance that goes along with it.
+    shares: Annotated[Mapping[str, float], Unit("1")]
 
 
-class Service(Closed):
-    """The preload that is left in a nut."""
+class OtherCause(NamedTuple):
+    """A number that would explain the worn log with the preload of the new one."""
 
-    inputs: Tables
-    results: Tables
-    units: Tables
-    warnings: list[Record]
-    verdicts: list[Record]
-    checks: list[Record]
-    provenance: Tables
-    words: ServiceWords
-    display: ServiceDisplay
-    picture: Tables
+    #: Of the number.
+    name: str
+    #: The value it would need, SI.
+    value: float
+    #: The value that it has, SI.
+    instead_of: float
+    #: SI unit of both.
+    unit: str
+    rms: Annotated[Torque, Info("", "root mean square of the residuals with it")]
+    rms_of_preload: Annotated[Torque, Info("", "root mean square of the residuals with another preload")]
+    #: True where it explains the log as well as the preload does.
+    explains: bool
+    #: True where the value is within what is known of the number; null where nothing is known.
+    plausible: bool | None
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class ServiceResults:
+    """Preloads by two logs, by a log and the nominal preload, or by one torque; what is left, and other causes."""
+
+    #: The preload before.
+    new: Annotated[Estimate | None, LEFT_OUT] = None
+    #: The preload after.
+    worn: Annotated[Estimate | None, LEFT_OUT] = None
+    #: The preload by one torque.
+    preload: Annotated[Estimate | None, LEFT_OUT] = None
+    #: The preload after over that before.
+    ratio: Annotated[PreloadLeft | None, Unit("1"), LEFT_OUT] = None
+    #: The loss that is put up with, as a share of the preload.
+    tolerance: Annotated[Ratio | None, LEFT_OUT] = None
+    #: Probability of a larger loss.
+    probability_of_loss: Annotated[Ratio | None, LEFT_OUT] = None
+    #: Lost or kept with a probability of 95 %, or open.
+    verdict: Annotated[Literal["lost", "kept", "open"] | None, LEFT_OUT] = None
+    #: Means of the numbers that the logs ask for, in standard deviations from what is known of them.
+    scores: Annotated[Mapping[str, float] | None, Unit("1"), LEFT_OUT] = None
+    #: Other causes, had the preload stayed as it was.
+    alternatives: Annotated[Sequence[OtherCause] | None, LEFT_OUT] = None
+    torque: Annotated[Torque | None, TORQUE.info, LEFT_OUT] = None
+    #: The speed at which the torque was read.
+    screw_speed: Annotated[AngularSpeed | None, LEFT_OUT] = None
+
+
+def results(report: ServiceReport) -> ServiceResults:
+    """The results of a service."""
+    found: dict[str, Any] = {name: _estimate(one) for name, one in report.estimates.items()}
+    if report.change is not None:
+        found |= _change(report.change)
+    if report.reading is not None:
+        found |= {"torque": report.reading.torque, "screw_speed": report.reading.screw_speed}
+    return ServiceResults(**found)
+
+
+def _estimate(one: PreloadEstimate) -> Estimate:
+    low, high = one.interval()
+    rows = None if one.fit is None else one.fit.rows
+    return Estimate(
+        preload=one.preload,
+        low=low,
+        high=high,
+        deviation_of_logarithm=math.sqrt(one.logarithm.total_variance),
+        shares=one.shares,
+        temperature=one.temperature,
+        rows=None if rows is None else len(rows.log),
+        rows_read=None if rows is None else rows.log.rows,
+        left_out={} if rows is None else rows.log.left_out,
+        notes=[] if rows is None else rows.log.notes,
+        rows_beyond_lift_off=one.rows_beyond_lift_off,
+        residual_rms=one.residual_rms,
+    )
+
+
+def _change(change: PreloadChange) -> dict[str, Any]:
+    return {
+        "ratio": PreloadLeft(change.ratio, *change.ratio_interval(), change.ratio_shares),
+        "alternatives": [_other_cause(one) for one in change.alternatives],
+        **{name: getattr(change, name) for name in ("tolerance", "probability_of_loss", "verdict", "scores")},
+    }
+
+
+def _other_cause(one: Alternative) -> OtherCause:
+    return OtherCause(
+        one.name, one.value, one.instead_of, one.quantity.unit, one.rms, one.rms_of_preload, one.explains, one.plausible
+    )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 from ballscrew.basis import units
@@ -14,10 +13,10 @@ from ballscrew.cases.case_files.provenance import of_case
 from ballscrew.engine.evaluation.outputs import inputs_of
 from ballscrew.evidence.service.alternatives import Alternative
 from ballscrew.evidence.service.posterior import PRELOAD
-from ballscrew.evidence.service.preload_change import PreloadChange
-from ballscrew.evidence.service.preload_estimate import PreloadEstimate
 from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.questions.service.answer import results
 from ballscrew.questions.service.compute import TORQUE, ServiceReport
+from ballscrew.questions.shared import declared
 
 #: Three words for what became of the preload.
 VERDICTS = {"lost": "preload lost", "kept": "preload kept", "open": "lost or kept cannot be told"}
@@ -25,23 +24,16 @@ VERDICTS = {"lost": "preload lost", "kept": "preload kept", "open": "lost or kep
 
 def document(case: Case, report: ServiceReport) -> dict[str, Any]:
     """Inputs, preloads, the share that is left, what else could be, warnings and provenance."""
-    results: dict[str, Any] = {name: _estimate(one) for name, one in report.estimates.items()}
-    if report.change is not None:
-        results |= _change(report.change)
-    if report.reading is not None:
-        results |= {"torque": report.reading.torque, "screw_speed": report.reading.screw_speed}
+    found = results(report)
     return {
         "inputs": case_file.inputs(case),
-        "results": results,
-        "units": {
-            "preload": "N", "torque": TORQUE.unit, "rms": TORQUE.unit, "screw_speed": "rad/s", "temperature": "K",
-            "ratio": "1",
-        },
+        "results": declared.document(found),
+        "units": declared.units(found),
         "warnings": documents(report.warnings),
         "verdicts": documents(verdicts(case, report)),
         "checks": [],
         "provenance": {**of_case(case), "logs": _logs(report)},
-    }  # fmt: skip
+    }
 
 
 def preload_quantity(case: Case) -> Quantity:
@@ -125,44 +117,6 @@ def _taken_at(case: Case, report: ServiceReport) -> str:
         return f"; taken at {speed}"
     whose = "" if given is not None else ", the oil of the case"
     return f"; taken at {speed} and {units.shown(warm, TEMPERATURE, 3)}{whose}"
-
-
-def _estimate(one: PreloadEstimate) -> dict[str, Any]:
-    low, high = one.interval()
-    rows = None if one.fit is None else one.fit.rows
-    return {
-        "preload": one.preload,
-        "low": low,
-        "high": high,
-        "deviation_of_logarithm": math.sqrt(one.logarithm.total_variance),
-        "shares": dict(one.shares),
-        "temperature": one.temperature,
-        "rows": None if rows is None else len(rows.log),
-        "rows_read": None if rows is None else rows.log.rows,
-        "left_out": {} if rows is None else dict(rows.log.left_out),
-        "notes": [] if rows is None else list(rows.log.notes),
-        "rows_beyond_lift_off": one.rows_beyond_lift_off,
-        "residual_rms": one.residual_rms,
-    }
-
-
-def _change(change: PreloadChange) -> dict[str, Any]:
-    low, high = change.ratio_interval()
-    return {
-        "ratio": {"value": change.ratio, "low": low, "high": high, "shares": dict(change.ratio_shares)},
-        "tolerance": change.tolerance,
-        "probability_of_loss": change.probability_of_loss,
-        "verdict": change.verdict,
-        "scores": dict(change.scores),
-        "alternatives": [
-            {
-                "name": one.name, "value": one.value, "instead_of": one.instead_of, "unit": one.quantity.unit,
-                "rms": one.rms, "rms_of_preload": one.rms_of_preload, "explains": one.explains,
-                "plausible": one.plausible,
-            }
-            for one in change.alternatives
-        ],
-    }  # fmt: skip
 
 
 def _logs(report: ServiceReport) -> list[dict[str, Any]]:

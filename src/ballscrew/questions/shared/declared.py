@@ -247,6 +247,6 @@ def _kind(part: Part) -> Any:
         return list[part.number if unit_of(inner[0]) or inner[0] is float else _kind(Part("", inner[0]))]
     if _is_union(part.bare):
         return Union[tuple(_kind(Part("", each)) for each in inner)]  # noqa: UP007  (made at run time)
-    if part.unit is not None or kind is float:
-        return part.number
-    return schema(kind) if is_answer(kind) else part.bare  # a truth value, a text, one of several texts
+    if is_answer(kind):
+        return schema(kind)
+    return part.number if part.unit is not None or kind is float else part.bare  # or a truth value, or texts

@@ -147,7 +147,7 @@ export function setUp(holder, page) {
   /** @param {ServiceAnswer["results"]} results */
   function preloads(results) {
     const rows = ["new", "worn"].flatMap((name) => {
-      const one = /** @type {Record<string, number | null> | undefined} */ (results[name]);
+      const one = name === "worn" ? results.worn : results.new;
       if (!one) return [];
       return [
         [

@@ -1,0 +1,35 @@
+"""Response models of the API for a service."""
+
+from __future__ import annotations
+
+from ballscrew.questions.service.answer import ServiceResults
+from ballscrew.questions.shared.answer_parts import Closed, Record, Tables, Template
+from ballscrew.questions.shared.declared import schema
+
+
+class ServiceWords(Closed):
+    """What a service says beside its verdicts."""
+
+    title: str
+    causes: list[str]
+
+
+class ServiceDisplay(Closed):
+    """The verdicts, to be shown in any units."""
+
+    verdicts: list[Template]
+
+
+class Service(Closed):
+    """The preload that is left in a nut."""
+
+    inputs: Tables
+    results: schema(ServiceResults)  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
+    units: Tables
+    warnings: list[Record]
+    verdicts: list[Record]
+    checks: list[Record]
+    provenance: Tables
+    words: ServiceWords
+    display: ServiceDisplay
+    picture: Tables
