@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ballscrew.basis.quantities import Quantity
-from ballscrew.basis.units import example_of
 from ballscrew.cases.screw_tables.catalogue import COLUMNS
 from ballscrew.files.tables.headings import Column
 
@@ -37,7 +36,7 @@ def _cells(column: Column) -> str:
 def _unit(quantity: Quantity | None) -> str:
     if quantity is None:
         return "text"
-    return "none" if quantity.unit == "1" else example_of(quantity).strip('"').removeprefix("1 ")
+    return "none" if quantity.unit == "1" else quantity.shown_in
 
 
 def _own_hints(column: Column) -> list[str]:

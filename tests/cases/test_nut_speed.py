@@ -59,7 +59,7 @@ def test_its_spread_may_be_written_after_its_unit(speed):
 def test_what_is_no_speed_is_said_once(speed, problem):
     with pytest.raises(InputError) as found:
         built(speed)
-    assert [(fault.where, fault.problem) for fault in found.value.faults] == [("operation.screw_speed", problem)]
+    assert [(fault.where, fault.parts[0]) for fault in found.value.faults] == [("operation.screw_speed", problem)]
 
 
 def test_a_sweep_over_the_lead_keeps_it(tmp_path):

@@ -11,14 +11,13 @@ import functools
 import inspect
 import math
 import numbers
-import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, ParamSpec, TypeVar, cast, get_type_hints
 
 import numpy as np
 
-from ballscrew.basis.quantities import Quantity, carries_unit, fields_of, in_si, out_of_bounds, unit_of
-from ballscrew.basis.records import Measured
+from ballscrew.basis.quantities import BEYOND, Info, Quantity, carries_unit, fields_of, in_si, out_of_bounds, unit_of
+from ballscrew.basis.records import Measured, Message, Value
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -28,26 +27,26 @@ T = TypeVar("T")
 LINES_AT_MOST = 10
 #: Most characters of a given value in a message.
 LONGEST_VALUE = 200
+#: The name of a bound in the problem of a number beyond it.
+BOUND = "bound"
+#: The kind of fault of a key or a section that is not known.
+UNKNOWN = "unknown"
 #: The problem of a field that is not given.
 MISSING = "missing"
-#: Stands for setting a field, in a remedy.
-_SETTING = re.compile(r"\{[\w.]+\.(\w+)\}")
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
 class Fault:
     """One error in one field.
 
-    ``{bound}`` in the problem or the remedy stands for a bound in SI, which the faces show in the
-    display unit; ``{section.field}`` in the remedy stands for setting that field, ``field = `` in a file.
+    Problem and remedy are English templates: a literal text, or a :class:`Message` with what stands in it, never a text
+    that was put together. So faces say them in their language, with numbers in their units.
     """
 
     where: str
-    problem: str
-    given: str = ""
-    remedy: str = ""
-    bound: float | None = None
-    unit: str = "1"
+    problem: str | Message
+    given: str | Message = ""
+    remedy: str | Message = ""
     #: The known name that was probably meant, where the remedy suggests one.
     meant: str = ""
     #: The kind of fault, where callers tell kinds apart: no caller reads the texts.
@@ -66,18 +65,44 @@ class Fault:
     @property
     def text(self) -> str:
         """The problem, the value given, and the remedy."""
-        plain = self.plain
-        given = f" ({plain.given})" if self.given else ""
-        remedy = " · " + _SETTING.sub(r"\1 = ", plain.remedy) if self.remedy else ""
-        return _one_line(f"{plain.problem}{given}{remedy}")
+        problem, given, remedy = self.parts
+        return _one_line(f"{problem}{f' ({given})' if given else ''}{f' · {remedy}' if remedy else ''}")
 
     @property
-    def plain(self) -> Fault:
-        """The fault with its texts cut, and with its bound in them."""
-        bound = "" if self.bound is None else shown(self.bound, self.unit)
-        texts = (self.problem, _cut(self.given), self.remedy)
-        problem, given, remedy = (_one_line(text.replace("{bound}", bound)) for text in texts)
+    def parts(self) -> tuple[str, str, str]:
+        """The problem, the value given and the remedy as English texts of one line."""
+        problem, given, remedy = (message_of(one).filled(shown_in_si) for one in (self.problem, "", self.remedy))
+        given = _cut(self.given if isinstance(self.given, str) else self.given.filled(shown_in_si))
+        return _one_line(problem), _one_line(given), _one_line(remedy)
+
+    def document(self) -> dict[str, Any]:
+        """The fault as it stands in JSON: its texts, and as templates what people read in other languages."""
+        problem, given, remedy = self.parts
+        templates = {"problem": message_of(self.problem), "given": self.given, "remedy": message_of(self.remedy)}
+        return {
+            "where": self.field,
+            "id": self.id,
+            "text": self.text,
+            "line": str(self),
+            "problem": problem,
+            "given": given,
+            "remedy": remedy,
+            "messages": {
+                name: None if isinstance(text, str) or not text.template else text.document()
+                for name, text in templates.items()
+            },
+        }
+
+    def changed(self, change: Callable[[Value], Value]) -> Fault:
+        """The fault with each value in its texts changed."""
+        given = self.given if isinstance(self.given, str) else self.given.changed(change)
+        problem, remedy = (message_of(one).changed(change) for one in (self.problem, self.remedy))
         return dataclasses.replace(self, problem=problem, given=given, remedy=remedy)
+
+
+def message_of(text: str | Message) -> Message:
+    """A literal text as the template that it is."""
+    return Message(text) if isinstance(text, str) else text
 
 
 def _cut(text: str) -> str:
@@ -111,12 +136,32 @@ class ImplausibleInput(UserWarning):
     """
 
 
-def nearest(word: str, known: Iterable[str], most: int | None = None) -> str:
+def nearest(word: str, known: Iterable[str], most: int | None = None) -> Message:
     """``did you mean "…"?`` for the closest known word, else the list of known words, ``most`` of them at most."""
     candidates = list(known)
-    found = closest(word, candidates)
-    more = ", …" if most is not None and len(candidates) > most else ""
-    return f'did you mean "{found}"?' if found else "known: " + ", ".join(candidates[:most]) + more
+    if found := closest(word, candidates):
+        return Message('did you mean "{word}"?', {"word": found})
+    names = ", ".join(candidates[:most])
+    is_cut = most is not None and len(candidates) > most
+    return Message("known: {names}, …" if is_cut else "known: {names}", {"names": names})
+
+
+def either(names: Iterable[str]) -> Message:
+    """``"a", "b" or "c"``."""
+    return _listed(_OR, [f'"{name}"' for name in names])
+
+
+def both(names: Iterable[str]) -> Message:
+    """``a, b and c``."""
+    return _listed(_AND, list(names))
+
+
+_OR, _AND, _ALONE = Message("{others} or {last}"), Message("{others} and {last}"), Message("{last}")
+
+
+def _listed(several: Message, names: Sequence[str]) -> Message:
+    *others, last = names
+    return (several if others else _ALONE).of(others=", ".join(others), last=last)
 
 
 def closest(word: str, known: Iterable[str]) -> str:
@@ -153,17 +198,22 @@ def shown(value: Any, unit: str) -> str:
 
 
 def shown_in_si(one: Measured) -> str:
-    """A number of a message in SI, as rooms write it that know no other units."""
-    return shown(one.value, "1" if one.quantity is None else one.quantity.unit)
+    """A number of a message as it is written, or in SI, as rooms write it that know no other units."""
+    return one.written or shown(one.value, "1" if one.quantity is None else one.quantity.unit)
+
+
+def measured(value: Any, unit: str = "1", digits: int = 6) -> Measured:
+    """A number of a message in a room that knows no display units."""
+    return Measured(as_float(value), None if unit == "1" else Quantity("", unit, Info("", "")), digits)
 
 
 def fault_of(section: str, quantity: Quantity, value: Any, given: str = "") -> Fault | None:
     """The fault of one concrete value, or None. ``given`` is the text of the input, if known."""
     where = f"{section}.{quantity.name}"
     if isinstance(value, str | bytes | bool) or value is None:
-        expected = "a number" if quantity.unit == "1" else f"a number in {quantity.unit}"
-        remedy = "give a number without quotes"
-        return Fault(where, f"must be {expected}", given or shown(value, quantity.unit), remedy)
+        expected = Message("must be a number in {unit}", {"unit": quantity.unit})
+        problem = "must be a number" if quantity.unit == "1" else expected
+        return Fault(where, problem, given or shown(value, quantity.unit), "give a number without quotes")
     complex_number = isinstance(value, numbers.Number) and not isinstance(value, numbers.Real)
     of_others = isinstance(value, np.ndarray) and value.dtype.kind not in "fiu"
     if isinstance(value, list | tuple) or complex_number or of_others:
@@ -174,8 +224,9 @@ def fault_of(section: str, quantity: Quantity, value: Any, given: str = "") -> F
     found = out_of_bounds(quantity.info, as_float(value))
     if found is None:
         return None
-    problem, bound = found
-    return Fault(where, problem, given or shown(value, quantity.unit), quantity.info.hint, bound, quantity.unit)
+    condition, bound = found
+    problem = Message(BEYOND[condition], {} if bound is None else {BOUND: Measured(bound, quantity, 6)})
+    return Fault(where, problem, given or shown(value, quantity.unit), quantity.info.hint)
 
 
 def without_unit(where: str, value: Any, unit: str | None) -> Any | Fault:
@@ -191,8 +242,8 @@ def without_unit(where: str, value: Any, unit: str | None) -> Any | Fault:
         return in_si(value, unit)
     # of pint: a wrong dimension, an offset unit, an unknown one
     except (TypeError, ValueError, AttributeError) as error:
-        remedy = "give a plain number" if unit == "1" else f"give a quantity in {unit}, or a plain number in {unit}"
-        return Fault(where, "wrong unit", f"{value}: {error}", remedy)
+        in_unit = Message("give a quantity in {unit}, or a plain number in {unit}", {"unit": unit})
+        return Fault(where, "wrong unit", f"{value}: {error}", "give a plain number" if unit == "1" else in_unit)
 
 
 def _is_number(value: Any) -> bool:
@@ -217,7 +268,7 @@ def _refuse_unknown(name: str, given: Iterable[str], known: Iterable[str]) -> No
     """Raise the ``TypeError`` of a keyword that is not known, with the one that was probably meant."""
     for word in given:
         if word not in known:
-            raise TypeError(f"{name}() has no keyword {word!r}: {nearest(word, known)}")
+            raise TypeError(f"{name}() has no keyword {word!r}: {nearest(word, known).filled(shown_in_si)}")
 
 
 def accepts_units(section: str) -> Callable[[Callable[P, R]], Callable[P, R]]:

@@ -186,22 +186,31 @@ def _fields_of(cls: Any) -> dict[str, Quantity]:
     return {name: quantity for name, quantity in quantities_of(cls).items() if name in names}
 
 
-def _conditions(info: Info, value: Array) -> Iterator[tuple[Mask, str, float | None]]:
-    """Conditions on a finite number or on the elements of an array: mask, message where it is false, bound.
+#: What is wrong with a number beyond a bound, as a template of a message.
+BEYOND: Mapping[str, str] = {
+    "finite": "must be a finite number",
+    "whole": "must be a whole number",
+    "positive": "must be positive",
+    "above": "must be above {bound}",
+    "not negative": "must not be negative",
+    "at least": "must be at least {bound}",
+    "below": "must be below {bound}",
+    "at most": "must be at most {bound}",
+}
 
-    ``{bound}`` in the message stands for the bound.
-    """
+
+def _conditions(info: Info, value: Array) -> Iterator[tuple[Mask, str, float | None]]:
+    """Conditions on a finite number or on the elements of an array: mask, name of the condition, bound."""
     if info.whole:
-        yield value % 1 == 0, "must be a whole number", None
+        yield value % 1 == 0, "whole", None
     if info.above is not None:
-        yield value > info.above, "must be positive" if info.above == 0 else "must be above {bound}", info.above
+        yield value > info.above, "positive" if info.above == 0 else "above", info.above
     if info.at_least is not None:
-        problem = "must not be negative" if info.at_least == 0 else "must be at least {bound}"
-        yield value >= info.at_least, problem, info.at_least
+        yield value >= info.at_least, "not negative" if info.at_least == 0 else "at least", info.at_least
     if info.below is not None:
-        yield value < info.below, "must be below {bound}", info.below
+        yield value < info.below, "below", info.below
     if info.at_most is not None:
-        yield value <= info.at_most, "must be at most {bound}", info.at_most
+        yield value <= info.at_most, "at most", info.at_most
 
 
 def within_bounds(info: Info, value: Array) -> Mask:
@@ -211,7 +220,7 @@ def within_bounds(info: Info, value: Array) -> Mask:
 
 
 def out_of_bounds(info: Info, value: float) -> tuple[str, float | None] | None:
-    """The message for a concrete number and the bound it violates; None if it is within all bounds."""
+    """The condition that a concrete number violates, of :data:`BEYOND`, and its bound; None if it holds all."""
     if not math.isfinite(value):
-        return "must be a finite number", None
-    return next(((problem, bound) for holds, problem, bound in _conditions(info, value) if not holds), None)
+        return "finite", None
+    return next(((condition, bound) for holds, condition, bound in _conditions(info, value) if not holds), None)

@@ -14,7 +14,7 @@ from typing import Any, Literal
 from ballscrew.basis.quantities import Quantity
 
 Severity = Literal["info", "warning", "error"]
-_PLACEHOLDER = re.compile(r"\{([a-z_]+)\}")
+_PLACEHOLDER = re.compile(r"\{([A-Za-z0-9_]+(?:\.[A-Za-z0-9_]+)*)\}")
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -26,6 +26,8 @@ class Measured:
     digits: int = 4
     #: -1 or 1 for the lower or the upper end of a band, which is rounded down or up; 0 for others.
     toward: int = 0
+    #: The number as it is written on the terminal, from a room that knows display units; empty in rooms that do not.
+    written: str = ""
 
     @property
     def is_plain(self) -> bool:
@@ -43,41 +45,93 @@ class Measured:
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
+class Setting:
+    """A field that is to be set, by its path: ``preload = `` in a file, its label in a form."""
+
+    path: str
+
+    def __str__(self) -> str:
+        return f"{self.path.rpartition('.')[2]} = "
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class UnitName:
+    """A unit to write, as files have it: ``um``; pages show its symbol."""
+
+    name: str
+
+    def __str__(self) -> str:
+        return self.name
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
 class Message:
     """A sentence for people, or a part of one: an English template, and what stands in it by name.
 
     The template is the key of its translations, as gettext has it. ``{torque}`` in it is replaced by the value of that
-    name: a number, a text that people gave, another message, or a list of messages with commas between them.
+    name: a number, a text that people gave, a field to set, a unit, another message, or a list of messages with commas
+    between them. ``{nut.preload}`` without a value stands for setting that field.
     """
 
     template: str
-    values: Mapping[str, Measured | str | Message | Sequence[Message]] = dataclasses.field(default_factory=dict)
+    values: Mapping[str, Value] = dataclasses.field(default_factory=dict)
 
-    def of(self, **values: Measured | str | Message | Sequence[Message]) -> Message:
+    def __hash__(self) -> int:
+        return hash(self.template)
+
+    def of(self, **values: Value) -> Message:
         """The same template with these values."""
         return Message(self.template, values)
 
     def filled(self, shown: Callable[[Measured], str]) -> str:
         """The English text, with its numbers as ``shown`` writes them."""
 
-        def one(value: Measured | str | Message | Sequence[Message]) -> str:
+        def one(value: Value) -> str:
             if isinstance(value, Measured):
                 return shown(value)
             if isinstance(value, Message):
                 return value.filled(shown)
-            return value if isinstance(value, str) else ", ".join(each.filled(shown) for each in value)
+            return (
+                str(value)
+                if isinstance(value, str | Setting | UnitName)
+                else ", ".join(each.filled(shown) for each in value)
+            )
 
-        return _PLACEHOLDER.sub(lambda found: one(self.values[found[1]]), self.template)
+        def part(found: re.Match[str]) -> str:
+            name = found[1]
+            return one(self.values[name]) if name in self.values else str(Setting(name)) if "." in name else found[0]
+
+        return _PLACEHOLDER.sub(part, self.template)
+
+    def changed(self, change: Callable[[Value], Value]) -> Message:
+        """The same template with each value changed, those of the messages in it as well."""
+
+        def one(value: Value) -> Value:
+            if isinstance(value, Message):
+                return value.changed(change)
+            if isinstance(value, str | Measured | Setting | UnitName):
+                return change(value)
+            return [each.changed(change) for each in value]
+
+        return Message(self.template, {name: one(value) for name, value in self.values.items()})
 
     def document(self) -> dict[str, Any]:
         """The template and its values as they stand in JSON."""
 
-        def one(value: Measured | str | Message | Sequence[Message]) -> Any:
+        def one(value: Value) -> Any:
             if isinstance(value, str):
                 return value
+            if isinstance(value, Setting):
+                return {"field": value.path}
+            if isinstance(value, UnitName):
+                return {"unit_name": value.name}
             return value.document() if isinstance(value, Measured | Message) else [each.document() for each in value]
 
         return {"template": self.template, "values": {name: one(value) for name, value in self.values.items()}}
+
+
+#: What stands in a message.
+Value = Measured | str | Setting | UnitName | Message | Sequence[Message]
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)

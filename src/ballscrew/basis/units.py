@@ -17,9 +17,9 @@ from importlib import resources
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ballscrew.basis import pint_plugins as _pint_plugins
-from ballscrew.basis.errors import Fault, as_float
+from ballscrew.basis.errors import Fault, as_float, message_of
 from ballscrew.basis.quantities import Quantity
-from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.records import Measured, Message, Record, UnitName, Value
 
 if TYPE_CHECKING:
     import pint
@@ -171,6 +171,10 @@ class ShownQuantity(NamedTuple):
     toward: int = 0
 
 
+_KINEMATIC = Message(
+    "{remedy}; for a kinematic viscosity multiply by the density, or give kinematic_viscosity_40 and "
+    'kinematic_viscosity_100, or grade = "ISO VG 100"'
+)
 _placeholders: contextvars.ContextVar[list[ShownQuantity] | None] = contextvars.ContextVar("placeholders", default=None)
 
 
@@ -228,7 +232,7 @@ def filled(message: Message) -> str:
 
 
 def _measured(one: Measured) -> str:
-    return (
+    return one.written or (
         one.plain() if one.quantity is None or one.is_plain else shown(one.value, one.quantity, one.digits, one.toward)
     )
 
@@ -243,11 +247,21 @@ def ends(low: Any, high: Any, quantity: Quantity) -> tuple[str, str]:
     return shown(low, quantity, toward=-1), shown(high, quantity, toward=1)
 
 
-def in_display_units(fault: Fault, quantity: Quantity, given: str) -> Fault:
+def in_display_units(fault: Fault, quantity: Quantity, given: str | Message) -> Fault:
     """A fault found in SI, with its bound in the display unit and the value as it was written."""
-    bound = "" if fault.bound is None else shown(fault.bound, quantity, 9 if quantity.info.whole else DIGITS)
-    problem, remedy = (text.replace("{bound}", bound) for text in (fault.problem, fault.remedy))
-    return Fault(fault.where, problem, given, remedy)
+    digits = 9 if quantity.info.whole else DIGITS
+
+    def with_unit(value: Value) -> Value:
+        if not isinstance(value, Measured) or value.written:
+            return value
+        return dataclasses.replace(value, quantity=quantity, written=shown(value.value, quantity, digits))
+
+    return dataclasses.replace(fault.changed(with_unit), given=given)
+
+
+def measured(value: Any, quantity: Quantity, digits: int = DIGITS, toward: int = 0) -> Measured:
+    """A number of a message, written in its display unit."""
+    return Measured(float(value), quantity, digits, toward, shown(value, quantity, digits, toward))
 
 
 def in_display_units_of(records: Sequence[Record]) -> list[Record]:
@@ -264,9 +278,9 @@ def heading(quantity: Quantity, name: str | None = None) -> str:
     return words if quantity.unit == "1" else f"{words} [{quantity.shown_in}]"
 
 
-def example_of(quantity: Quantity, number: str = "") -> str:
+def example_of(quantity: Quantity, number: str = "1") -> Message:
     """An example of valid text for a quantity."""
-    return f'"{number or "1"} {quantity.shown_in}"'
+    return Message('"{number} {unit}"', {"number": number, "unit": UnitName(quantity.shown_in)})
 
 
 #: Signs and digits that programs and keyboards of East Asia write, the minus sign and full-width forms, and ASCII.
@@ -286,15 +300,15 @@ def parse(where: str, raw: object, quantity: Quantity) -> float | Fault:
     """
     given = raw if isinstance(raw, str) else str(raw).lower() if isinstance(raw, bool) else reprlib.repr(raw)
     if isinstance(raw, bool) or not isinstance(raw, int | float | str):
-        return Fault(
-            where, "must be a number" + ("" if quantity.unit == "1" else " with a unit"), given, _fix(quantity)
-        )
+        problem = "must be a number" if quantity.unit == "1" else "must be a number with a unit"
+        return Fault(where, problem, given, _fix(quantity))
     if not isinstance(raw, str):
         if quantity.unit == "1":
             return as_float(raw)
-        return Fault(where, "needs a unit", given, f"write {example_of(quantity, given)}")
+        return Fault(where, "needs a unit", given, _written_like(quantity, given))
     if len(raw) > LONGEST_VALUE:
-        return Fault(where, f"has more than {LONGEST_VALUE} letters", given, _fix(quantity))
+        problem = Message("has more than {most} letters", {"most": str(LONGEST_VALUE)})
+        return Fault(where, problem, given, _fix(quantity))
     match = _VALUE.fullmatch(in_ascii(raw))
     if match is None:
         problem = "is not a number" if quantity.unit == "1" else "is not a number with a unit"
@@ -306,7 +320,7 @@ def parse(where: str, raw: object, quantity: Quantity) -> float | Fault:
     if quantity.unit == "1":
         return number if not unit else Fault(where, "takes no unit", given, _plain_number(number, unit, quantity))
     if not unit:
-        return Fault(where, "needs a unit", given, f"write {example_of(quantity, match['number'])}")
+        return Fault(where, "needs a unit", given, _written_like(quantity, match["number"]))
     return _converted(where, number, unit, quantity, given)
 
 
@@ -319,7 +333,9 @@ def _plain(written: str) -> str | Fault:
     match = _WITH_COMMA.fullmatch(mantissa)
     if match and len(match[2]) == 3 and match[1].strip("+-0"):
         thousands, fraction = f"{match[1]}{match[2]}", f"{match[1]}.{match[2].rstrip('0') or '0'}"
-        return Fault("", "could be two numbers", written, f"write {thousands} for thousands, {fraction} for a decimal")
+        either = {"thousands": as_written(thousands), "fraction": as_written(fraction)}
+        remedy = Message("write {thousands} for thousands, {fraction} for a decimal", either)
+        return Fault("", "could be two numbers", written, remedy)
     if match and (match[1] or match[2]):
         return f"{match[1]}.{match[2]}{e}{exponent}"
     if _PLAIN.fullmatch(mantissa):
@@ -333,17 +349,30 @@ def unit_in(text: str) -> str:
     return (match["unit"] or "") if match else ""
 
 
-def _fix(quantity: Quantity) -> str:
-    return "write a plain number" if quantity.unit == "1" else f"write it like {example_of(quantity)}"
+def as_written(number: str) -> Measured:
+    """A number to write, with the digits that it has."""
+    return Measured(as_float(number), digits=12, written=number)
 
 
-def _plain_number(number: float, unit: str, quantity: Quantity) -> str:
+def _written_like(quantity: Quantity, number: str) -> Message:
+    return Message("write {example}", {"example": example_of(quantity, number)})
+
+
+def _fix(quantity: Quantity) -> str | Message:
+    if quantity.unit == "1":
+        return "write a plain number"
+    return Message("write it like {example}", {"example": example_of(quantity)})
+
+
+def _plain_number(number: float, unit: str, quantity: Quantity) -> str | Message:
     """The remedy for a plain number with a unit; to drop the unit could make another number of it."""
     if quantity.name == "loaded_balls":
         return "a number of balls: about turns · pi · pitch_circle_diameter / ball_diameter"
     if unit == "%" and not quantity.info.whole:
-        return f"write {number / 100:.12g}"
-    return "it is a plain number" + (f": {quantity.info.hint}" if quantity.info.hint else "")
+        return Message("write {example}", {"example": as_written(f"{number / 100:.12g}")})
+    if quantity.info.hint:
+        return Message("it is a plain number: {hint}", {"hint": Message(quantity.info.hint)})
+    return "it is a plain number"
 
 
 def _usual(quantity: Quantity) -> list[str]:
@@ -351,12 +380,19 @@ def _usual(quantity: Quantity) -> list[str]:
     return list(dict.fromkeys([quantity.shown_in, *USUAL.get(quantity.unit, ()), quantity.unit]))
 
 
-def _advice(quantity: Quantity) -> str:
+def _advice(quantity: Quantity) -> str | Message:
     """A remedy that names units of a quantity."""
     if quantity.unit == "rad/s":
         return 'write it in rpm, such as "1500 rpm"'
-    *others, last = _usual(quantity)[:_NAMED]
-    return f"use a unit such as {', '.join(others)} or {last}" if others else f"use the unit {last}"
+    *others, last = (UnitName(unit) for unit in _usual(quantity)[:_NAMED])
+    if not others:
+        return Message("use the unit {unit}", {"unit": last})
+    listed = [Message("{unit}", {"unit": unit}) for unit in others]
+    return Message("use a unit such as {units} or {unit}", {"units": listed, "unit": last})
+
+
+def _meant_or_usual(meant: str, quantity: Quantity) -> Message:
+    return Message('did you mean "{unit}"?', {"unit": UnitName(meant)}) if meant else message_of(_advice(quantity))
 
 
 def _similar_unit(unit: str, quantity: Quantity) -> str:
@@ -383,12 +419,10 @@ def _converted(where: str, number: float, unit: str, quantity: Quantity, given: 
             raise pint.UndefinedUnitError(unit)
         return to_si(number, unit, quantity)
     except pint.DimensionalityError:
-        meant = _similar_unit(unit, quantity)
-        remedy = f'did you mean "{meant}"?' if meant else _advice(quantity)
+        remedy = _meant_or_usual(_similar_unit(unit, quantity), quantity)
         if quantity.name == "viscosity":
-            remedy += "; for a kinematic viscosity multiply by the density, or give kinematic_viscosity_40 and "
-            remedy += 'kinematic_viscosity_100, or grade = "ISO VG 100"'
+            remedy = _KINEMATIC.of(remedy=remedy)
         return Fault(where, "wrong unit", given, remedy)
     except (pint.PintError, ValueError, ArithmeticError, TypeError):  # pint's own errors are of several kinds
         meant = _similar_unit(unit[:_LONGEST_UNIT], quantity)
-        return Fault(where, "unknown unit", given, f'did you mean "{meant}"?' if meant else _advice(quantity))
+        return Fault(where, "unknown unit", given, _meant_or_usual(meant, quantity))

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 from ballscrew.basis.errors import Fault, InputError, closest
 from ballscrew.basis.quantities import Quantity
+from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.case import Case
 from ballscrew.exports.export import Export
 from ballscrew.exports.subject import HandOver
@@ -49,11 +50,14 @@ TARGETS: Mapping[str, Target] = {
 }
 
 
+_MEANT, _KNOWN = Message('did you mean "{meant}"? known: {known}'), Message("known: {known}")
+
+
 def target_module(name: str) -> Any:
     """The module of a target. Raises :class:`~ballscrew.basis.errors.InputError` for an unknown one."""
     if name not in TARGETS:
-        meant = closest(name, TARGETS)
-        remedy = (f'did you mean "{meant}"? ' if meant else "") + f"known: {', '.join(TARGETS)}"
+        meant, known = closest(name, TARGETS), ", ".join(TARGETS)
+        remedy = (_MEANT if meant else _KNOWN).of(meant=meant, known=known)
         raise InputError(Fault("hand_over.to", "unknown target", str(name), remedy))
     return importlib.import_module(f".{TARGETS[name].module}", _FOLDER)
 

@@ -7,8 +7,19 @@ import re
 from pathlib import Path
 
 import pytest
+from tests.support.message_templates import (
+    NOT_ON_PAGE,
+    calls,
+    faults,
+    has_words,
+    imports_of,
+    is_left_out,
+    messages,
+    placeholders,
+    shown_by_page,
+    sources,
+)
 
-import ballscrew
 from ballscrew.axis.duty_cycle.drive import AS_GIVEN, FULL_BATH
 from ballscrew.cases.schema.schema import json_schema
 from ballscrew.faces.web import languages
@@ -23,7 +34,6 @@ from ballscrew.questions.warm_up.compute import AT_END, AT_START
 from ballscrew.questions.warm_up.self_heating import GIVEN, WARM
 
 PAGE = Path(languages.__file__).with_name("page")
-PACKAGE = Path(ballscrew.__file__).parent
 OF_CHECKS = (
     "static_safety", "life", "running_time", "contact_pressure", "shaft_stress", "buckling", "critical_speed",
     "diameter_speed_product", "motor_rms_torque", "motor_peak_torque", "motor_speed",
@@ -33,7 +43,7 @@ OTHERS = [name for name in languages.texts() if name != "en"]
 SCRIPTS = {file.name: file.read_text(encoding="utf-8") for file in PAGE.rglob("*.js")}
 #: Texts whose English stands at their source in Python: annotations of fields, and names of the vocabulary.
 OF_PYTHON = (
-    "cause.", "field.", "mechanism.", "message.", "option.", "problem.", "quantity.", "record.", "sentence.", "start.",
+    "cause.", "fault.", "field.", "mechanism.", "message.", "option.", "quantity.", "record.", "sentence.", "start.",
     "unit.",
 )  # fmt: skip
 #: Comments and patterns, which are skipped; then strings, and templates, of which what is computed is left out.
@@ -50,8 +60,6 @@ CODES = {
     "input, select", "kg cm^2", "lbf in", "line thin", "mm rpm",
     "no element #…", "no element …", "scroll whole", "verdict careful",
     "warning card-trouble",
-    # English remedies of the server for files, said for a page
-    "fill in the section …", "fill in {", "in a file write", "the section …",
 }  # fmt: skip
 
 
@@ -88,29 +96,12 @@ NAMES = {
 }  # fmt: skip
 
 
-def calls(name):
-    """All calls of a function or a class by its name in the source, each with its file."""
-    for file in sorted(PACKAGE.rglob("*.py")):
-        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.Call) and getattr(node.func, "id", getattr(node.func, "attr", "")) == name:
-                yield file, node
-
-
-def templates():
-    """The English templates of all messages, as they stand in the source."""
-    return {node.args[0].value for _, node in calls("Message") if isinstance(node.args[0], ast.Constant)}
-
-
 def id_of(call):
     """The id of a record as it stands in the source; what is computed of it is ``*``."""
     value = next((one.value for one in call.keywords if one.arg == "id"), None)
     if isinstance(value, ast.JoinedStr):
         return "".join(part.value if isinstance(part, ast.Constant) else "*" for part in value.values)
     return value.value if isinstance(value, ast.Constant) else ""
-
-
-def placeholders(text):
-    return sorted(re.findall(r"\{(\w+)\}", text))
 
 
 @pytest.mark.parametrize("name", OTHERS)
@@ -121,29 +112,59 @@ def test_a_translation_is_whole(name):
         key: placeholders(text) for key, text in own(ENGLISH).items()
     }
     assert all(text.strip() for text in found.values())
-    sentences = {
-        key: text for key, text in languages.texts()[name].items() if key.startswith(("sentence.", "problem."))
-    }
-    assert {key for key, text in sentences.items() if key.count("{}") != text.count("{}")} == set()
+
+
+def of_page():
+    """The templates that the page can show."""
+    found = {one for fault in faults() if fault.module in shown_by_page() for one in fault.templates}
+    return found | {one for module, one in messages() if module in shown_by_page()}
+
+
+def said(name):
+    """The texts of a language by their templates."""
+    found = languages.texts()[name].items()
+    return {key.removeprefix("message."): text for key, text in found if key.startswith("message.")}
 
 
 @pytest.mark.parametrize("name", OTHERS)
 def test_every_message_is_translated(name):
-    """The English template is the key; one that nothing says any more is stale."""
-    found = languages.texts()[name]
-    said = {key.removeprefix("message."): text for key, text in found.items() if key.startswith("message.")}
-    wanted = {one for one in templates() if re.search(r"[a-z]", re.sub(r"\{\w+\}", "", one))} | NAMES
-    assert len(wanted) > 150
-    assert wanted - said.keys() == set()
-    assert {key for key, text in said.items() if placeholders(key) != placeholders(text)} == set()
-    assert said.keys() - templates() - NAMES == set()
+    """Nothing that the page can show is left in English."""
+    wanted = {one for one in of_page() if has_words(one)} | NAMES
+    assert len(wanted) > 1000
+    assert wanted - said(name).keys() == set()
+
+
+@pytest.mark.parametrize("name", list(languages.texts()))
+def test_no_message_is_stale(name):
+    """A text has the template of a message that there is; it may leave values out, and has no others."""
+    known = {one for fault in faults() for one in fault.templates} | {one for _, one in messages()}
+    found = said(name)
+    assert found.keys() - known - NAMES == set()
+    assert {key for key, text in found.items() if not set(placeholders(text)) <= set(placeholders(key))} == set()
+    own = {
+        key.removeprefix("fault.").rpartition(": ")[2] for key in languages.texts()[name] if key.startswith("fault.")
+    }
+    assert own - known == set()
+
+
+def test_faults_are_templates():
+    """Problem and remedy of every fault are literals, or messages: none is a text that was put together."""
+    assert len(faults()) > 750
+    assert {fault.where: fault.untold for fault in faults() if fault.untold} == {}
+
+
+def test_what_the_page_never_shows():
+    """The modules that are left out are there, and the web application imports none of them by itself."""
+    assert set(NOT_ON_PAGE) <= sources().keys()
+    imported = {name for module in sources() if module.startswith("ballscrew.faces.web") for name in imports_of(module)}
+    assert imported & {module for module in sources() if is_left_out(module)} == set()
 
 
 def test_safety_is_said_by_messages():
     """A record with words that matter has a template with its numbers, which the page fills in its language."""
     without = {
-        (file.name, id_of(node))
-        for file, node in calls("Record")
+        (source.name, id_of(node))
+        for source, node in calls("Record")
         if any(fnmatch.fnmatch(id_of(node), one) for one in SAFETY)
         and not any(one.arg == "message" for one in node.keywords)
     }

@@ -13,8 +13,9 @@ import xlsxwriter
 
 from ballscrew.axis.motion import trajectory_file
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.errors import Fault, InputError, measured
 from ballscrew.basis.quantities import fields_of
+from ballscrew.basis.records import Message
 from ballscrew.cases.screw_tables.catalogue import COLUMNS
 from ballscrew.evidence.moving_logs import columns as moving_logs
 from ballscrew.evidence.validation.sets import SETS
@@ -350,7 +351,7 @@ def test_nobody_guesses_a_factor_of_a_thousand():
     for decimal, text in [("", "1,234"), (".", "1,234"), (",.", "1,234"), (",", "1.234"), (",.", "1.234")]:
         found = decimals.with_point("", text, frozenset(decimal))
         assert isinstance(found, Fault)
-        written = found.remedy.partition("thousands, ")[2].partition(" ")[0]  # as the remedy says
+        written = found.parts[2].partition("thousands, ")[2].partition(" ")[0]  # as the remedy says
         assert float(decimals.with_point("", written, frozenset(decimal))) == 1.234
     for decimal, text in [(",", "1,234"), ("", "1.234"), (".", "1.234")]:
         assert decimals.with_point("", text, frozenset(decimal)) == "1.234"
@@ -388,7 +389,8 @@ def test_faults_of_what_is_made_are_those_of_the_row(table):
     def make(row):
         if row.values["lead"] > 0.0055:
             raise InputError(
-                Fault("screw.lead", "too big", "0.006 m", "below {bound}", 0.0055, "m"), Fault("x.y", "odd")
+                Fault("screw.lead", "too big", "0.006 m", Message("below {bound}", {"bound": measured(0.0055, "m")})),
+                Fault("x.y", "odd"),
             )
         return row
 

@@ -91,8 +91,8 @@ def test_written_values_in_si(name, written, expected):
 def test_faults_name_the_value_and_the_remedy(name, written, problem, remedy):
     fault = units.parse(name, written, KNOWN[name])
     assert isinstance(fault, Fault)
-    assert fault.problem == problem
-    assert remedy in fault.remedy
+    assert fault.parts[0] == problem
+    assert remedy in fault.parts[2]
 
 
 @pytest.mark.parametrize("unit", ["1/min", "U/min", "/min", "min^-1", "min-1", "min⁻¹", "r/min", "1 / min", "rpm"])
@@ -145,7 +145,7 @@ def test_no_remedy_drops_a_word(name, unit):
     """4 turns are not 4 balls."""
     fault = units.parse(name, f"4 {unit}", KNOWN[name])
     assert isinstance(fault, Fault)
-    assert "write 4" not in fault.remedy
+    assert "write 4" not in fault.parts[2]
 
 
 @pytest.mark.parametrize("name", sorted(name for name, quantity in KNOWN.items() if quantity.unit != "1"))
@@ -156,8 +156,8 @@ def test_units_in_messages_are_of_the_right_kind(name):
         assert isinstance(units.parse(name, f"1 {unit}", quantity), float)
         for written in (unit.upper(), unit.lower(), unit.swapcase()):
             fault = units.parse(name, f"1 {written}", quantity)
-            if isinstance(fault, Fault) and fault.remedy.startswith("did you mean"):
-                assert fault.remedy.split('"')[1].lower() == written.lower()
+            if isinstance(fault, Fault) and fault.parts[2].startswith("did you mean"):
+                assert fault.parts[2].split('"')[1].lower() == written.lower()
 
 
 def test_a_length_below_a_nucleus_is_shown_as_none():

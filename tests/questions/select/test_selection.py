@@ -241,10 +241,10 @@ def test_all_faults_of_a_need_at_once():
         )
     found = {fault.where: fault for fault in raised.value.faults}
     assert list(found) == ["demands", "need.colour", "rapid", "need.feed", "need.least_rigidity"]  # no load is missing
-    assert "known: force, speed, feed, stroke, length" in found["need.colour"].remedy
-    assert "largest_step" in found["need.colour"].remedy
-    assert found["need.feed"].remedy == 'write "0.25 m/s", or "0.25 m/min"'
-    assert "two speeds" in found["rapid"].problem
+    assert "known: force, speed, feed, stroke, length" in found["need.colour"].parts[2]
+    assert "largest_step" in found["need.colour"].parts[2]
+    assert found["need.feed"].parts[2] == 'write "0.25 m/s", or "0.25 m/min"'
+    assert "two speeds" in found["rapid"].parts[0]
 
 
 def test_a_case_file_is_a_need():

@@ -11,6 +11,7 @@ from ballscrew.axis.motion.states import Numbers
 from ballscrew.axis.motion.trajectory import Trajectory, faults_of_times
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity
+from ballscrew.basis.records import Message
 from ballscrew.files.tables import decimals
 from ballscrew.files.tables.headings import Column, checked, headings_in, unused
 from ballscrew.files.tables.sheets import unreadable
@@ -75,7 +76,14 @@ def read_trajectory(path: Path) -> Trajectory:
                 parts.append({name: column[kept] for name, column in values.items()})
                 lines.append(piece.line[kept])
                 if sum(one.size for one in lines) > MOST_ROWS:
-                    raise InputError(Fault(path.name, f"has more than {MOST_ROWS} rows", "", "cut it to a few cycles"))
+                    raise InputError(
+                        Fault(
+                            path.name,
+                            Message("has more than {most_rows} rows", {"most_rows": str(MOST_ROWS)}),
+                            "",
+                            "cut it to a few cycles",
+                        )
+                    )
     except (OSError, ValueError) as error:
         if isinstance(error, InputError):
             raise
@@ -106,7 +114,12 @@ def _faults(name: str, columns: Mapping[str, Numbers], line: np.ndarray) -> list
     """Missing numbers, times that run back, gaps, and units that change midway, each with its row."""
     where = f"{name} row {{0}}"
     missing = [
-        Fault(where.format(line[int(np.argmax(np.isnan(values)))]), f"has no {column}", "", "fill it in, or cut it out")
+        Fault(
+            where.format(line[int(np.argmax(np.isnan(values)))]),
+            Message("has no {column}", {"column": column}),
+            "",
+            "fill it in, or cut it out",
+        )
         for column, values in columns.items()
         if column != "temperature" and np.isnan(values).any()
     ]

@@ -161,7 +161,14 @@ class SupportBearing(ByValue):
         if self.balls_of_a_row * self.balls_size < room and self.balls_size < self.mean_diameter / 2:
             return []
         given = f"{self.balls_of_a_row:g} of {1e3 * self.balls_size:.4g} mm"
-        return [Fault("bearing.balls", "do not fit on their circle", given, f"{1e3 * room:.4g} mm are all there is")]
+        return [
+            Fault(
+                "bearing.balls",
+                "do not fit on their circle",
+                given,
+                Message("{room} mm are all there is", {"room": f"{1000.0 * room:.4g}"}),
+            )
+        ]
 
     @property
     def mean_diameter(self) -> Length:

@@ -13,6 +13,7 @@ from typing import Any, NoReturn
 
 from ballscrew.basis.atomic_files import read_bytes
 from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.records import Message
 from ballscrew.physics.friction.law_names import LAWS
 
 #: Bytes of a case file at most, and bits of a whole number in it: no float is larger.
@@ -63,7 +64,7 @@ def tables_in(content: bytes, where: str) -> dict[str, Any]:
         remedy = _remedy(str(error), text)
         if is_json:
             remedy = "leave one of them out" if str(error).endswith(_TWICE) else "write one JSON object"
-        raise InputError(Fault(where, f"is not {'JSON' if is_json else 'TOML'}", str(error), remedy)) from None
+        raise InputError(Fault(where, "is not JSON" if is_json else "is not TOML", str(error), remedy)) from None
     if not tables:
         raise InputError(Fault(where, "is empty", "", _START))
     return tables
@@ -96,7 +97,14 @@ def for_json(where: str, value: Any, notes: list[str], depth: int = 0) -> Any:
     Raises :class:`~ballscrew.basis.errors.InputError` where they are nested too deeply for an answer.
     """
     if depth > _DEEPEST_DESIGN:
-        raise InputError(Fault(where, "is nested too deeply", "", f"{_DEEPEST_DESIGN} levels at most in a design"))
+        raise InputError(
+            Fault(
+                where,
+                "is nested too deeply",
+                "",
+                Message("{deepest_design} levels at most in a design", {"deepest_design": str(_DEEPEST_DESIGN)}),
+            )
+        )
     if isinstance(value, Mapping):
         return {
             name: for_json(f"{where}.{name}".removeprefix("."), inner, notes, depth + 1)
@@ -183,7 +191,12 @@ def _given_twice(where: str, error: str, text: str) -> Fault | None:
             of_table = f"[{table}]" if table else "the file"
             words = f'"{name}" of {of_table}' if name else of_table
             remedy = "leave one of them out" if name else "put their keys into one"
-            return Fault(where, f"{words} {_TWICE}", f"lines {first} and {number}", remedy)
+            return Fault(
+                where,
+                Message("{words} {twice}", {"words": words, "twice": str(_TWICE)}),
+                f"lines {first} and {number}",
+                remedy,
+            )
     return None
 
 
@@ -192,7 +205,7 @@ def _bare(key: str) -> str:
     return re.sub(r"[\s\"']", "", key)
 
 
-def _remedy(error: str, text: str) -> str:
+def _remedy(error: str, text: str) -> str | Message:
     """Remedy: most often a law is given by name and with coefficients."""
     line = re.search(r"Cannot overwrite a value \(at line (\d+)", error)
     if line is None:
@@ -201,4 +214,4 @@ def _remedy(error: str, text: str) -> str:
     slot = key[1] if key and key[1] in LAWS else "rolling"
     given = re.search(rf"""^\s*{slot}\s*=\s*["']([\w-]+)["']""", text, re.MULTILINE)
     law = given[1] if given else "houpert"
-    return f'a law with coefficients: write {slot}.law = "{law}" beside them'
+    return Message('a law with coefficients: write {slot}.law = "{law}" beside them', {"slot": slot, "law": law})

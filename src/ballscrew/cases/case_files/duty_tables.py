@@ -18,9 +18,10 @@ from ballscrew.axis.motion.profiles import Motion, Segment
 from ballscrew.axis.motion.trajectory import Trajectory
 from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.basis import units
-from ballscrew.basis.errors import MISSING, Fault, InputError, nearest
+from ballscrew.basis.errors import MISSING, Fault, InputError, either, nearest
 from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import fields_of
+from ballscrew.basis.records import Message, Setting, UnitName
 from ballscrew.cases.schema.duty_schema import (
     CONSTANT_EFFICIENCY,
     KEYS,
@@ -85,17 +86,25 @@ def efficiency(sections: Sections, chosen: str | None, moves: bool, faults: list
     named = table.get("name")
     if CONSTANT_EFFICIENCY not in (named, chosen) or (chosen not in (None, CONSTANT_EFFICIENCY)):
         if "efficiency" in table and named != CONSTANT_EFFICIENCY:
-            remedy = f'leave it out, or write name = "{CONSTANT_EFFICIENCY}"'
+            remedy = Message(
+                'leave it out, or write name = "{constant_efficiency}"',
+                {"constant_efficiency": str(CONSTANT_EFFICIENCY)},
+            )
             faults.append(Fault("model.efficiency", "a model computes it", str(table["efficiency"]), remedy))
         return None
     before = len(faults)
     values = sections.values_of("model", faults)
     if not moves:
-        remedy = f"take a model: {', '.join(MODELS)}"
+        remedy = Message("take a model: {names}", {"names": ", ".join(MODELS)})
         problem = "is a rule, which only ballscrew duty takes"
         faults.append(Fault("model.name", problem, CONSTANT_EFFICIENCY, remedy))
     faults += [
-        Fault(f"model.{name}", f'does not count with "{CONSTANT_EFFICIENCY}"', reprlib.repr(value), "leave it out")
+        Fault(
+            f"model.{name}",
+            Message('does not count with "{constant_efficiency}"', {"constant_efficiency": str(CONSTANT_EFFICIENCY)}),
+            reprlib.repr(value),
+            "leave it out",
+        )
         for name, value in table.items()
         if name not in ("name", "efficiency")
     ]
@@ -125,7 +134,7 @@ def _motion(sections: Sections, folder: Path, faults: list[Fault]) -> Motion | N
     kinds = (*MOTIONS, TRAJECTORY)
     kind: str = values.pop("kind", "")
     if not kind:
-        faults.append(Fault("motion.kind", MISSING, "", "add {motion.kind}" + _either(kinds)))
+        faults.append(Fault("motion.kind", MISSING, "", Message("add {motion.kind}{kinds}", {"kinds": either(kinds)})))
     elif kind not in kinds:
         faults.append(Fault("motion.kind", "unknown kind of motion", kind, nearest(kind, kinds)))
     else:
@@ -150,8 +159,15 @@ def _misplaced(kind: str, table: Mapping[str, Any]) -> list[Fault]:
     for name, value in table.items():
         if name != "kind" and name not in own:
             kinds = [other for other in (*MOTIONS, TRAJECTORY) if name in fields_of_motion(other)]
-            remedy = "leave it out, or write {motion.kind}" + _either(kinds)
-            found.append(Fault(f"motion.{name}", f'a motion of kind "{kind}" has none', reprlib.repr(value), remedy))
+            remedy = Message("leave it out, or write {motion.kind}{kinds}", {"kinds": either(kinds)})
+            found.append(
+                Fault(
+                    f"motion.{name}",
+                    Message('a motion of kind "{kind}" has none', {"kind": kind}),
+                    reprlib.repr(value),
+                    remedy,
+                )
+            )
     return found
 
 
@@ -164,9 +180,11 @@ def _missing(kind: str, table: Mapping[str, Any]) -> list[Fault]:
         key = KEYS.get(field.name, field.name)
         if field.default is dataclasses.MISSING and key not in table:
             quantity = known.get(key)
-            remedy = f"add tables [[motion.{key}]]"
+            remedy = Message("add tables [[motion.{key}]]", {"key": key})
             if quantity is not None:
-                remedy = f'add {{motion.{key}}}"… {quantity.shown_in}"'
+                remedy = Message(
+                    'add {field}"… {unit}"', {"field": Setting(f"motion.{key}"), "unit": UnitName(quantity.shown_in)}
+                )
             found.append(Fault(f"motion.{key}", MISSING, "", remedy))
     return found
 
@@ -259,7 +277,3 @@ def _of_motion(motion: Any) -> dict[str, Any]:
 
 def _numbers(part: Any) -> dict[str, Any]:
     return {name: value for name in fields_of(type(part)) if (value := getattr(part, name)) is not None}
-
-
-def _either(names: Any) -> str:
-    return " or ".join(f'"{name}"' for name in names)

@@ -10,6 +10,7 @@ from typing import Any
 from ballscrew.basis import units
 from ballscrew.basis.errors import MISSING, Fault, InputError
 from ballscrew.basis.quantities import fields_of
+from ballscrew.basis.records import Message, Setting
 from ballscrew.basis.units import in_display_units
 from ballscrew.cases.case_files.oils import named_oil
 from ballscrew.cases.schema.sections import Sections
@@ -77,7 +78,12 @@ def _told_twice(table: Mapping[str, Any]) -> list[Fault]:
     pairs = [("viscosity", "grade", "the grade")]
     pairs += [(other, name, name) for name in ("oil", *_points(table)[:1]) for other in ("grade", "viscosity")]
     return [
-        Fault(f"lubricant.{one}", f"contradicts {words}", f"{table[one]} and {table[other]}", "give one of the two")
+        Fault(
+            f"lubricant.{one}",
+            Message("contradicts {words}", {"words": words}),
+            f"{table[one]} and {table[other]}",
+            "give one of the two",
+        )
         for one, other, words in pairs
         if one in table and other in table
     ]
@@ -96,7 +102,14 @@ def _told_in_half(table: Mapping[str, Any]) -> list[Fault]:
         return faults
     if len(points) == 1:
         missing = next(name for name in _POINTS if name not in table)
-        faults.append(Fault(f"lubricant.{missing}", MISSING, "", f'add {{lubricant.{missing}}}"… cSt"'))
+        faults.append(
+            Fault(
+                f"lubricant.{missing}",
+                MISSING,
+                "",
+                Message('add {field}"… cSt"', {"field": Setting(f"lubricant.{missing}")}),
+            )
+        )
     if others and not points:
         remedy = "add kinematic_viscosity_40 and kinematic_viscosity_100, or leave it out"
         faults.append(Fault(f"lubricant.{others[0]}", "is of a data sheet", str(table[others[0]]), remedy))
@@ -120,7 +133,7 @@ def _shown(fault: Fault, table: Mapping[str, Any]) -> Fault:
     """A fault with its bound in display units and its value as it is written."""
     known = {**fields_of(DataSheet), "temperature": SHEET_TEMPERATURE}
     name = fault.where.rpartition(".")[2]
-    if fault.bound is None or name not in known:
+    if not isinstance(fault.problem, Message) or name not in known:
         return fault
     return in_display_units(fault, known[name], str(table.get(name, fault.given)))
 

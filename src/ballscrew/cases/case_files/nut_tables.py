@@ -8,8 +8,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ballscrew.basis.errors import MISSING, Fault, InputError, nearest
+from ballscrew.basis.errors import MISSING, Fault, InputError, either, nearest
 from ballscrew.basis.quantities import fields_of
+from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.case import PreloadNote
 from ballscrew.cases.schema.schema import law_of
 from ballscrew.cases.schema.sections import Sections
@@ -164,7 +165,7 @@ def _nut(
         return None, ()
     kind = values.pop("type", (row.nut or "single") if row is not None else None)
     if kind not in NUTS:
-        missing = Fault("nut.type", MISSING, "", "add {nut.type}" + _either(NUTS))
+        missing = Fault("nut.type", MISSING, "", Message("add {nut.type}{kinds}", {"kinds": either(NUTS)}))
         faults.append(missing if kind is None else Fault("nut.type", "unknown kind of nut", kind, nearest(kind, NUTS)))
         return None, ()
     faults += _misplaced(kind, table)
@@ -222,23 +223,22 @@ def _preload_of(row: CatalogueRow) -> dict[str, float]:
     return {} if row.preload is None else {"preload": row.preload}
 
 
+_ANOTHER_NUT = Message("leave it out, or take {nut.type}{kinds}")
+
+
 def _misplaced(kind: str, table: Mapping[str, Any]) -> list[Fault]:
     """Faults of fields that another kind of nut has."""
     own = fields_of(NUTS[kind])
     return [
         Fault(
             f"nut.{name}",
-            f'a nut of type "{kind}" has none',
+            Message('a nut of type "{kind}" has none', {"kind": kind}),
             str(table[name]),
-            "leave it out, or take {nut.type}" + _either(n for n, cls in NUTS.items() if name in fields_of(cls)),
+            _ANOTHER_NUT.of(kinds=either(n for n, cls in NUTS.items() if name in fields_of(cls))),
         )
         for name in NUT_FIELDS
         if name in table and name not in own
     ]
-
-
-def _either(names: Any) -> str:
-    return " or ".join(f'"{name}"' for name in names)
 
 
 def _losses(sections: Sections, faults: list[Fault]) -> dict[str, ParasiticLaw]:
@@ -266,7 +266,11 @@ def installation(sections: Sections, faults: list[Fault]) -> Installation | None
             )
         ends = values.get("ends")
         if ends is None:
-            faults.append(Fault("installation.ends", MISSING, "", "add {installation.ends}" + _either(ENDS)))
+            faults.append(
+                Fault(
+                    "installation.ends", MISSING, "", Message("add {installation.ends}{kinds}", {"kinds": either(ENDS)})
+                )
+            )
         elif ends not in ENDS:
             faults.append(Fault("installation.ends", "unknown kind of ends", ends, nearest(ends, ENDS)))
     return Installation(**{**values, "ends": ENDS[values["ends"]]}) if len(faults) == before else None

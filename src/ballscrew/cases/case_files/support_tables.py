@@ -24,6 +24,7 @@ from ballscrew.axis.supports.element_laws import (
 from ballscrew.axis.supports.mounted_bearing import MountedBearing
 from ballscrew.basis.errors import MISSING, Fault, InputError, nearest, shown
 from ballscrew.basis.quantities import fields_of
+from ballscrew.basis.records import Message, Setting
 from ballscrew.cases.case_files.oils import named_oil
 from ballscrew.cases.schema.sections import Sections
 from ballscrew.cases.schema.support_schema import OIL
@@ -69,17 +70,21 @@ def _contradictions(sections: Sections, tables: Mapping[str, Any], mounted: Inst
         faults.append(Fault("bearings.floating", "is at the end of the second fixed bearing", "", remedy))
     own = [place for place, table in tables.items() if place != "floating" and "rigidity" in table]
     if mounted is not None and mounted.bearing_rigidity is not None and own:
-        remedy = f"leave one out: the other is bearings.{own[0]}.rigidity"
+        remedy = Message("leave one out: the other is bearings.{own}.rigidity", {"own": own[0]})
         given = shown(mounted.bearing_rigidity, "N/m")
         faults.append(Fault("installation.bearing_rigidity", "is given beside that of the bearing", given, remedy))
     far = {Ends.FIXED_FIXED: "second_fixed", Ends.FIXED_SUPPORTED: "floating"}
     given = next((place for place in far.values() if place in tables), None)
     if mounted is not None and given is not None and far.get(mounted.ends) != given:
-        remedy = "write ends = " + next(
-            f'"{ends.words.replace("–", "-")}"' for ends, far in far.items() if far == given
-        )
+        fitting = next(ends.words.replace("–", "-") for ends, place in far.items() if place == given)
+        remedy = Message('write {installation.ends}"{ends}"', {"ends": fitting})
         faults.append(
-            Fault("installation.ends", f"has no {given.replace('_', ' ')} bearing", mounted.ends.words, remedy)
+            Fault(
+                "installation.ends",
+                Message("has no {given} bearing", {"given": given.replace("_", " ")}),
+                mounted.ends.words,
+                remedy,
+            )
         )
     return faults
 
@@ -105,13 +110,25 @@ def _bearing(
         mounting = {"rigidity": unit.rigidity, **mounting}
         if "preload" in known and "preload" not in values:
             faults.append(
-                Fault(f"{where}.preload", "is not printed in the catalogue", row, f'add {{{where}.preload}}"… N"')
+                Fault(
+                    f"{where}.preload",
+                    "is not printed in the catalogue",
+                    row,
+                    Message('add {field}"… N"', {"field": Setting(f"{where}.preload")}),
+                )
             )
     faults += missing(where, BEARING_LAWS[law], values)
     if "lubricant" in BEARING_LAWS[law].__dataclass_fields__:
         values["lubricant"] = _lubricant(where, oil, folder, lubricant, faults)
     elif oil:
-        faults.append(Fault(f"{where}.{next(iter(oil))}", f'a bearing of law "{law}" has none', "", "leave it out"))
+        faults.append(
+            Fault(
+                f"{where}.{next(iter(oil))}",
+                Message('a bearing of law "{law}" has none', {"law": law}),
+                "",
+                "leave it out",
+            )
+        )
     if len(faults) > before:
         return None
     element = _made(where, lambda: BEARING_LAWS[law](**values), faults)
@@ -163,7 +180,14 @@ def guided(
     if "lubricant" in GUIDE_LAWS[law].__dataclass_fields__:
         values["lubricant"] = _lubricant("guides", oil, folder, lubricant, faults)
     elif oil:
-        faults.append(Fault(f"guides.{next(iter(oil))}", f'guides of law "{law}" have none', "", "leave it out"))
+        faults.append(
+            Fault(
+                f"guides.{next(iter(oil))}",
+                Message('guides of law "{law}" have none', {"law": law}),
+                "",
+                "leave it out",
+            )
+        )
     if len(faults) > before or axis is None:
         return None
     table = _table(axis, where, values.get("carriages", 4), faults)
@@ -183,10 +207,13 @@ def _table(axis: Axis, where: Mapping[str, float], carriages: float, faults: lis
         return None
     for name in ("carriage_spacing", "rail_spacing"):
         if name not in where:
-            remedy = f'add {{guides.{name}}}"… mm", or leave {", ".join(where)} out'
+            remedy = Message(
+                'add {field}"… mm", or leave {names} out',
+                {"field": Setting(f"guides.{name}"), "names": ", ".join(where)},
+            )
             faults.append(Fault(f"guides.{name}", MISSING, "", remedy))
     if carriages != 4:
-        remedy = f"leave {', '.join(where)} out: all carriages then bear alike"
+        remedy = Message("leave {names} out: all carriages then bear alike", {"names": ", ".join(where)})
         faults.append(Fault("guides.carriages", "must be four for the loads of each", f"{carriages:g}", remedy))
     if faults:
         return None
@@ -205,7 +232,14 @@ def _lubricant(
         faults.append(Fault(f"{where}.oil_file", "needs the name of an oil", str(oil["oil_file"]), 'add oil = "…"'))
     if not oil:
         if lubricant is None:
-            faults.append(Fault(f"{where}.grade", MISSING, "", f'add {{{where}.grade}}"ISO VG 68", or a [lubricant]'))
+            faults.append(
+                Fault(
+                    f"{where}.grade",
+                    MISSING,
+                    "",
+                    Message('add {field}"ISO VG 68", or a [lubricant]', {"field": Setting(f"{where}.grade")}),
+                )
+            )
         return lubricant
     at = {} if lubricant is None or lubricant.temperature is None else {"temperature": lubricant.temperature}
     if "grade" in oil:

@@ -14,6 +14,7 @@ from pydantic_core import PydanticCustomError
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, fault_of
 from ballscrew.basis.quantities import Info, Quantity, fields_of
+from ballscrew.basis.records import Message
 from ballscrew.cases.screw_tables.nut_kinds import NUT_FIELDS, PERCENT, Share
 from ballscrew.engine.uncertainty import uncertain_value
 from ballscrew.physics.components.operating_state import OperatingState
@@ -116,16 +117,14 @@ def si_value(raw: object, quantity: Quantity, may_vary: bool = False) -> float:
         else uncertain_value.refuse_distribution(raw, quantity)
     )
     if isinstance(written, Fault):
-        words = {"problem": written.problem, "given": written.given, "remedy": written.remedy}
-        raise PydanticCustomError("fault", "{problem}", words)
+        raise PydanticCustomError("fault", "fault", {"fault": written})
     if written is not None:
         return written.central
     value = units.parse("", raw, quantity)
     fault = value if isinstance(value, Fault) else fault_of("", quantity, value)
     if fault is not None:
         fault = units.in_display_units(fault, quantity, fault.given if fault is value else str(raw))
-        words = {"problem": fault.problem, "given": fault.given, "remedy": fault.remedy}
-        raise PydanticCustomError("fault", "{problem}", words)
+        raise PydanticCustomError("fault", "fault", {"fault": fault})
     assert isinstance(value, float)
     return int(value) if quantity.info.whole else value
 
@@ -136,10 +135,10 @@ def read_preload(raw: object) -> float:
         return Share(si_value(without_percent(raw), PERCENT, may_vary=True) / 100)
     bare = units.parse("", raw, PERCENT)
     if not isinstance(bare, Fault) and 0 < bare <= 100:
-        remedy = f'write "{bare if bare >= 1 else 100 * bare:.12g} %" of the dynamic load rating, or "{bare:.12g} kN"'
-        raise PydanticCustomError(
-            "fault", "{problem}", {"problem": "needs a unit", "given": str(raw), "remedy": remedy}
-        )
+        share, force = (f"{number:.12g}" for number in (bare if bare >= 1 else 100 * bare, bare))
+        numbers = {"share": units.as_written(share), "force": units.as_written(force)}
+        remedy = Message('write "{share} %" of the dynamic load rating, or "{force} kN"', numbers)
+        raise PydanticCustomError("fault", "fault", {"fault": Fault("", "needs a unit", str(raw), remedy)})
     return si_value(raw, NUT_FIELDS["preload"], may_vary=True)
 
 

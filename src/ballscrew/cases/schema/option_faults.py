@@ -5,7 +5,8 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Collection, Iterable, Mapping
 
-from ballscrew.basis.errors import MISSING, Fault
+from ballscrew.basis.errors import MISSING, Fault, message_of
+from ballscrew.basis.records import Message, Setting, Value
 
 #: The options by the field that they set.
 OPTIONS: Mapping[str, str] = {
@@ -33,7 +34,10 @@ def _in_options(fault: Fault, given: Collection[str], sections: Collection[str])
     if option is None or not (fault.where in given or (fault.problem == MISSING and section in sections)):
         return fault
 
-    remedy = fault.remedy
-    for field, name in OPTIONS.items():
-        remedy = remedy.replace(f"{{{field}}}", f"{name} ")
-    return dataclasses.replace(fault, where=option, remedy=remedy)
+    remedy = message_of(fault.remedy).changed(_option_of)
+    options = {field: f"{name} " for field, name in OPTIONS.items()}
+    return dataclasses.replace(fault, where=option, remedy=Message(remedy.template, {**options, **remedy.values}))
+
+
+def _option_of(value: Value) -> Value:
+    return f"{OPTIONS[value.path]} " if isinstance(value, Setting) and value.path in OPTIONS else value

@@ -10,8 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, InputError, closest, nearest, raise_if_any
+from ballscrew.basis.errors import Fault, InputError, closest, message_of, nearest, raise_if_any
 from ballscrew.basis.quantities import Quantity, fields_of, quantities_of
+from ballscrew.basis.records import Message
 from ballscrew.basis.version import __version__
 from ballscrew.cases.screw_tables.nut_kinds import LISTED, NUTS, Share, kind_in
 from ballscrew.files.tables import column_names
@@ -113,7 +114,14 @@ def _made(row: Row, path: Path, taken: dict[str, int], logs: dict[str, Path]) ->
     values.setdefault("source", f"{file} row {row.line}")
     faults: list[Fault] = []
     if name in taken:
-        faults.append(Fault("row.name", "is given twice", name, f"row {taken[name]} has it, too: name both apart"))
+        faults.append(
+            Fault(
+                "row.name",
+                "is given twice",
+                name,
+                Message("row {row} has it, too: name both apart", {"row": str(taken[name])}),
+            )
+        )
     if isinstance(seals := values.get("seal_torque"), str):
         values["seal_torque"] = _seal_torque(seals, values, faults)
         if seals == column_names.STANDARD:
@@ -142,7 +150,7 @@ def _seal_torque(word: str, values: Mapping[str, Any], faults: list[Fault]) -> f
     try:
         return float(Seals.of_table(values["nominal_diameter"], values["lead"]).seal_torque)
     except InputError as error:
-        remedy = f"{error.faults[0].remedy}; write the torque"
+        remedy = Message("{remedy}; write the torque", {"remedy": message_of(error.faults[0].remedy)})
         faults.append(Fault("row.seal_torque", "no standard seals are known of this size", word, remedy))
         return None
 
@@ -207,11 +215,11 @@ def named(rows: Mapping[str, CatalogueRow], name: str, where: str = "", file: st
         return rows.get(name, found)
     containing = [f'"{known}"' for known in rows if name and name.casefold() in known.casefold()][:3]
     if containing:
-        remedy = f"did you mean {' or '.join(containing)}?"
+        remedy = Message("did you mean {names}?", {"names": " or ".join(containing)})
     elif closest(name, rows):
         remedy = nearest(name, rows)
     else:
-        remedy = f'see "ballscrew catalogue list{"" if file is None else f" --rows {file}"}"'
+        remedy = Message('see "ballscrew catalogue list{words}"', {"words": "" if file is None else f" --rows {file}"})
     where = where or ("catalogue" if file is None else Path(file).name)
     raise InputError(Fault(where, "unknown row", name, remedy))
 

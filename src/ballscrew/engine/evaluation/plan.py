@@ -449,9 +449,13 @@ def _axes(
     faults = [
         Fault(f"{section}.{name}", "unknown name", "", nearest(name, known)) for name in varied if name not in known
     ]
-    faults += [Fault(f"{section}.{name}", MISSING, "", f"give {name}=[…]") for name in OPERATION if name not in varied]
     faults += [
-        Fault(f"{part}.{name}", "is an array", "", f"give it to the sweep: {name}=[…]")
+        Fault(f"{section}.{name}", MISSING, "", Message("give {name}=[…]", {"name": name}))
+        for name in OPERATION
+        if name not in varied
+    ]
+    faults += [
+        Fault(f"{part}.{name}", "is an array", "", Message("give it to the sweep: {name}=[…]", {"name": name}))
         for name, (part, _) in known.items()
         if part != "operation" and name not in varied and np.ndim(read_input(parts[part], name))
     ]

@@ -14,6 +14,7 @@ import numpy as np
 
 from ballscrew.basis.errors import Fault, as_float, is_concrete, nearest, raise_if_any
 from ballscrew.basis.quantities import Array, Info, Quantity
+from ballscrew.basis.records import Message
 
 #: Less than the least share that is ever drawn, 2^-53.
 UNREACHED = 2.0**-64
@@ -164,7 +165,14 @@ class Triangular:
         faults = _faults_of_numbers("triangular", self) or _faults_of_order("triangular", self.low, self.high)
         if not faults and not self.low <= self.mode <= self.high:
             given = f"{self.mode:g}"
-            faults = [Fault("triangular.mode", "must lie between the ends", given, f"{self.low:g} to {self.high:g}")]
+            faults = [
+                Fault(
+                    "triangular.mode",
+                    "must lie between the ends",
+                    given,
+                    Message("{low} to {high}", {"low": f"{self.low:g}", "high": f"{self.high:g}"}),
+                )
+            ]
         raise_if_any(faults)
 
     def quantile(self, u: Array) -> Array:
@@ -219,14 +227,14 @@ def within(distribution: Distribution, info: Info) -> Distribution:
 
 
 def distribution_fault(
-    where: str, name: str, given: object, known: Mapping[str, tuple[str, Quantity]], remedy: str
+    where: str, name: str, given: object, known: Mapping[str, tuple[str, Quantity]], remedy: str | Message
 ) -> Fault | None:
     """Fault of the distribution of an input; ``remedy`` is for a whole number, which has none."""
     if name not in known:
         return Fault(where, "unknown name", "", nearest(name, known))
     if not isinstance(given, Distribution):
         kinds = ", ".join(kind.__name__ for kind in get_args(Distribution))
-        return Fault(where, "is no distribution", str(given), f"one of {kinds}")
+        return Fault(where, "is no distribution", str(given), Message("one of {kinds}", {"kinds": kinds}))
     if known[name][1].info.whole:
         return Fault(where, "is a whole number, which has no distribution", "", remedy)
     return None

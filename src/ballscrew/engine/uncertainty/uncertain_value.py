@@ -13,8 +13,9 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, InputError, fault_of, nearest
+from ballscrew.basis.errors import Fault, InputError, fault_of, message_of, nearest
 from ballscrew.basis.quantities import Quantity
+from ballscrew.basis.records import Message
 from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.engine.uncertainty.distributions import Distribution, LogNormal, Normal, Triangular, Uniform, within
 from ballscrew.engine.uncertainty.tolerances import BALL_LOT_VARIATION, TRAVEL_VARIATION, standard_tolerance
@@ -75,7 +76,12 @@ def _parsed(raw: str, quantity: Quantity) -> UncertainValue | Fault | None:
     if fault is not None or written.distribution is None:
         return fault or written
     if quantity.info.whole:
-        return Fault("", "is a whole number, which has no distribution", raw, f'write "{written.central:g}"')
+        return Fault(
+            "",
+            "is a whole number, which has no distribution",
+            raw,
+            Message('write "{central}"', {"central": f"{written.central:g}"}),
+        )
     return dataclasses.replace(written, distribution=within(written.distribution, quantity.info))
 
 
@@ -84,7 +90,8 @@ def refuse_distribution(raw: object, quantity: Quantity) -> Fault | None:
     written = parse_uncertain(raw, quantity)
     if written is None or isinstance(written, Fault):
         return written
-    remedy = f"write one number: {units.example_of(quantity, f'{units.from_si(written.central, quantity):.6g}')}"
+    example = units.example_of(quantity, f"{units.from_si(written.central, quantity):.6g}")
+    remedy = Message("write one number: {example}", {"example": example})
     return Fault("", "takes no distribution", str(raw), remedy)
 
 
@@ -140,7 +147,12 @@ def _plus_minus(raw: str, quantity: Quantity) -> UncertainValue | Fault:
     text, common = (bracketed["inside"], bracketed["unit"]) if bracketed else (raw, "")
     parts = [part.strip() for part in _PLUS_MINUS.split(text)]
     if len(parts) != 2:
-        return Fault("", "has more than one ±", raw, f'write it like "{_EXAMPLE[quantity.unit == "1"]}"')
+        return Fault(
+            "",
+            "has more than one ±",
+            raw,
+            Message('write it like "{example}"', {"example": _EXAMPLE[quantity.unit == "1"]}),
+        )
     middle, half = parts
     unit = common or units.unit_in(half).replace("%", "") or units.unit_in(middle)
     central = _value(middle, unit, quantity, raw)
@@ -167,7 +179,12 @@ def _by_name(raw: str, match: re.Match[str], quantity: Quantity) -> UncertainVal
     texts = [text.strip() for text in match["numbers"].split(",")]
     wanted = f"{name}({', '.join(names)})"
     if len(texts) != len(names) or not all(texts):
-        return Fault("", f"must have {len(names)} numbers in its brackets", raw, f"write {wanted}")
+        return Fault(
+            "",
+            Message("must have {count} numbers in its brackets", {"count": str(len(names))}),
+            raw,
+            Message("write {wanted}", {"wanted": wanted}),
+        )
     given = [units.unit_in(text) for text in texts]
     unit = match["unit"] or next((unit for unit in reversed(given) if unit and unit != "%"), "")
     numbers: list[float] = []
@@ -221,7 +238,12 @@ def _of_grade(
         return value
     grade = int(match["grade"])
     if grade not in known:
-        return Fault("", f"unknown {what}", raw, f"known: {', '.join(map(str, known))}")
+        return Fault(
+            "",
+            Message("unknown {what}", {"what": what}),
+            raw,
+            Message("known: {names}", {"names": ", ".join(map(str, known))}),
+        )
     return _symmetric(value, half_width(value, known[grade]), raw)
 
 
@@ -273,5 +295,8 @@ def _fault_in(written: UncertainValue, quantity: Quantity, raw: str) -> Fault | 
 def _as_written(fault: Fault, raw: str) -> Fault:
     """A fault of the parameters of a distribution, with the text that has them."""
     section, _, field = fault.where.partition(".")
-    what = f"{field} of the {section.replace('_', '-')} distribution "
-    return Fault("", what + fault.problem, raw, fault.remedy)
+    problem = Message(
+        "{parameter} of the {kind} distribution {problem}",
+        {"parameter": field, "kind": section.replace("_", "-"), "problem": message_of(fault.problem)},
+    )
+    return Fault("", problem, raw, fault.remedy)

@@ -11,6 +11,7 @@ import numpy as np
 
 from ballscrew.basis.errors import Fault, accepts_units, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, MomentOfInertia, Temperature
+from ballscrew.basis.records import Message
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.engine.uncertainty.distributions import Distribution, standard_normal_share
@@ -106,24 +107,55 @@ def _faults(subject: Configuration, baseline: Any, false_alarms: Any, tolerance:
         remedy = "leave out [bodies] and [deviations]: balls that differ are not solved for a preload"
         faults.append(Fault("condition", "knows no nuts whose balls differ", "", remedy))
     if not isinstance(baseline, int) or baseline < LEAST_BASELINE:
-        remedy = f"give {LEAST_BASELINE} or more: the scatter is estimated from them; {BASELINE} is usual"
+        remedy = Message(
+            "give {least_baseline} or more: the scatter is estimated from them; {baseline} is usual",
+            {"least_baseline": str(LEAST_BASELINE), "baseline": str(BASELINE)},
+        )
         faults.append(Fault("condition.baseline", "is too short", str(baseline), remedy))
     shares = {"false_alarms": (false_alarms, 1e-4, 0.1), "tolerance": (tolerance, 0.0, 1.0)}
     for name, (value, low, high) in shares.items():
         if not isinstance(value, int | float) or not low < value < high:
-            remedy = f"{FALSE_ALARMS} is usual" if name == "false_alarms" else "0.1 is usual"
-            faults.append(Fault(f"condition.{name}", f"must lie between {low:g} and {high:g}", str(value), remedy))
+            remedy = (
+                Message("{false_alarms} is usual", {"false_alarms": str(FALSE_ALARMS)})
+                if name == "false_alarms"
+                else "0.1 is usual"
+            )
+            faults.append(
+                Fault(
+                    f"condition.{name}",
+                    Message("must lie between {low} and {high}", {"low": f"{low:g}", "high": f"{high:g}"}),
+                    str(value),
+                    remedy,
+                )
+            )
     return faults
 
 
 def _faults_of_count(count: int, baseline: int) -> list[Fault]:
     if count > MOST_TESTS:
         remedy = "a table has a row for each test: is this a log? Of logs give several, one for each test"
-        return [Fault("condition.tests", f"more than {MOST_TESTS}", str(count), remedy)]
+        return [
+            Fault(
+                "condition.tests",
+                Message("more than {most_tests}", {"most_tests": str(MOST_TESTS)}),
+                str(count),
+                remedy,
+            )
+        ]
     if count > baseline:
         return []
-    remedy = f"give {baseline + 1} or more, or a shorter baseline ({LEAST_BASELINE} or more)"
-    return [Fault("condition.tests", f"too few: the baseline alone takes {baseline}", str(count), remedy)]
+    remedy = Message(
+        "give {baseline} or more, or a shorter baseline ({least_baseline} or more)",
+        {"baseline": str(baseline + 1), "least_baseline": str(LEAST_BASELINE)},
+    )
+    return [
+        Fault(
+            "condition.tests",
+            Message("too few: the baseline alone takes {baseline}", {"baseline": str(baseline)}),
+            str(count),
+            remedy,
+        )
+    ]
 
 
 def _judged(

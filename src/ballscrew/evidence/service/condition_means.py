@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
-from ballscrew.basis.records import Record
+from ballscrew.basis.records import Message, Record
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.evidence.calibration.robust import Vector
 from ballscrew.evidence.service.change_detection import OF_MAD
@@ -165,7 +165,13 @@ def _faults_of_jumps(parts: Sequence[tuple[int, _Mean]], labels: Sequence[str]) 
     remedy = "is it of the same nut, and in the same unit or with the same torque constant?"
     return [
         Fault(
-            f"{labels[i]}: log", f"has {usual[i] / usual[i - 1]:.3g} times the friction of {labels[i - 1]}", "", remedy
+            f"{labels[i]}: log",
+            Message(
+                "has {usual} times the friction of {labels}",
+                {"usual": f"{usual[i] / usual[i - 1]:.3g}", "labels": labels[i - 1]},
+            ),
+            "",
+            remedy,
         )
         for i in range(1, len(labels))
         if abs(math.log(usual[i] / usual[i - 1])) > math.log(JUMP)
@@ -213,7 +219,10 @@ def _means(subject: Configuration, log: TorqueLog, kind: Kind) -> tuple[list[_Me
         kept[np.concatenate(sides)] = True
         found.append(_mean(log, rows, sides, share, friction))
     if not found:
-        remedy = f"give {LEAST_ROWS} rows or more of each speed, in both directions or in one"
+        remedy = Message(
+            "give {least_rows} rows or more of each speed, in both directions or in one",
+            {"least_rows": str(LEAST_ROWS)},
+        )
         raise InputError(Fault("log", "has no speed with enough rows", "", remedy))
     return found, log.select(kept, FEW_OF_A_SPEED)
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from ballscrew.basis.errors import Fault, InputError, accepts_units, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, Temperature, Torque
+from ballscrew.basis.records import Message
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.engine.uncertainty.distributions import Distribution, standard_normal_quantile
@@ -95,8 +96,9 @@ def preload_of_torque(
     possible = (least < wanted) & (wanted < most)
     if np.count_nonzero(possible) < MINIMUM_SAMPLES:
         without, much = float(np.nanmedian(least)), float(np.nanmedian(most))
-        problem = (
-            f"no preload gives it: the nut loses {without:.3g} N m without any, {much:.3g} N m at {MOST:g} times it"
+        problem = Message(
+            "no preload gives it: the nut loses {without} N m without any, {much} N m at {most} times it",
+            {"without": f"{without:.3g}", "much": f"{much:.3g}", "most": f"{MOST:g}"},
         )
         remedy = "look at the unit, and at the seals in [losses]"
         raise InputError(Fault("service.torque", problem, f"{torque:.4g} N m", remedy))

@@ -12,6 +12,7 @@ import numpy as np
 
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Torque, fields_of
+from ballscrew.basis.records import Message
 from ballscrew.evidence.validation.entries import Band, Conditions, Point, UpperLimitOnly, Values
 from ballscrew.physics.components.conditions import ContactConditions, Motion
 from ballscrew.physics.components.materials import Lubricant
@@ -173,7 +174,9 @@ def plausible_screw(model: FrictionModel, values: Values, conditions: Conditions
     kind, preload = str(values["nut"]), float(values["preload"])
     if kind not in _BRACED:
         remedy = " or ".join(f'"{name}"' for name in _BRACED)
-        raise InputError(Fault("row.nut", "unknown kind of preloaded nut", kind, f"write {remedy}"))
+        raise InputError(
+            Fault("row.nut", "unknown kind of preloaded nut", kind, Message("write {remedy}", {"remedy": remedy}))
+        )
     if not model.knows(_BRACED[kind](preload=preload)):
         return []
     return [_no_load_point(model, row, _BRACED[kind], preload, at, _stated(values, "torque"), with_model=False)]

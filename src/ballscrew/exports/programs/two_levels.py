@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.records import Message
 from ballscrew.compiler.tracing.grid import Split
 from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.reductions import Stages
@@ -109,7 +110,7 @@ def _two_levels(handed: HandOver) -> TwoLevels:
         program = recorded_by_ball(subject, wanted, names)
         stages, cut = stages_by_ball(program, names)
     except CannotRecordError as error:
-        problem = f"needs a model that can be recorded: {error}"
+        problem = Message("needs a model that can be recorded: {error}", {"error": str(error)})
         raise InputError(Fault("hand_over.to", problem, "", _INSTEAD)) from None
     found = TwoLevels(
         tuple(handed.input_names.index(name) for name in names),
@@ -124,7 +125,11 @@ def _two_levels(handed: HandOver) -> TwoLevels:
     }
     if missing := others & (read | {*found.behind.outputs.values()}):
         what = ", ".join(OF_LOADS[i - len(names)] for i in sorted(missing))
-        raise InputError(Fault("hand_over.outputs", f"need what the solver in C has not: {what}", "", _INSTEAD))
+        raise InputError(
+            Fault(
+                "hand_over.outputs", Message("need what the solver in C has not: {what}", {"what": what}), "", _INSTEAD
+            )
+        )
     return found
 
 
@@ -133,7 +138,7 @@ def _check(handed: HandOver) -> None:
     if nut.deviations is not None or nut.bodies is None:
         problem, remedy = (
             "balls or a lead that deviate are solved in Python only",
-            f"{_INSTEAD}, or leave [deviations] out",
+            Message("{instead}, or leave [deviations] out", {"instead": str(_INSTEAD)}),
         )
         faults.append(Fault("hand_over.to", problem, "", remedy))
     if getattr(nut, "oversize", None) is not None:

@@ -10,7 +10,7 @@ import numpy as np
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Force, Info, Quantity, unit_of
-from ballscrew.basis.records import Record
+from ballscrew.basis.records import Message, Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.exports.export import Export
@@ -78,7 +78,10 @@ def friction_curve(handed: HandOver, count: int, slowest: float | None = None) -
     load, limits = float(handed.options["load"]), handed.working_range
     if not limits[OPERATION[0]][0] <= load <= limits[OPERATION[0]][1]:
         least, greatest = limits[OPERATION[0]]
-        remedy = f"give a load from {least:g} N to {greatest:g} N, or a larger range"
+        remedy = Message(
+            "give a load from {least} N to {greatest} N, or a larger range",
+            {"least": f"{least:g}", "greatest": f"{greatest:g}"},
+        )
         raise InputError(Fault("hand_over.load", "is beyond the range", f"{load:g} N", remedy))
     fixed = {one.name: one.value for one in handed.inputs if one.name != OPERATION[1]} | {OPERATION[0]: load}
     fastest = max(map(abs, limits[OPERATION[1]]))

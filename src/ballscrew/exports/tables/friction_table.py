@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import RegularGridInterpolator
 
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.records import Record
+from ballscrew.basis.records import Message, Record
 from ballscrew.engine.evaluation.evaluator import evaluator
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.exports.export import Export
@@ -171,7 +171,15 @@ def _table_over(axes: Mapping[str, Floats], evaluate: _Evaluate, fixed: Mapping[
 
 def _too_many(size: int) -> Fault:
     remedy = "give a larger tolerance (--option tolerance=0.05), fewer axes or smaller ranges"
-    return Fault("hand_over.tolerance", f"needs a table of {size:,} nodes, more than {MOST_NODES:,}", "", remedy)
+    return Fault(
+        "hand_over.tolerance",
+        Message(
+            "needs a table of {size} nodes, more than {most_nodes}",
+            {"size": f"{size:,}", "most_nodes": f"{MOST_NODES:,}"},
+        ),
+        "",
+        remedy,
+    )
 
 
 def as_export(
@@ -193,7 +201,9 @@ def no_more_axes(table: FrictionTable, what: str) -> None:
     others = [name for name in table.axes if name not in OPERATION]
     if others:
         remedy = "leave its range out, and the value of the case counts"
-        raise InputError(Fault(f"hand_over.ranges.{others[0]}", f"cannot be an axis of {what}", "", remedy))
+        raise InputError(
+            Fault(f"hand_over.ranges.{others[0]}", Message("cannot be an axis of {what}", {"what": what}), "", remedy)
+        )
 
 
 def interpolated(axes: Mapping[str, Floats], values: Floats, points: Floats) -> Floats:
@@ -279,6 +289,9 @@ def _check_finite(output: str, axes: Mapping[str, Floats], values: Floats) -> No
     bad = np.argwhere(~np.isfinite(values))
     if len(bad):
         where = ", ".join(f"{name} = {axes[name][i]:.4g}" for name, i in zip(axes, bad[0], strict=True))
-        problem = f"{output} is no finite number at {len(bad)} nodes, the first {where} (SI)"
+        problem = Message(
+            "{output} is no finite number at {count} nodes, the first {where} (SI)",
+            {"output": output, "count": str(len(bad)), "where": where},
+        )
         remedy = 'leave this output out, or give a smaller range: --range axial_load="1:5 kN"'
         raise InputError(Fault("hand_over.to", problem, "", remedy))

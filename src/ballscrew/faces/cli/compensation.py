@@ -46,6 +46,7 @@ def compensation(
     from ballscrew.basis.atomic_files import atomic_write, check_writable
     from ballscrew.basis.errors import Fault, InputError, nearest
     from ballscrew.basis.output.json_text import as_json as json_text
+    from ballscrew.basis.records import Message
     from ballscrew.questions.compensation import compute, text
     from ballscrew.questions.compensation import document as documents
     from ballscrew.questions.compensation import table as compensation_lists
@@ -59,7 +60,14 @@ def compensation(
         remedy = nearest(direction, compute.DIRECTIONS)
         raise InputError(Fault("--direction", "unknown direction", direction, remedy))
     if not 0 < hours <= _LONGEST:
-        raise InputError(Fault("--hours", f"must be above 0 and at most {_LONGEST:g}", f"{hours:g}", "write --hours 4"))
+        raise InputError(
+            Fault(
+                "--hours",
+                Message("must be above 0 and at most {longest}", {"longest": f"{_LONGEST:g}"}),
+                f"{hours:g}",
+                "write --hours 4",
+            )
+        )
     lengths = {"--zero": zero, "--step": step, **({} if reference is None else {"--reference": reference})}
     found = {name: _length(name, text) for name, text in lengths.items()}
     check_writable("--out", out)

@@ -103,13 +103,19 @@ def _banded(report: DutyReport, options: DutyOptions) -> DutyBandReport:
 def _check_kinds(to: list[Path]) -> None:
     """Raise :class:`~ballscrew.basis.errors.InputError` for files that are neither tables nor pictures."""
     from ballscrew.basis.errors import Fault, raise_if_any
+    from ballscrew.basis.records import Message
     from ballscrew.questions.shared.chart_files import SUFFIXES
     from ballscrew.questions.shared.row_tables import KINDS
 
     known = (*KINDS, *SUFFIXES)
     raise_if_any(
         [
-            Fault(_TO, "unknown kind of file", str(path), f"end it in {', '.join(known[:-1])} or {known[-1]}")
+            Fault(
+                _TO,
+                "unknown kind of file",
+                str(path),
+                Message("end it in {names} or {known}", {"names": ", ".join(known[:-1]), "known": known[-1]}),
+            )
             for path in to
             if path.suffix.lower() not in known
         ]

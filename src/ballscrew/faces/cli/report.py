@@ -45,19 +45,34 @@ def report(
     (PDF/UA-1). The same case gives the same bytes: a date stands on it only where --date says one.
     """
     from ballscrew.basis.errors import Fault, InputError
+    from ballscrew.basis.records import Message
 
     kind = to.suffix.lower()
     if kind not in _NEEDS:
         raise InputError(Fault(_TO, "unknown kind of file", str(to), "end it in .pdf or .html"))
     missing = [name for name in _NEEDS[kind] if importlib.util.find_spec(name) is None]
     if missing:
-        raise InputError(Fault(_TO, f"needs {' and '.join(missing)}", str(to), 'pip install "ballscrew[report]"'))
+        raise InputError(
+            Fault(
+                _TO,
+                Message("needs {names}", {"names": " and ".join(missing)}),
+                str(to),
+                'pip install "ballscrew[report]"',
+            )
+        )
     from ballscrew.basis.atomic_files import atomic_write, check_writable
     from ballscrew.cases.case_files import case_file
     from ballscrew.faces.report.heading import Heading
 
     if len(beside or []) > _MOST_BESIDE:
-        raise InputError(Fault("--beside", "too many designs", str(len(beside or [])), f"{_MOST_BESIDE} at most"))
+        raise InputError(
+            Fault(
+                "--beside",
+                "too many designs",
+                str(len(beside or [])),
+                Message("{most_beside} at most", {"most_beside": str(_MOST_BESIDE)}),
+            )
+        )
     loaded, *others = (
         case_file.load(path, settings or [], model, calibration=calibration, allow_code=allow_code)
         for path in (case, *(beside or []))

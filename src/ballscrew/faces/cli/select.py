@@ -106,12 +106,15 @@ def objectives_of(written: Sequence[str]) -> list[str] | None:
 def check_file(path: Path) -> None:
     """Raise :class:`~ballscrew.basis.errors.InputError` now for a file that could not be written later."""
     from ballscrew.basis.errors import Fault, InputError
+    from ballscrew.basis.records import Message
     from ballscrew.questions.shared import row_tables
     from ballscrew.questions.shared.chart_files import SUFFIXES, check_picture
 
     known = (*row_tables.KINDS, *SUFFIXES)
     if path.suffix.lower() not in known:
-        raise InputError(Fault(_TO, "unknown kind of file", str(path), f"end it in {', '.join(known)}"))
+        raise InputError(
+            Fault(_TO, "unknown kind of file", str(path), Message("end it in {names}", {"names": ", ".join(known)}))
+        )
     if path.suffix.lower() in row_tables.KINDS:
         row_tables.check_path(path)
     else:

@@ -43,10 +43,15 @@ def serve(
     import webbrowser
 
     from ballscrew.basis.errors import Fault, InputError
+    from ballscrew.basis.records import Message
 
     missing = [name for name in _NEEDS if importlib.util.find_spec(name) is None]
     if missing:
-        raise InputError(Fault("serve", f"needs {' and '.join(missing)}", "", 'pip install "ballscrew[web]"'))
+        raise InputError(
+            Fault(
+                "serve", Message("needs {names}", {"names": " and ".join(missing)}), "", 'pip install "ballscrew[web]"'
+            )
+        )
     listening = _listening(host, port)
     from ballscrew.faces.web import connections, guard, server
     from ballscrew.faces.web.job_process import Forks

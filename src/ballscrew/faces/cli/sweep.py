@@ -142,11 +142,14 @@ def _check_self_heating(asked: bool, rows: Path | None, scheduler: str | None) -
     it.
     """
     from ballscrew.basis.errors import Fault, raise_if_any
+    from ballscrew.basis.records import Message
 
     beside = {"--rows": rows, "--scheduler": scheduler}
     raise_if_any(
         [
-            Fault("--self-heating", f"is given beside {name}", str(value), "leave one of them out")
+            Fault(
+                "--self-heating", Message("is given beside {name}", {"name": name}), str(value), "leave one of them out"
+            )
             for name, value in beside.items()
             if asked and value is not None
         ]

@@ -6,6 +6,7 @@ import datetime
 from typing import NamedTuple
 
 from ballscrew.basis.errors import Fault, raise_if_any
+from ballscrew.basis.records import Message
 
 #: Letters of the name of a project.
 LONGEST = 120
@@ -27,7 +28,7 @@ class Heading(NamedTuple):
         faults: list[Fault] = []
         name, day = (project or "").strip(), (date or "").strip()
         if len(name) > LONGEST or not name.isprintable():
-            remedy = f"one line of {LONGEST} letters at most"
+            remedy = Message("one line of {longest} letters at most", {"longest": str(LONGEST)})
             faults.append(Fault("--project", "cannot stand on a report", repr(name[:40]), remedy))
         if day and not _is_date(day):
             faults.append(Fault("--date", "is no date", day[:40], "write it as 2026-11-23, or leave it out"))

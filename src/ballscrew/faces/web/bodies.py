@@ -17,6 +17,7 @@ from pydantic import BaseModel, ConfigDict, Field, create_model
 from starlette.requests import ClientDisconnect, Request
 
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
+from ballscrew.basis.records import Message
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case_file import Case
 from ballscrew.cases.schema.duty_schema import TRAJECTORY
@@ -180,7 +181,7 @@ async def content_of(request: Request, most: int) -> bytes:
     if media != "application/json":
         raise Refused(415, Fault("Content-Type", "is not application/json", media, "send JSON"))
     remedy = "send one case" if most == MOST_BYTES else "send a shorter log, or read it by the command line"
-    too_large = Refused(413, Fault("request", f"has more than {most} bytes", "", remedy))
+    too_large = Refused(413, Fault("request", Message("has more than {most} bytes", {"most": str(most)}), "", remedy))
     length = request.headers.get("content-length", "0")
     if length.isdecimal() and int(length[:10]) > most:
         raise too_large
@@ -192,7 +193,10 @@ async def content_of(request: Request, most: int) -> bytes:
                 if len(found) > most:
                     raise too_large
     except TimeoutError:
-        raise Refused(408, Fault("request", f"did not arrive within {READ_TIMEOUT:g} s")) from None
+        raise Refused(
+            408,
+            Fault("request", Message("did not arrive within {read_timeout} s", {"read_timeout": f"{READ_TIMEOUT:g}"})),
+        ) from None
     except ClientDisconnect:
         raise Refused(400, Fault("request", "was interrupted")) from None  # no client is left to read it
     return bytes(found)
@@ -204,7 +208,12 @@ def _json(body: bytes) -> Any:
             body.decode("utf-8"), parse_constant=_no_number, parse_float=_number, object_pairs_hook=_table
         )
     except RecursionError:
-        raise Refused(400, Fault("request", "is nested too deeply", "", f"{DEEPEST} levels at most")) from None
+        raise Refused(
+            400,
+            Fault(
+                "request", "is nested too deeply", "", Message("{deepest} levels at most", {"deepest": str(DEEPEST)})
+            ),
+        ) from None
     except ValueError as error:
         raise Refused(400, Fault("request", "is not JSON", str(error), "send one JSON object in UTF-8")) from None
 
@@ -235,18 +244,25 @@ def _count(value: Any, most: int) -> None:
     for _ in range(DEEPEST + 1):
         seen += len(level)
         if seen > most:
-            raise Refused(413, Fault("request", f"has more than {most} values", "", "send one case"))
+            raise Refused(
+                413, Fault("request", Message("has more than {most} values", {"most": str(most)}), "", "send one case")
+            )
         for item in level:
             for text in _texts(item):
                 if len(text) > LONGEST_TEXT:
-                    problem = f"has a text of more than {LONGEST_TEXT} characters"
+                    problem = Message(
+                        "has a text of more than {longest_text} characters", {"longest_text": str(LONGEST_TEXT)}
+                    )
                     raise Refused(413, Fault("request", problem, text[:40] + "…", "shorten it"))
                 if not text.isascii() and any("\ud800" <= letter <= "\udfff" for letter in text):
                     raise Refused(400, Fault("request", "has an unpaired surrogate", "", "send Unicode text"))
         level = [inner for item in level for inner in _inside(item)]
         if not level:
             return
-    raise Refused(400, Fault("request", "is nested too deeply", "", f"{DEEPEST} levels at most"))
+    raise Refused(
+        400,
+        Fault("request", "is nested too deeply", "", Message("{deepest} levels at most", {"deepest": str(DEEPEST)})),
+    )
 
 
 def _inside(value: Any) -> list[Any]:
@@ -272,7 +288,10 @@ def case_of(tables: Mapping[str, Any], *, moves: bool = False, trace: Path | Non
         tables = {**tables, "motion": {"kind": TRAJECTORY, "file": str(trace)}}
     case = case_file.build(tables, rows=catalogue(), moves=moves)
     if case.nut is not None and case.nut.one_by_one and case.screw.loaded_balls > MOST_BALLS:
-        given, remedy = f"{case.screw.loaded_balls:g}", f"{MOST_BALLS} at most where balls differ or bodies are elastic"
+        given, remedy = (
+            f"{case.screw.loaded_balls:g}",
+            Message("{most_balls} at most where balls differ or bodies are elastic", {"most_balls": str(MOST_BALLS)}),
+        )
         raise InputError(Fault("screw.loaded_balls", "too many to compute one by one", given, remedy))
     check_motion(case)
     return case

@@ -14,6 +14,7 @@ from fastapi import FastAPI
 from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
 
 from ballscrew.basis.errors import Fault
+from ballscrew.basis.records import Message
 from ballscrew.faces.web import problems
 from ballscrew.faces.web.bodies import READ_TIMEOUT
 from ballscrew.faces.web.jobs import Jobs
@@ -96,7 +97,12 @@ class _TimeoutProtocol(H11Protocol):
             cycle.message_event.set()
         if self.conn.our_state in (h11.IDLE, h11.SEND_RESPONSE):
             is_head = self.conn.our_state is h11.SEND_RESPONSE and self.scope["method"] == "HEAD"
-            fault = Fault("request", "is not HTTP, or its head is too long", "", f"{LONGEST_HEAD} bytes at most")
+            fault = Fault(
+                "request",
+                "is not HTTP, or its head is too long",
+                "",
+                Message("{longest_head} bytes at most", {"longest_head": str(LONGEST_HEAD)}),
+            )
             found = problems.response(400, [fault])
             # no middleware sees this response
             found.headers.update({**self._headers, "Cache-Control": "no-store", "Connection": "close"})

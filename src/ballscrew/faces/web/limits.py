@@ -9,6 +9,7 @@ import math
 from collections.abc import Mapping, Sequence
 
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
+from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.case_file import (
     Case,
 )
@@ -49,11 +50,25 @@ def check_size(vary: Mapping[str, str], outputs: int, *, banded: bool = False) -
     values = points * outputs * (_WITH_ENDS if banded else 1)
     faults: list[Fault] = []
     if len(vary) > MOST_AXES:
-        faults.append(Fault("sweep", "too many axes", str(len(vary)), f"{MOST_AXES} at most here"))
+        faults.append(
+            Fault(
+                "sweep",
+                "too many axes",
+                str(len(vary)),
+                Message("{most_axes} at most here", {"most_axes": str(MOST_AXES)}),
+            )
+        )
     elif points > MOST_POINTS:
         faults.append(_too_many_points(points, MOST_POINTS))
     elif values > MOST_RETURNED:
-        faults.append(Fault("sweep", "too many values", f"{values:,}", f"{MOST_RETURNED:,} at most here"))
+        faults.append(
+            Fault(
+                "sweep",
+                "too many values",
+                f"{values:,}",
+                Message("{most_returned} at most here", {"most_returned": f"{MOST_RETURNED:,}"}),
+            )
+        )
     raise_if_any(faults)
 
 
@@ -67,7 +82,14 @@ def check_sweep(case: Case, plan: sweeps.Plan) -> None:
         faults.append(_too_many_points(points, MOST_BALLS_IN_ALL // balls_of(case)))
     elif points * len(plan.columns) > MOST_RETURNED:
         number = f"{points * len(plan.columns):,}"
-        faults.append(Fault("sweep", "too many values", number, f"{MOST_RETURNED:,} at most here"))
+        faults.append(
+            Fault(
+                "sweep",
+                "too many values",
+                number,
+                Message("{most_returned} at most here", {"most_returned": f"{MOST_RETURNED:,}"}),
+            )
+        )
     raise_if_any(faults)
 
 
@@ -90,7 +112,9 @@ def check_warm_up(case: Case, samples: int | None) -> None:
         remedy = "fewer segments, or a nut whose balls are alike; the rest by ballscrew warm-up"
         faults.append(Fault("motion", "has too many states to map their friction", f"{states:,}", remedy))
     if samples is not None and samples > MOST_TRANSIENTS:
-        remedy = f"{MOST_TRANSIENTS:,} at most here; the rest by ballscrew warm-up"
+        remedy = Message(
+            "{most_transients} at most here; the rest by ballscrew warm-up", {"most_transients": f"{MOST_TRANSIENTS:,}"}
+        )
         faults.append(Fault("--samples", "too many", f"{samples:,}", remedy))
     raise_if_any(faults)
 
@@ -99,7 +123,9 @@ def check_need(need: Need) -> Need:
     """The need, unless it has more choices for each row than are computed here."""
     choices = max(1, len(need.nuts)) * max(1, len(need.preloads)) * len(need.oils)
     if choices > MOST_CHOICES:
-        remedy = f"{MOST_CHOICES} at most here; the rest by ballscrew select"
+        remedy = Message(
+            "{most_choices} at most here; the rest by ballscrew select", {"most_choices": str(MOST_CHOICES)}
+        )
         raise InputError(Fault("need", "has too many choices of nut, preload and oil", str(choices), remedy))
     return need
 
@@ -108,14 +134,21 @@ def check_columns(name: str, content: bytes) -> None:
     """Refuse a log of very many columns, each of which would be looked up among the names that are known."""
     widest = max((line.count(mark) for line in content.splitlines()[:_FIRST_LINES] for mark in b";\t,"), default=0)
     if widest >= MOST_COLUMNS:
-        raise InputError(Fault(name, "has too many columns", f"{widest + 1:,}", f"{MOST_COLUMNS:,} at most here"))
+        raise InputError(
+            Fault(
+                name,
+                "has too many columns",
+                f"{widest + 1:,}",
+                Message("{most_columns} at most here", {"most_columns": f"{MOST_COLUMNS:,}"}),
+            )
+        )
 
 
 def check_hand_over(case: Case, *lists: Sequence[str]) -> Case:
     """The case, unless more inputs, outputs or derivatives are asked for than are made here."""
     asked = sum(map(len, lists))
     if asked > MOST_MORE:
-        remedy = f"{MOST_MORE} at most here; the rest by ballscrew hand-over"
+        remedy = Message("{most_more} at most here; the rest by ballscrew hand-over", {"most_more": str(MOST_MORE)})
         raise InputError(Fault("hand_over", "has too many parameters, outputs and derivatives", str(asked), remedy))
     return case
 
@@ -138,7 +171,9 @@ def samples_of(case: Case, requested: int | None = None) -> int | None:
     if requested is None:
         return most if _default_samples(case) > most else None
     if requested > most:
-        raise InputError(Fault("--samples", "too many", f"{requested:,}", f"{most:,} at most here"))
+        raise InputError(
+            Fault("--samples", "too many", f"{requested:,}", Message("{most} at most here", {"most": f"{most:,}"}))
+        )
     return requested
 
 
@@ -154,7 +189,9 @@ def samples_of_sweep(case: Case, plan: sweeps.Plan, requested: int | None = None
     if most < FEWEST_SAMPLES:
         raise InputError(_too_many_points(points, total // FEWEST_SAMPLES))
     if requested is not None and requested > most:
-        raise InputError(Fault("--samples", "too many", f"{requested:,}", f"{most:,} at most here"))
+        raise InputError(
+            Fault("--samples", "too many", f"{requested:,}", Message("{most} at most here", {"most": f"{most:,}"}))
+        )
     usual = NUT_SAMPLES if case.screw.nut.one_by_one else SAMPLES
     return requested or min(usual, 2 ** int(math.log2(most)))
 
@@ -184,4 +221,9 @@ def _points(vary: Mapping[str, str]) -> int:
 
 
 def _too_many_points(points: int, most: int) -> Fault:
-    return Fault("sweep", "too many points", f"{points:,}", f"{most:,} at most here; the rest by ballscrew sweep")
+    return Fault(
+        "sweep",
+        "too many points",
+        f"{points:,}",
+        Message("{most} at most here; the rest by ballscrew sweep", {"most": f"{most:,}"}),
+    )

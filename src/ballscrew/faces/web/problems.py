@@ -47,17 +47,10 @@ def document(status: int, faults: Sequence[Fault] = ()) -> dict[str, Any]:
         "title": TITLES.get(status, "The request is refused"),
         "status": status,
         "lines": InputError(*faults).lines(),
-        "faults": [_parts(fault) for fault in faults[: 10 * LINES_AT_MOST]],
+        "faults": [fault.document() for fault in faults[: 10 * LINES_AT_MOST]],
     }
 
 
 def response(status: int, faults: Sequence[Fault] = ()) -> Response:
     """The problem as a response."""
     return Response(json.dumps(document(status, faults)), status, _HEADERS.get(status), MEDIA_TYPE)
-
-
-def _parts(fault: Fault) -> dict[str, str]:
-    """The field, the text without it and its parts, and the whole line; all are cut to a length that people read."""
-    plain = fault.plain
-    parts = {"problem": plain.problem, "given": plain.given, "remedy": plain.remedy}
-    return {"where": fault.field, "text": fault.text, "line": str(fault), **parts}

@@ -75,7 +75,6 @@ def _without_folders(fault: Fault, paths: Mapping[str, Path]) -> Fault:
             text = text.replace(f"{path.parent}{os.sep}", "")
         return text
 
-    return dataclasses.replace(
-        fault, where=plain(fault.where), problem=plain(fault.problem), given=plain(fault.given),
-        remedy=plain(fault.remedy),
-    )  # fmt: skip
+    given = plain(fault.given) if isinstance(fault.given, str) else fault.given
+    found = fault.changed(lambda value: plain(value) if isinstance(value, str) else value)
+    return dataclasses.replace(found, where=plain(fault.where), given=given)

@@ -8,6 +8,7 @@ from typing import Any
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, as_float, fault_of
+from ballscrew.basis.records import Measured, Message, Value
 from ballscrew.files.tables import decimals
 from ballscrew.files.tables.headings import PERCENT, Heading
 
@@ -43,14 +44,18 @@ def value_of(where: str, cell: Any, text: str, heading: Heading, decimal: frozen
     value = _number(where, cell, text, heading, decimal)
     fault = value if isinstance(value, Fault) else fault_of("", quantity, value)
     if fault is not None:
-        if heading.unit == PERCENT and fault.bound:
-            fault = dataclasses.replace(fault, problem=fault.problem.replace("{bound}", f"{100 * fault.bound:g} %"))
+        if heading.unit == PERCENT:
+            fault = fault.changed(_in_percent)
         fault = units.in_display_units(fault, quantity, fault.given if fault is value else text)
         return dataclasses.replace(fault, where=where, given=text)
     assert not isinstance(value, Fault)
     if heading.unit == PERCENT:
         return Share(value)
     return int(value) if quantity.info.whole else value
+
+
+def _in_percent(value: Value) -> Value:
+    return f"{100 * value.value:g} %" if isinstance(value, Measured) and value.value else value
 
 
 def _of_cell(text: str, heading: Heading) -> Heading:
@@ -79,7 +84,11 @@ def text_of(where: str, text: str, heading: Heading) -> str | Fault:
     words = heading.column.words
     known = ", ".join(f'"{word}"' for word in dict.fromkeys(words.values()))
     found = words.get(text.casefold()) if words else text
-    return Fault(where, "is not a word that is known", text, f"write one of {known}") if found is None else found
+    return (
+        Fault(where, "is not a word that is known", text, Message("write one of {known}", {"known": known}))
+        if found is None
+        else found
+    )
 
 
 def _unit_behind(text: str) -> str:
@@ -87,11 +96,11 @@ def _unit_behind(text: str) -> str:
     return text.lstrip("".join(_DIGITS)).strip() if text.startswith(_DIGITS) else ""
 
 
-def _of_words(heading: Heading) -> str:
+def _of_words(heading: Heading) -> Message:
     quantity = heading.column.quantity
     assert quantity is not None
     known = ", ".join(f'"{word}"' for word in dict.fromkeys(heading.column.words.values()))
-    return f"write {units.example_of(quantity)}, or {known}"
+    return Message("write {example}, or {known}", {"example": units.example_of(quantity), "known": known})
 
 
 def _parsed(where: str, text: str, heading: Heading, decimal: frozenset[str]) -> float | Fault:
@@ -110,7 +119,9 @@ def _parsed(where: str, text: str, heading: Heading, decimal: frozenset[str]) ->
     if units.unit_in(plain):
         return units.parse(where, plain, quantity)
     remedy = (
-        "write a plain number" if quantity.unit == "1" else f"write a number in {heading.unit or quantity.shown_in}"
+        "write a plain number"
+        if quantity.unit == "1"
+        else Message("write a number in {value}", {"value": heading.unit or quantity.shown_in})
     )
     return Fault(where, "is not a number", text, remedy)
 
@@ -119,6 +130,9 @@ def _converted(where: str, number: float, text: str, heading: Heading) -> float 
     quantity = heading.quantity
     if quantity is not None and quantity.unit != "1" and not heading.unit:
         share = "" if heading.column.share is None else f' or "{text} {PERCENT}"'
-        remedy = f'write "{text} {quantity.shown_in}"{share}, or the unit in the heading'
+        remedy = Message(
+            'write "{text} {shown_in}"{share}, or the unit in the heading',
+            {"text": text, "shown_in": quantity.shown_in, "share": share},
+        )
         return Fault(where, "needs a unit", text, remedy)
     return heading.offset + heading.scale * number

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ballscrew.basis.errors import Fault, InputError, fault_of
 from ballscrew.basis.quantities import within_bounds
+from ballscrew.basis.records import Message
 from ballscrew.files.torque_logs.log_rows import INERTIA, REQUIRED, LogRows, quantities
 from ballscrew.files.torque_logs.motion import CLEAR, Floats, motion_of, runs_in
 from ballscrew.files.torque_logs.repeats import repeated_rows
@@ -59,8 +60,10 @@ def cleaned(log: Log, inertia: float | None, most: int) -> Log:
     log = thinned(log, most)
     if len(log) < LEAST_ROWS:
         told = "; ".join(f"{reason}: {count}" for reason, count in log.left_out.items())
-        remedy = f"a fit needs {LEAST_ROWS} rows or more at steady speed"
-        raise InputError(Fault("log", f"has {len(log)} rows that can be used", told, remedy))
+        remedy = Message("a fit needs {least_rows} rows or more at steady speed", {"least_rows": str(LEAST_ROWS)})
+        raise InputError(
+            Fault("log", Message("has {count} rows that can be used", {"count": str(len(log))}), told, remedy)
+        )
     return dataclasses.replace(log.with_notes(*data_warnings(log)), is_clean=True, keys=None, motion=None)
 
 
@@ -76,7 +79,9 @@ def without_gaps(log: Log, names: Collection[str]) -> Log:
     for name in empty:
         if name in REQUIRED:
             remedy = "give a column with numbers in it"
-            raise InputError(Fault("log", f"has no {name.replace('_', ' ')} in any row", "", remedy))
+            raise InputError(
+                Fault("log", Message("has no {name} in any row", {"name": name.replace("_", " ")}), "", remedy)
+            )
     log = dataclasses.replace(log, **dict.fromkeys(empty))
     log = log.with_notes(*(f"no row has a {name}: the column is not used" for name in empty))
     return log.select(complete_rows(columns, len(log)), GAPS)

@@ -14,8 +14,9 @@ from pathlib import Path
 from typing import Any
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
+from ballscrew.basis.errors import Fault, InputError, message_of, nearest, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity
+from ballscrew.basis.records import Message, UnitName, Value
 from ballscrew.files.tables import decimals
 from ballscrew.files.tables.headings import (
     NEEDS_UNIT,
@@ -400,6 +401,15 @@ def texts_in(headings: Sequence[Heading], body: Sequence[Record]) -> list[str]:
     return [cell for cell in cells if isinstance(cell, str)]
 
 
+_NAMED = Message('{remedy}, or name it: --column {name}="your heading [{unit}]"')
+_NAMED_OR_CONSTANT = Message(
+    '{remedy}, or name it: --column {name}="your heading [{unit}]"; '
+    'if it is the same in every row, --column {name}="0 {unit}"'
+)
+_WITH_UNIT = Message('{remedy}, or give --column {name}="{heading} [{unit}]"')
+_CHOSEN = Message('give --column {name}="{heading}" for the one that is meant')
+
+
 def with_option(fault: Fault, headings: Sequence[Heading], columns: Mapping[str, Column], *, constants: bool) -> Fault:
     """A fault of a column, with the option of the command line that resolves it.
 
@@ -410,13 +420,13 @@ def with_option(fault: Fault, headings: Sequence[Heading], columns: Mapping[str,
         return fault
     name, unit = column.name, column.quantity.shown_in
     heading = next((one for one in headings if fault.where.endswith(f'column "{one.written}"')), None)
-    remedy = fault.remedy
+    remedy, common = message_of(fault.remedy), dict[str, Value](name=name, unit=UnitName(unit))
     if fault.id == NO_COLUMN:
-        remedy += f', or name it: --column {name}="your heading [{unit}]"'
-        remedy += f'; if it is the same in every row, --column {name}="0 {unit}"' * (constants and name != "torque")
+        constant = constants and name != "torque"
+        remedy = (_NAMED_OR_CONSTANT if constant else _NAMED).of(remedy=remedy, **common)
     elif heading is not None and fault.id == NEEDS_UNIT:
         parts = BRACKETS.fullmatch(heading.written)
-        remedy += f', or give --column {name}="{parts["name"] if parts else heading.written} [{unit}]"'
+        remedy = _WITH_UNIT.of(remedy=remedy, heading=parts["name"] if parts else heading.written, **common)
     elif heading is not None and fault.id == SAME_MEANING:
-        remedy = f'give --column {name}="{heading.written}" for the one that is meant'
+        remedy = _CHOSEN.of(heading=heading.written, **common)
     return dataclasses.replace(fault, remedy=remedy)

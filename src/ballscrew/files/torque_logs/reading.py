@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.basis.errors import LINES_AT_MOST, Fault, InputError, raise_if_any
+from ballscrew.basis.records import Message
 from ballscrew.files.tables.sheets import unreadable
 from ballscrew.files.torque_logs.cleaning import HELD
 from ballscrew.files.torque_logs.columns import NO_LOAD, TEMPERATURE, TORQUES, Layout, layout, temperatures_among
@@ -110,7 +111,7 @@ def _check_factors(place: Layout, torque_constant: float | None, lead: float | N
     ):
         if (where := _place_of(name, place)) and factor is None:
             needs = "torque constant" if name == "current" else "lead"
-            faults.append(Fault(where, f"needs the {needs}", "", option))
+            faults.append(Fault(where, Message("needs the {needs}", {"needs": needs}), "", option))
     if (where := _place_of("position", place)) and not _place_of("time", place):
         faults.append(Fault(where, "gives no speed without the time", "", "give a column with the time, or the speed"))
     raise_if_any(faults)

@@ -15,6 +15,7 @@ import pandas
 from numpy.typing import NDArray
 
 from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.records import Message
 from ballscrew.files.tables.number_columns import COMMA, MISSING
 from ballscrew.files.tables.sheets import Record, delimiter_of, encoding_of, in_text, is_error
 from ballscrew.files.torque_logs.columns import WITHIN, Layout, is_heading
@@ -157,7 +158,10 @@ class TextLog:
         cells = {place: frame[place].to_numpy() for place in frame.columns}
         beyond = np.flatnonzero(~pd.isna(frame[width]).to_numpy())
         if beyond.size:
-            where, problem = f"{layout.file} row {line[beyond[0]]}", f"has more cells than the headings, {layout.width}"
+            where, problem = (
+                f"{layout.file} row {line[beyond[0]]}",
+                Message("has more cells than the headings, {width}", {"width": str(layout.width)}),
+            )
             raise InputError(Fault(where, problem, "", "put quotes around text that holds a delimiter"))
         keep = _not_comments(cells[0])
         if not keep.all():

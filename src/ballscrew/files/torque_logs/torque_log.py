@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.basis.errors import Fault, InputError, accepts_units, nearest, raise_if_any, without_unit
+from ballscrew.basis.errors import Fault, InputError, accepts_units, closest, nearest, raise_if_any, without_unit
 from ballscrew.basis.quantities import MomentOfInertia
+from ballscrew.basis.records import Message
 from ballscrew.files.torque_logs import cleaning
 from ballscrew.files.torque_logs.log_rows import OPTIONAL, REQUIRED, TORQUES, LogRows, quantities, seconds
 from ballscrew.files.torque_logs.motion import Floats
@@ -100,7 +101,7 @@ class _Named:
         """The faults of columns that are missing, and of torques beside each other."""
         there = {*self.known, *(["torque"] if self.torques else []), *(["axial_load"] if self.without_load else [])}
         faults = [
-            Fault("data", f'has no column "{name}"', "", _hint(name, self.others))
+            Fault("data", Message('has no column "{name}"', {"name": name}), "", _hint(name, self.others))
             for name in REQUIRED
             if name not in there
         ]
@@ -136,10 +137,10 @@ def _raw(data: Any, names: list[str]) -> dict[str, Any]:
     return {name: array.to_numpy().reshape(-1) for name, array in zip(names, arrays, strict=True)}
 
 
-def _hint(name: str, others: list[str]) -> str:
-    unit = quantities()[name].unit
-    alike = nearest(name, others) if others else ""
-    return alike if alike.startswith("did") else f"give an array in {unit}"
+def _hint(name: str, others: list[str]) -> Message:
+    if closest(name, others):
+        return nearest(name, others)
+    return Message("give an array in {unit}", {"unit": quantities()[name].unit})
 
 
 def _numbers(name: str, values: Any) -> Floats | Fault:

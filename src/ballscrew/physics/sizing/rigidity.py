@@ -11,6 +11,7 @@ import numpy as np
 
 from ballscrew.basis.errors import Fault, accepts_units, is_concrete, raise_if_any, shown
 from ballscrew.basis.quantities import Force, Info, Length, Ratio, Stiffness
+from ballscrew.basis.records import Message
 from ballscrew.physics.components.nut import Nut, OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import rigidity
@@ -248,7 +249,7 @@ def _faults(
         return faults
     least = _nut_force_diameter(screw)
     if outer is not None and not outer > least:
-        remedy = f"more than {least:.6g} m, where the balls press on it"
+        remedy = Message("more than {least} m, where the balls press on it", {"least": f"{least:.6g}"})
         faults.append(
             Fault("rigidity.nut_outer_diameter", "leaves no wall around the balls", shown(outer, "m"), remedy)
         )
@@ -264,6 +265,11 @@ def _faults(
         ):
             length = shown(installation.unsupported_length, "m")
             faults.append(
-                Fault("rigidity.distance_to_bearing", "must lie on the shaft", shown(distance, "m"), f"below {length}")
+                Fault(
+                    "rigidity.distance_to_bearing",
+                    "must lie on the shaft",
+                    shown(distance, "m"),
+                    Message("below {length}", {"length": length}),
+                )
             )
     return faults

@@ -13,6 +13,7 @@ from ballscrew.axis.thermal.warm_up_band import sampled
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Quantity
+from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.uncertain_inputs import Uncertain
 from ballscrew.engine.uncertainty.default_uncertainties import JUDGEMENT
 from ballscrew.engine.uncertainty.distributions import LogNormal, Normal
@@ -61,7 +62,10 @@ def heat_samples(heating: SelfHeating, *, only_given: bool = False) -> HeatSampl
     ]
     known = [end for end in ends if end.exists]
     if len(known) < ENOUGH * SAMPLES:
-        problem = f"has no steady state in {100 * (1 - len(known) / SAMPLES):.2g} % of samples of the surroundings"
+        problem = Message(
+            "has no steady state in {count} % of samples of the surroundings",
+            {"count": f"{100 * (1 - len(known) / SAMPLES):.2g}"},
+        )
         remedy = "give [surroundings] ball_conductance and nut_conductance with their bands, or see ballscrew warm-up"
         raise InputError(Fault("--self-heating", problem, "", remedy))
     oil = np.array([end.oil_temperature for end in known])

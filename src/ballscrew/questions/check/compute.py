@@ -136,7 +136,7 @@ class Checked:
 def one(name: str, path: Path | None, options: Options, keep_going: bool) -> tuple[Checked, Sequence[str]]:
     """The checks of a case file or of the row of that name, and notes on rows left out."""
     if path is None and Path(name).suffix.lower() in (".csv", ".xlsx"):
-        raise InputError(Fault(name, "is a table, not a case", "", f"write --rows {name}"))
+        raise InputError(Fault(name, "is a table, not a case", "", Message("write --rows {name}", {"name": name})))
     if path is None and is_case(name):
         return _of_case(Path(name), options), ()
     rows, notes = catalogue.load(path, keep_going)

@@ -11,6 +11,7 @@ from ballscrew.axis.motion.states import Numbers
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, InputError, nearest
 from ballscrew.basis.quantities import Duration
+from ballscrew.basis.records import Message
 from ballscrew.questions.warm_up.compute import HOUR, WarmUpReport
 
 #: Distance of the points of a list, m, and the number of points at most (SINUMERIK 808D).
@@ -84,18 +85,25 @@ def position_compensation(
     length = float(shaft.length)
     if not length / (MOST - 1) <= step <= length:
         given = f"{1000 * step:g} mm"
-        remedy = f"give {1000 * length / (MOST - 1):.3g} mm to {1000 * length:.4g} mm"
-        raise InputError(Fault("--step", f"makes more than {MOST} points, or less than two", given, remedy))
+        remedy = Message(
+            "give {length} mm to {length_2} mm",
+            {"length": f"{1000 * length / (MOST - 1):.3g}", "length_2": f"{1000 * length:.4g}"},
+        )
+        raise InputError(
+            Fault(
+                "--step", Message("makes more than {most} points, or less than two", {"most": str(MOST)}), given, remedy
+            )
+        )
     if direction not in DIRECTIONS:
         raise InputError(Fault("--direction", "unknown direction", direction, nearest(direction, DIRECTIONS)))
     if not 0 <= zero <= length:
-        remedy = f"its place is 0 mm to {1000 * length:g} mm from the fixed bearing"
+        remedy = Message("its place is 0 mm to {length} mm from the fixed bearing", {"length": f"{1000 * length:g}"})
         raise InputError(Fault("--zero", "is beyond the shaft", f"{1000 * zero:g} mm", remedy))
     sign = DIRECTIONS[direction]
     at = 0.0 if reference is None else zero + sign * reference
     if not 0 <= at <= length:
         low, high = sorted((-1000 * sign * zero, 1000 * sign * (length - zero)))
-        remedy = f"it is {low:zg} mm to {high:zg} mm"
+        remedy = Message("it is {low} mm to {high} mm", {"low": f"{low:zg}", "high": f"{high:zg}"})
         raise InputError(Fault("--reference", "is beyond the shaft", f"{1000 * sign * (at - zero):g} mm", remedy))
     places, growth = report.warm_up.compensation_table(step / _FINER)
     even = np.linspace(0.0, length, int(np.ceil(length / step - 1e-9)) + 1)
@@ -111,6 +119,14 @@ def position_compensation(
 def _stopped(stopped: Duration, hours: float) -> Fault:
     """The fault of a warm-up that never came as far as the hours."""
     reached = math.floor(100 * stopped / HOUR) / 100
-    problem = f"the warm-up stops after {reached:.2f} h: beyond it oil or preload are outside what the model knows"
+    problem = Message(
+        "the warm-up stops after {reached} h: beyond it oil or preload are outside what the model knows",
+        {"reached": f"{reached:.2f}"},
+    )
     less = f"write --hours {reached:g} at most, or " if reached else ""
-    return Fault("--hours", problem, f"{hours:g}", f"{less}look at ballscrew warm-up: less work, or more cooling")
+    return Fault(
+        "--hours",
+        problem,
+        f"{hours:g}",
+        Message("{less}look at ballscrew warm-up: less work, or more cooling", {"less": less}),
+    )

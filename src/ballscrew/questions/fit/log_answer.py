@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from ballscrew.questions.shared.answer_parts import Closed, Number, Numbers, Tables
+from ballscrew.questions.shared.answer_parts import Closed, FaultLine, Number, Numbers, Tables
 
 
 class SeenColumn(Closed):
@@ -38,13 +38,9 @@ class Candidate(Closed):
     value: Number = Field(description="in the case, SI")
 
 
-class ColumnFault(Closed):
+class ColumnFault(FaultLine):
     """A fault of the columns of a log."""
 
-    where: str
-    problem: str
-    given: str
-    remedy: str = Field(description="on the command line")
     column: str = Field(description="that it is about; may be empty")
 
 

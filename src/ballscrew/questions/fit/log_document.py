@@ -45,8 +45,7 @@ def document(found: Preview, candidates: Sequence[Candidate], *, moving: bool) -
             for one in candidates
         ],
         "faults": [
-            {"where": fault.field, "problem": fault.plain.problem, "given": fault.plain.given,
-             "remedy": fault.plain.remedy, "column": fault.column}
+            {**fault.document(), "column": fault.column}
             for fault in found.faults
         ],
     }  # fmt: skip

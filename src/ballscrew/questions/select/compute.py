@@ -13,6 +13,7 @@ import numpy as np
 
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Duration
+from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.compiler.kernels import kernel as kernels
@@ -242,7 +243,7 @@ def _prepared(
         )
         asked = asked.with_note(note)
     if len(every) > MOST_VARIANTS:
-        remedy = f"name fewer; {MOST_VARIANTS} at most"
+        remedy = Message("name fewer; {most_variants} at most", {"most_variants": str(MOST_VARIANTS)})
         raise InputError(Fault("need", "has too many combinations", str(len(every)), remedy))
     return _Prepared(asked, names, every, table, notes)
 

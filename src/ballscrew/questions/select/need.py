@@ -14,6 +14,7 @@ from pydantic import Field
 from ballscrew.basis import units
 from ballscrew.basis.errors import MISSING, Fault, InputError, closest, nearest, raise_if_any
 from ballscrew.basis.quantities import Quantity, fields_of
+from ballscrew.basis.records import Message
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.schema.fields import section_of
 from ballscrew.cases.schema.schema import read_table, sections
@@ -140,7 +141,9 @@ def _named(tables: Mapping[str, Any], faults: list[Fault]) -> dict[str, Any]:
         name = _SECTIONS.get(key, key)
         if name in made:
             same = " and ".join(f"[{other}]" for other in tables if _SECTIONS.get(other, other) == name)
-            faults.append(Fault(name, "is given twice", "", f"{same} are the same: leave one out"))
+            faults.append(
+                Fault(name, "is given twice", "", Message("{same} are the same: leave one out", {"same": same}))
+            )
         elif isinstance(value, dict) and name not in known:
             faults.append(Fault(key, "unknown section", "", nearest(key, known[: -len(_SECTIONS)]), id=_UNKNOWN))
         else:
@@ -184,7 +187,11 @@ def _unknown(where: str, key: str, value: Any, known: Iterable[str]) -> Fault:
     found = closest(key, [*SHORT_NAMES, *known, *sections()])
     names = {place: name for name, place in reversed([*SHORT_NAMES.items()])}
     listed = dict.fromkeys([*reversed([*names.values()]), *known])
-    remedy = f'did you mean "{found}"?' if found else f"known: {', '.join(listed)}"
+    remedy = (
+        Message('did you mean "{found}"?', {"found": found})
+        if found
+        else Message("known: {names}", {"names": ", ".join(listed)})
+    )
     return Fault(where, "unknown name", str(value), remedy, id=_UNKNOWN)
 
 
@@ -218,9 +225,16 @@ def _put(made: dict[str, Any], place: str, value: Any, where: str, faults: list[
     section, _, field = place.partition(".")
     table = made.setdefault(section, {})
     if not isinstance(table, dict):
-        faults.append(Fault(section, "must be a table", str(table), f"write [{section}]"))
+        faults.append(Fault(section, "must be a table", str(table), Message("write [{section}]", {"section": section})))
     elif field in table:
-        faults.append(Fault(where, "is given twice", str(value), f"{place} stands for the same: leave one out"))
+        faults.append(
+            Fault(
+                where,
+                "is given twice",
+                str(value),
+                Message("{place} stands for the same: leave one out", {"place": place}),
+            )
+        )
     else:
         table[field] = value
 
@@ -236,7 +250,11 @@ def _need(tables: dict[str, Any], folder: Path, name: str, faults: list[Fault], 
     has_feed = "feed" in own
     if has_feed and isinstance(units.parse("", own["feed"], _PLAIN), float):
         given = str(own.pop("feed"))
-        faults.append(Fault("need.feed", "needs a unit", given, f'write "{given} m/s", or "{given} m/min"'))
+        faults.append(
+            Fault(
+                "need.feed", "needs a unit", given, Message('write "{given} m/s", or "{given} m/min"', {"given": given})
+            )
+        )
     values = read_table("need", need_section(), own, faults)
     if not isinstance(rows, str):
         faults.append(Fault("need.rows", "must be text", str(rows), 'write rows = "rexroth 40x"'))
@@ -287,7 +305,7 @@ def need_section() -> Any:
 def _section(tables: Mapping[str, Any], name: str, faults: list[Fault]) -> dict[str, Any]:
     found = tables.get(name, {})
     if not isinstance(found, dict):
-        faults.append(Fault(name, "must be a table", str(found), f"write [{name}]"))
+        faults.append(Fault(name, "must be a table", str(found), Message("write [{name}]", {"name": name})))
         return {}
     return dict(found)
 

@@ -21,7 +21,11 @@ _BESIDE: Mapping[str, str] = {
     "need.stroke": 'add stroke = "600 mm", the way of the mass',
     "need.feed": 'add feed = "15 m/min", the largest speed of the mass',
 }
-_FORCE = "leave it out: mass, inclination and acceleration make the load; a force at work is [motion] force"
+#: What takes the place of a load and a speed beside a mass.
+_INSTEAD: Mapping[str, str] = {
+    "axial_load": "leave it out: mass, inclination and acceleration make the load; a force at work is [motion] force",
+    "screw_speed": "write the feed: each lead then has a speed of its own",
+}
 
 
 def with_motion(tables: dict[str, Any], faults: list[Fault]) -> list[str]:
@@ -32,10 +36,13 @@ def with_motion(tables: dict[str, Any], faults: list[Fault]) -> list[str]:
     axis, motion = tables.setdefault("axis", {}), tables.setdefault("motion", {})
     if not isinstance(axis, dict) or not isinstance(motion, dict) or "kind" in motion:
         return []
-    missing = [Fault(place, MISSING, "", add) for place, add in _BESIDE.items() if _at(tables, place) is None]
-    beside = (("axial_load", _FORCE), ("screw_speed", "write the feed: each lead then has a speed of its own"))
-    given = [(name, _at(tables, f"operation.{name}"), remedy) for name, remedy in beside]
-    wrong = [Fault(f"operation.{n}", "is given beside a mass", str(v), r) for n, v, r in given if v is not None]
+    missing = [Fault(place, MISSING, "", _BESIDE[place]) for place in _BESIDE if _at(tables, place) is None]
+    operation = tables.get("operation", {})
+    wrong = [
+        Fault(f"operation.{name}", "is given beside a mass", str(operation[name]), _INSTEAD[name])
+        for name in _INSTEAD
+        if operation.get(name) is not None
+    ]
     if missing or wrong:
         faults += [*missing, *wrong]
         tables["need"].pop("feed", None)  # it is no second fault

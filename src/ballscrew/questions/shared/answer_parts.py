@@ -56,15 +56,56 @@ def model(name: str, meaning: str, base: type[BaseModel] = Closed, /, **fields: 
     return create(name, __doc__=meaning, __base__=base, **fields)
 
 
+class Shown(Closed):
+    """A quantity in a text for people."""
+
+    value: Number = Field(description="SI")
+    unit: str = Field(description="SI")
+    shown_in: str = Field(description="the unit in which the command line shows it")
+    digits: int
+    toward: int = Field(description="-1 and 1: the lower and the upper end of a band, rounded down and up; 0: others")
+
+
+class SettingOfField(Closed):
+    """A field that is to be set."""
+
+    field: str = Field(description="section.field")
+
+
+class UnitToWrite(Closed):
+    """A unit, as files have it."""
+
+    unit_name: str
+
+
+class Message(Closed):
+    """A sentence, or a part of one: its English template, which is the key of translations, and what stands in it."""
+
+    template: str = Field(description="``{name}`` stands for the value of that name")
+    values: dict[str, Shown | str | SettingOfField | UnitToWrite | Message | list[Message]] = Field(
+        description="numbers, texts, fields to set, units, other messages, and lists with commas between them"
+    )
+
+
+class FaultMessages(Closed):
+    """The texts of a fault as templates; null where there is none, and of a value that was given as it was written."""
+
+    problem: Message | None
+    given: Message | None
+    remedy: Message | None
+
+
 class FaultLine(Closed):
     """One fault, and the field that it names."""
 
     where: str = Field(description="section.field")
+    id: str = Field(description="the kind of fault, such as unknown; empty for most")
     text: str = Field(description="what is wrong, the value, the remedy")
     line: str = Field(description="the field and the text, as the command line prints them")
     problem: str = Field(description="what is wrong")
     given: str = Field(description="the value, empty where there is none")
-    remedy: str = Field(description="what to do; {section.field} stands for setting that field")
+    remedy: str = Field(description="what to do")
+    messages: FaultMessages
 
 
 class Problem(Closed):
@@ -89,25 +130,6 @@ class Provenance(Closed):
     version: str
     model: str
     references: list[str]
-
-
-class Shown(Closed):
-    """A quantity in a text for people."""
-
-    value: Number = Field(description="SI")
-    unit: str = Field(description="SI")
-    shown_in: str = Field(description="the unit in which the command line shows it")
-    digits: int
-    toward: int = Field(description="-1 and 1: the lower and the upper end of a band, rounded down and up; 0: others")
-
-
-class Message(Closed):
-    """A sentence, or a part of one: its English template, which is the key of translations, and what stands in it."""
-
-    template: str = Field(description="``{name}`` stands for the value of that name")
-    values: dict[str, Shown | str | Message | list[Message]] = Field(
-        description="numbers, texts, other messages, and lists with commas between them"
-    )
 
 
 class Record(Closed):

@@ -12,6 +12,7 @@ from typing import Any
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, fault_of, nearest, raise_if_any
+from ballscrew.basis.records import Message
 from ballscrew.cases.schema.schema import MODELS
 from ballscrew.cases.screw_tables.catalogue import COLUMNS
 from ballscrew.evidence.validation.entries import CONDITIONS, Conditions, Entry, Point, ValidationSet, Values
@@ -95,7 +96,7 @@ def _sets(names: Sequence[str], model: FrictionModel) -> tuple[list[ValidationSe
     wanted = [SETS[name] for name in dict.fromkeys(names)] or list(SETS.values())
     cannot = [data.name for data in wanted if data.four_contacts and 4 not in traits_of(model.slip).contacts_per_ball]
     if names and cannot:
-        problem = f"model {model.name} knows no balls with four contacts"
+        problem = Message("model {model} knows no balls with four contacts", {"model": model.name})
         raise InputError(*(Fault(name, problem, "", "take the model reference") for name in cannot))
     notes = [f"{name}: left out, the model {model.name} knows no balls with four contacts" for name in cannot]
     return [data for data in wanted if data.name not in cannot], notes

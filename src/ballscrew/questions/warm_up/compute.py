@@ -35,6 +35,7 @@ from ballscrew.basis.quantities import (
     Unit,
     fields_of,
 )  # fmt: skip
+from ballscrew.basis.records import Message
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 from ballscrew.physics.components.materials import Lubricant
@@ -224,9 +225,11 @@ def check_hours(hours: float, cool_down: float) -> None:
     """Raise :class:`~ballscrew.basis.errors.InputError` for times that are none."""
     faults: list[Fault] = []
     if not 0 < hours <= LONGEST:
-        faults.append(Fault("--hours", f"must be above 0 and at most {LONGEST:g}", f"{hours:g}", "write --hours 4"))
+        problem = Message("must be above 0 and at most {most}", {"most": f"{LONGEST:g}"})
+        faults.append(Fault("--hours", problem, f"{hours:g}", "write --hours 4"))
     if not 0 <= cool_down <= LONGEST:
-        faults.append(Fault("--cool-down", f"must be 0 to {LONGEST:g}", f"{cool_down:g}", "write --cool-down 1"))
+        problem = Message("must be 0 to {most}", {"most": f"{LONGEST:g}"})
+        faults.append(Fault("--cool-down", problem, f"{cool_down:g}", "write --cool-down 1"))
     raise_if_any(faults)
 
 

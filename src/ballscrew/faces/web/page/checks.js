@@ -1,6 +1,7 @@
 // The checks: how much of each limit is used, what fails, and what was not judged for want of an input.
 
 import { byId, element, table } from "./dom.js";
+import { ofRecord } from "./messages.js";
 import { text, textOr } from "./texts.js";
 import * as units from "./units.js";
 
@@ -175,7 +176,7 @@ export function panel(found, caption, jump) {
   const tone = found.checks.some((one) => one.holds === false) ? "careful" : found.holds ? "good" : "";
   const headings = ["", text("checks.value"), text("checks.used")];
   const rows = found.checks.map((check) => [
-    element("span", { title: units.ofRecord(check) }, nameOf(check)),
+    element("span", { title: ofRecord(check) }, nameOf(check)),
     element("span", {}, numberOf(check), limitOf(check, found.checks)),
     used(check, jump),
   ]);
@@ -188,5 +189,5 @@ export function panel(found, caption, jump) {
 /** What a limit rests on, where a check says it. @param {Judged} found */
 function notes({ checks }) {
   const source = checks.find((one) => one.name === "diameter_speed_product");
-  return source ? [text("checks.limit_source", { source: units.ofRecord(source) })] : [];
+  return source ? [text("checks.limit_source", { source: ofRecord(source) })] : [];
 }

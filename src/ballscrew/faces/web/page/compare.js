@@ -5,7 +5,7 @@ import * as charts from "./charts.js";
 import { verdict } from "./checks.js";
 import * as designs from "./designs.js";
 import { byId, element, scrolling, table } from "./dom.js";
-import { labelOf } from "./faults.js";
+import { labelOf } from "./messages.js";
 import { words } from "./fields.js";
 import { data, greatestPressure, leastFilm, nameOf, numbersOf, rounded } from "./results.js";
 import { OF_CARDS, SECTIONS } from "./schema.js";

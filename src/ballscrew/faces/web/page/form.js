@@ -2,7 +2,7 @@
 
 import { isOfFile, setAside } from "./designs.js";
 import { byId, element, within } from "./dom.js";
-import { inWords, labelOf } from "./faults.js";
+import { inWords, labelOf } from "./messages.js";
 import { choiceField, labelIn, numberField, showEffective } from "./fields.js";
 import * as help from "./help.js";
 import { slidersOf } from "./operating_point.js";
@@ -16,6 +16,8 @@ import { vocabulary } from "./vocabulary.js";
 /** @typedef {import("./fields.js").Change} Change */
 /** @typedef {import("./fields.js").Source} Source */
 
+/** The kind of a fault of what no case has. */
+const UNKNOWN = "unknown";
 /** @type {Record<string, string>} */
 const HINTS = {
   bodies: text("form.hint.bodies"),
@@ -300,7 +302,7 @@ export function showFaults(faults) {
  */
 function ofNoField(fault) {
   const line = `${labelOf(fault.where)}: ${inWords(fault)}`;
-  if (!/^unknown (key|section)/.test(fault.problem) || !isOfFile(fault.where)) return line;
+  if (fault.id !== UNKNOWN || !isOfFile(fault.where)) return line;
   const label = text("open.set_aside_of", { name: labelOf(fault.where) });
   const action = () => setAside(fault.where);
   const button = element("button", { type: "button", "aria-label": label, onclick: action }, text("open.set_aside"));

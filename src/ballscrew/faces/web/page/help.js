@@ -1,11 +1,11 @@
 // Help for the field that has the focus: what its annotation says, and the page of the theory.
 
 import { element } from "./dom.js";
-import { plain } from "./faults.js";
+import { translated } from "./messages.js";
 import { helpIn, labelIn } from "./fields.js";
 import { fieldOf } from "./schema.js";
 import { symbol } from "./symbols.js";
-import { languageOf, sentence, text, textOr } from "./texts.js";
+import { text, textOr } from "./texts.js";
 import { vocabulary } from "./vocabulary.js";
 
 /** Pages of the theory, by field, or else by section. @type {Record<string, string>} */
@@ -44,9 +44,6 @@ const PAGES = {
   deviations: "nut",
 };
 
-/** Remedies of which the form has no need. */
-const NEEDLESS = /^(in kelvin|in .* in Python|lengths are positive|give a whole number.*)$/;
-
 const place = element("aside", { id: "help", "aria-label": text("help.label") });
 
 /**
@@ -76,11 +73,11 @@ function follow(target) {
 function show(path) {
   const { description = "", "x-symbol": tex, "x-hint": hint } = fieldOf(path) ?? {};
   const help = helpIn(path, description);
-  const advice = NEEDLESS.test(hint ?? "") ? "" : plain(hint ?? "");
+  const advice = translated(hint ?? "");
   place.hidden = false;
   place.replaceChildren(
     element("p", {}, element("strong", {}, labelIn(path)), symbol(tex), help ? `: ${help}` : ""),
-    advice ? element("p", languageOf(advice), sentence(advice)) : "",
+    advice ? element("p", {}, advice) : "",
     element("p", {}, theoryOf(path)),
   );
 }

@@ -3,6 +3,7 @@
 import { inHeadline, isStarved } from "./bath.js";
 import { verdict } from "./checks.js";
 import { byId, element, table } from "./dom.js";
+import { languageOfRecord, ofRecord } from "./messages.js";
 import { languageOf, sentence, text, textOr } from "./texts.js";
 import * as units from "./units.js";
 
@@ -197,8 +198,8 @@ function showVerdicts(answer) {
   const lines = verdicts.map((record) =>
     element(
       "p",
-      { class: record.severity === "info" ? "verdict" : "verdict careful", ...units.languageOfRecord(record) },
-      units.ofRecord(record),
+      { class: record.severity === "info" ? "verdict" : "verdict careful", ...languageOfRecord(record) },
+      ofRecord(record),
     ),
   );
   const ofContacts = warnings.filter(isOfContact);
@@ -223,12 +224,7 @@ function showVerdicts(answer) {
 /** @param {VerdictRecord} record */
 function warning(record) {
   const subject = element("strong", {}, `${text("answer.beware", { subject: nameOf(record) })} `);
-  return element(
-    "p",
-    { class: "warning" },
-    subject,
-    element("span", units.languageOfRecord(record), units.ofRecord(record)),
-  );
+  return element("p", { class: "warning" }, subject, element("span", languageOfRecord(record), ofRecord(record)));
 }
 
 /** @param {Run} answer */
@@ -304,12 +300,10 @@ function showBand(answer, band) {
       element(
         "details",
         { open: isOpen },
-        element("summary", units.languageOfRecord(first), units.ofRecord(first)),
-        ...sentences.map((one) => element("p", units.languageOfRecord(one), units.ofRecord(one))),
+        element("summary", languageOfRecord(first), ofRecord(first)),
+        ...sentences.map((one) => element("p", languageOfRecord(one), ofRecord(one))),
         element("p", { class: "small", ...languageOf(words.inputs) }, sentence(words.inputs)),
-        ...others.map((record) =>
-          element("p", { class: "small", ...units.languageOfRecord(record) }, units.ofRecord(record)),
-        ),
+        ...others.map((record) => element("p", { class: "small", ...languageOfRecord(record) }, ofRecord(record))),
       ),
     );
   }

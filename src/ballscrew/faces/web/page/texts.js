@@ -4,7 +4,8 @@
 
 /** All texts by key. @type {Record<string, string>} */
 const table = JSON.parse(document.querySelector("template")?.content.textContent || "{}");
-const PLACEHOLDER = /\{(\w+)\}/g;
+/** A place in a text that a value takes. */
+const PLACEHOLDER = /\{(\w+(?:\.\w+)*)\}/g;
 const COOKIE = "ballscrew-language";
 const YEAR = 31_536_000;
 
@@ -20,7 +21,7 @@ const POINT = new Intl.NumberFormat(language).formatToParts(1.5).find(({ type })
  * @param {Record<string, string | number>} [values]
  */
 export function text(key, values = {}) {
-  return filledIn(table[key] ?? key, values);
+  return filledIn(table[key] ?? key, (name) => values[name]);
 }
 
 /**
@@ -31,17 +32,22 @@ export function text(key, values = {}) {
  * @param {Record<string, string | number>} [values]
  */
 export function textOr(key, other, values = {}) {
-  return filledIn(Object.hasOwn(table, key) ? table[key] : other, values);
+  return filledIn(Object.hasOwn(table, key) ? table[key] : other, (name) => values[name]);
 }
 
 /**
+ * A text with values in the places of their names; a place of no value stays.
+ *
  * @param {string} pattern
- * @param {Record<string, string | number>} values
+ * @param {(name: string) => string | number | undefined} value
  */
-function filledIn(pattern, values) {
-  return pattern.replace(PLACEHOLDER, (placeholder, name) =>
-    Object.hasOwn(values, name) ? String(values[name]) : placeholder,
-  );
+export function filledIn(pattern, value) {
+  return pattern.replace(PLACEHOLDER, (placeholder, name) => String(value(name) ?? placeholder));
+}
+
+/** True where the language has a text of a key. @param {string} key */
+export function hasText(key) {
+  return Object.hasOwn(table, key);
 }
 
 /**
@@ -85,21 +91,6 @@ export function sentence(english) {
 export function languageOf(english) {
   const isKnown = translated(english) || english.split(BETWEEN).every((one) => !/[a-z]/i.test(one) || translated(one));
   return isKnown ? {} : ofServer;
-}
-
-/**
- * True where the language has the template of a message, and those of the messages in it.
- *
- * @param {Message} message
- * @returns {boolean}
- */
-export function hasMessage({ template, values }) {
-  const hasWords = /[a-z]/i.test(template.replace(PLACEHOLDER, ""));
-  if (language !== "en" && hasWords && !Object.hasOwn(table, `message.${template}`)) return false;
-  return Object.values(values).every((value) => {
-    if (Array.isArray(value)) return value.every(hasMessage);
-    return typeof value === "string" || !("template" in value) || hasMessage(value);
-  });
 }
 
 /** @param {string} clause */

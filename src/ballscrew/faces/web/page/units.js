@@ -1,6 +1,6 @@
 // Units. Inputs are kept as text with a unit, as they were typed; only what is displayed is converted.
 
-import { hasComma, hasMessage, languageOf, localised, ofServer, sentence, textOr } from "./texts.js";
+import { hasComma, localised, sentence, textOr } from "./texts.js";
 
 const NUMBER = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(.*?)\s*$/i;
 const COMMA = /^(\s*[-+]?\d*),(\d+)/;
@@ -373,63 +373,6 @@ export function filled({ text, quantities }) {
 }
 
 /**
- * A message in the language of the page, with its numbers in the current units.
- *
- * @param {Message} message
- * @returns {string}
- */
-export function said({ template, values }) {
-  const parts = Object.entries(values).map(([name, value]) => [name, partOf(value)]);
-  return textOr(`message.${template}`, template, Object.fromEntries(parts));
-}
-
-/** @param {Message["values"][string]} value */
-function partOf(value) {
-  if (typeof value === "string") return value;
-  if (Array.isArray(value)) return value.map(said).join(", ");
-  return "template" in value ? said(value) : measured(value);
-}
-
-/** A number of a text in the current units. @param {ShownQuantity} one */
-function measured({ value, unit, shown_in: metric, digits: count, toward }) {
-  return formattedIn(value, metric, unit, count, toward);
-}
-
-/**
- * A record in the language of the page, as far as that has it.
- *
- * @param {VerdictRecord} record
- */
-export function ofRecord(record) {
-  const { message, text } = record;
-  return message ? said(named(record, message)) : sentence(text);
-}
-
-/**
- * A message about a field, with its meaning as the form has it in the language.
- *
- * @param {VerdictRecord} record
- * @param {Message} message
- * @returns {Message}
- */
-function named({ subject }, { template, values }) {
-  if (!("meaning" in values)) return { template, values };
-  const meaning = textOr(`field.${subject}.help`, "");
-  return { template, values: { ...values, ...(meaning ? { meaning } : {}) } };
-}
-
-/**
- * Attributes of an element with a record: its language, where that is another one.
- *
- * @param {VerdictRecord} record
- */
-export function languageOfRecord(record) {
-  const { message, text } = record;
-  if (!message) return languageOf(text);
-  return hasMessage(named(record, message)) ? {} : ofServer;
-}
-
-/**
  * A text of the server with its quantities in the current units.
  *
  * @param {Template} template
@@ -437,7 +380,7 @@ export function languageOfRecord(record) {
 export function inUnits({ text, quantities }) {
   return text.replace(PLACEHOLDER, (placeholder, place) => {
     const one = quantities[Number(place)];
-    return one ? measured(one) : placeholder;
+    return one ? formattedIn(one.value, one.shown_in, one.unit, one.digits, one.toward) : placeholder;
   });
 }
 

@@ -1,7 +1,7 @@
 // Fields of a card: sections of the case that the form does not show, with their faults beside them.
 
 import { element, within } from "../dom.js";
-import { inWords } from "../faults.js";
+import { inWords } from "../messages.js";
 import { choiceField, numberField, showEffective } from "../fields.js";
 import * as schema from "../schema.js";
 import { valueAt } from "../state.js";

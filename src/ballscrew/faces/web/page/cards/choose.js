@@ -2,7 +2,7 @@
 
 import * as designs from "../designs.js";
 import { element, within } from "../dom.js";
-import { inWords, labelOf } from "../faults.js";
+import { inWords, labelOf } from "../messages.js";
 import { choiceField, numberField } from "../fields.js";
 import { answerOfKept, drop, keptJob, runJob } from "../jobs.js";
 import * as opening from "../opening.js";

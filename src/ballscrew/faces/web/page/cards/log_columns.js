@@ -1,8 +1,8 @@
 // The columns of a log: what each was taken for, changed by a menu, and the numbers that are fitted to it.
 
 import { element, scrolling, table } from "../dom.js";
-import { ofServer, text, textOr } from "../texts.js";
-import { ofLog } from "./log_parts.js";
+import { withPlace } from "../messages.js";
+import { text, textOr } from "../texts.js";
 import { quantity } from "./quantities.js";
 
 /** Numbers to fit that are shown at once. */
@@ -59,7 +59,7 @@ export function columns(found, given, change) {
   const headings = [text("log.heading"), text("log.taken_for"), text("log.unit"), text("log.cells")];
   const content = table(caption, headings, rows);
   content.className = "columns-of-log";
-  const faults = found.faults.map((fault) => element("p", { class: "fault", ...ofServer }, ofLog(fault)));
+  const faults = found.faults.map((fault) => element("p", { class: "fault" }, withPlace(fault)));
   return element("div", {}, scrolling(caption, content), ...(found.moving ? [movingNote()] : faults), constants());
 
   /** Values that count in every row, for columns that the log lacks. */

@@ -2,10 +2,10 @@
 
 import * as designs from "../designs.js";
 import { element } from "../dom.js";
-import { inWords, labelOf } from "../faults.js";
+import { inWords, labelOf, withPlace } from "../messages.js";
 import * as schema from "../schema.js";
 import { get } from "../server.js";
-import { ofServer, text } from "../texts.js";
+import { text } from "../texts.js";
 
 /** Bytes of a log that the server takes, with its third more for the request. */
 const MOST_BYTES = 3_000_000;
@@ -104,20 +104,8 @@ export function faultLines(faults, jump) {
         element("button", { type: "button", onclick: () => jump(fault.where) }, words),
       );
     }
-    return element("p", { class: "fault", ...ofServer }, ofLog(fault));
+    return element("p", { class: "fault" }, withPlace(fault));
   });
-}
-
-/**
- * A fault of a log without what only the command line has.
- *
- * @param {{ where: string, problem: string, given: string, remedy: string }} fault
- */
-export function ofLog({ where, problem, given, remedy }) {
-  const advice = remedy.split(/, or name it: |, or give --| --/)[0].trim();
-  const isForCommands = remedy.includes("--") && (advice === remedy || /^(give|add|write)$/.test(advice));
-  const place = where.replace(/^--/, "");
-  return `${place}: ${problem}${given ? ` (${given})` : ""}${advice && !isForCommands ? `; ${advice}` : ""}`;
 }
 
 /**

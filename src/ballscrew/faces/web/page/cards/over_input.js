@@ -3,7 +3,7 @@
 import * as parts from "../chart_parts.js";
 import * as designs from "../designs.js";
 import { element } from "../dom.js";
-import { inWords } from "../faults.js";
+import { inWords } from "../messages.js";
 import { labelIn } from "../fields.js";
 import { draw, layout, showFailure } from "../plot.js";
 import { numbersOf } from "../results.js";

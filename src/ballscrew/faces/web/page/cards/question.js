@@ -2,7 +2,7 @@
 // cancels. After the page was loaded again, the job and its answer are found again.
 
 import { element } from "../dom.js";
-import { inWords, labelOf } from "../faults.js";
+import { inWords, labelOf } from "../messages.js";
 import { answerOfKept, keptJob, runJob } from "../jobs.js";
 import { ask, linesOf, Problem } from "../server.js";
 import { text } from "../texts.js";

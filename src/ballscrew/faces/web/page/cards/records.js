@@ -2,7 +2,7 @@
 
 import { element } from "../dom.js";
 import { text } from "../texts.js";
-import { languageOfRecord, ofRecord } from "../units.js";
+import { languageOfRecord, ofRecord } from "../messages.js";
 
 /**
  * Verdicts, and below them what to beware of.

@@ -1,0 +1,114 @@
+// Messages of the server: templates with their values, filled in the language and the units of the page.
+
+import { labelIn, words } from "./fields.js";
+import { OF_CARDS, SECTIONS } from "./schema.js";
+import { filledIn, hasText, language, languageOf, ofServer, sentence, textOr } from "./texts.js";
+import { formattedIn, inLanguage, inSystem, symbol } from "./units.js";
+
+/**
+ * The name of a field as the form labels it.
+ *
+ * @param {string} path
+ */
+export function labelOf(path) {
+  const parts = path.split(".");
+  const name = labelIn(path);
+  return parts.length > 1 ? `${name} (${SECTIONS[parts[0]] ?? OF_CARDS[parts[0]] ?? words(parts[0])})` : name;
+}
+
+/**
+ * A message in the language of the page, with its numbers in the current units.
+ *
+ * @param {Message} message
+ * @returns {string}
+ */
+export function said({ template, values }) {
+  return filled(textOr(`message.${template}`, template), values);
+}
+
+/**
+ * A text with the values of a message; a field without a value is one to fill in.
+ *
+ * @param {string} pattern
+ * @param {Message["values"]} values
+ */
+function filled(pattern, values) {
+  return filledIn(pattern, (name) => {
+    if (Object.hasOwn(values, name)) return partOf(values[name]);
+    return name.includes(".") ? setting(name) : undefined;
+  });
+}
+
+/**
+ * @param {Message["values"][string]} value
+ * @returns {string}
+ */
+function partOf(value) {
+  if (typeof value === "string") return value;
+  if (Array.isArray(value)) return value.map(said).join(", ");
+  if ("template" in value) return said(value);
+  if ("field" in value) return setting(value.field);
+  if ("unit_name" in value) return symbol(inSystem(value.unit_name));
+  return formattedIn(value.value, value.shown_in, value.unit, value.digits, value.toward);
+}
+
+/** @param {string} path */
+function setting(path) {
+  return `${labelOf(path)}: `;
+}
+
+/**
+ * A record in the language of the page.
+ *
+ * @param {VerdictRecord} record
+ */
+export function ofRecord({ message, subject, text: english }) {
+  if (!message) return sentence(english);
+  const { template, values } = message;
+  // a message about a field has its meaning as the form has it
+  const meaning = "meaning" in values ? textOr(`field.${subject}.help`, "") : "";
+  return said({ template, values: meaning ? { ...values, meaning } : values });
+}
+
+/**
+ * Attributes of an element with a record: its language, where that is another one.
+ *
+ * @param {VerdictRecord} record
+ */
+export function languageOfRecord({ message, text: english }) {
+  if (!message) return languageOf(english);
+  return language === "en" || hasText(`message.${message.template}`) ? {} : ofServer;
+}
+
+/**
+ * A fault in words: what the page says of this field, or what is wrong, the value, and what to do.
+ *
+ * @param {FaultLine} fault
+ */
+export function inWords({ where, given, messages: { problem, given: told, remedy } }) {
+  if (!problem) return "";
+  const own = textOr(`fault.${where}: ${problem.template}`, textOr(`fault.${problem.template}`, ""));
+  if (own) return filled(own, problem.values);
+  const value = told ? said(told) : inLanguage(given);
+  const advice = remedy ? said(remedy).trim() : "";
+  return `${said(problem)}${value ? ` (${value})` : ""}${advice ? `: ${advice}` : ""}`;
+}
+
+/**
+ * A fault that names no field of the form: its place, as a file or an option has it, and the fault in words.
+ *
+ * @param {FaultLine} fault
+ */
+export function withPlace(fault) {
+  const place = fault.where.startsWith("--") ? fault.where.slice(2) : fault.where;
+  return `${place}: ${inWords(fault)}`;
+}
+
+/**
+ * A literal text of the schema in the language of the page.
+ *
+ * @param {string} english
+ */
+export function translated(english) {
+  return said({ template: english, values: {} });
+}
