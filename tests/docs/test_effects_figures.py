@@ -139,7 +139,7 @@ def page():
 def test_all_the_page_shows_is_written(page, tmp_path, monkeypatch):
     """By their names: how each is drawn and saved is what the other tests are about."""
     saved = []
-    monkeypatch.setattr(page.style, "save", lambda figure, folder, name: saved.append(folder / f"{name}.svg"))
+    monkeypatch.setattr(page.charts, "save", lambda figure, folder, name: saved.append(folder / f"{name}.svg"))
     page.write(tmp_path)
     for path in saved:
         path.touch()

@@ -124,8 +124,9 @@ def classes():
         if not module.name.endswith("__main__"):
             found |= {part for part in vars(importlib.import_module(module.name)).values() if isinstance(part, type)}
     ours = (c for c in found if c.__module__.startswith("ballscrew.") and not c.__name__.startswith("_"))
-    # what a question answers is made by the program alone
-    ours = (c for c in ours if not re.fullmatch(r"ballscrew\.questions\.\w+\.(answer|compute)", c.__module__))
+    # what a question answers is made by the program; people give what it asks
+    answers = r"ballscrew\.questions\.(?!.*\.(options|need|requirements|design_space)$).*"
+    ours = (c for c in ours if not re.fullmatch(answers, c.__module__))
     return {c for c in ours if dataclasses.is_dataclass(c) and fields_of(c)}
 
 
