@@ -5,6 +5,8 @@ import time
 
 import psutil
 
+from ballscrew.faces.web.request_queue import out_of_time
+
 from .test_page_duty import case_of
 from .test_page_logs import DOUBLE_NUT, given_logs
 
@@ -70,15 +72,8 @@ def test_a_limit_that_was_reached_is_said_as_it_is(visit, start):
     here.expected = ("status of 422",)
     here.open(DOUBLE_NUT)
     # a job of a tenth of a second: its limit is 3 s, which this log of many rows does not take; it is refused by hand
-    refused = {
-        "title": "Invalid input", "status": 422, "lines": ["server: stopped the work, which took too long"],
-        "faults": [
-            {
-                "where": "server", "text": "", "line": "", "problem": "stopped the work, which took too long",
-                "given": "3 s of processor time", "remedy": "ask for less at a time, or start it with more",
-            }
-        ],
-    }  # fmt: skip
+    (fault,) = out_of_time(3.0).faults
+    refused = {"title": "Invalid input", "status": 422, "lines": [str(fault)], "faults": [fault.document()]}
     here.page.route(
         "**/jobs/*/answer",
         lambda route: route.fulfill(status=422, content_type="application/problem+json", body=json.dumps(refused)),
@@ -87,7 +82,7 @@ def test_a_limit_that_was_reached_is_said_as_it_is(visit, start):
     here.page.locator("#service-start").click()
     here.page.wait_for_selector("#service .fault")
     said = here.text("#service")
-    assert "stopped the work, which took too long (3 s of processor time); ask for less at a time, or start" in said
+    assert "stopped the work, which took too long (3 s of processor time): ask for less at a time, or start" in said
     assert "Not computed." in said
     assert "marked field" not in said
     assert starts(here) == 1
