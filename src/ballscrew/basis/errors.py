@@ -146,22 +146,22 @@ def nearest(word: str, known: Iterable[str], most: int | None = None) -> Message
     return Message("known: {names}, …" if is_cut else "known: {names}", {"names": names})
 
 
-def either(names: Iterable[str]) -> Message:
-    """``"a", "b" or "c"``."""
-    return _listed(_OR, [f'"{name}"' for name in names])
+def either(names: Iterable[str], quote: str = '"') -> Message:
+    """``"a" or "b" or "c"``."""
+    return _listed(Message("{others} or {last}"), [f"{quote}{name}{quote}" for name in names])
 
 
 def both(names: Iterable[str]) -> Message:
-    """``a, b and c``."""
-    return _listed(_AND, list(names))
+    """``a and b and c``."""
+    return _listed(Message("{others} and {last}"), list(names))
 
 
-_OR, _AND, _ALONE = Message("{others} or {last}"), Message("{others} and {last}"), Message("{last}")
-
-
-def _listed(several: Message, names: Sequence[str]) -> Message:
-    *others, last = names
-    return (several if others else _ALONE).of(others=", ".join(others), last=last)
+def _listed(pair: Message, names: Sequence[str]) -> Message:
+    first, *others = names
+    found = Message("{name}", {"name": first})
+    for name in others:
+        found = pair.of(others=found, last=name)
+    return found
 
 
 def closest(word: str, known: Iterable[str]) -> str:

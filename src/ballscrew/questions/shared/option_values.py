@@ -53,7 +53,7 @@ def _as_it_is(_option: OptionField, given: Any, _faults: list[Fault]) -> Any:
 
 def _choice(option: OptionField, given: str, faults: list[Fault]) -> str:
     if given not in option.choices:
-        known = either(each for each in option.choices if each != option.default)
+        known = either((each for each in option.choices if each != option.default), quote="")
         problem = Message("unknown {noun}", {"noun": option.option.noun or option.name})
         faults.append(Fault(option.flag, problem, given, known))
     return given
