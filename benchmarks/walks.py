@@ -156,7 +156,7 @@ def swept() -> None:
     """A preload varied by a sweep."""
     bs.sweep(
         bs.FrictionModel.reference(), SCREW, OIL, nut=bs.DoubleNut(preload=1000.0), axial_load=[100.0, 2000.0],
-        screw_speed=[10.0, 60.0], **{"nut.preload": [2000.0, PRELOAD]},  # pyright: ignore[reportArgumentType]
+        screw_speed=[10.0, 60.0], **{"nut.preload": [2000.0, PRELOAD]},  # pyright: ignore[reportArgumentType]  (not a name in Python)
     )  # fmt: skip
 
 

@@ -289,7 +289,7 @@ async def select_plan(request: Request) -> Response:
 @router.post(
     "/axis",
     openapi_extra=openapi.body(DutyBody),
-    response_model=response(ChainResults, "Chain", beside=answer_parts.Assumed),  # pyright: ignore[reportArgumentType]
+    response_model=response(ChainResults, "Chain", beside=answer_parts.Assumed),
     responses=openapi.problems_of(),
 )
 async def axis(request: Request) -> Response:

@@ -10,12 +10,13 @@ from ballscrew.basis.quantities import AngularSpeed, Force, Info, Unit
 from ballscrew.questions.axis.compute import FRICTION, LOAD, SERIES, SPEED, ChainReport
 from ballscrew.questions.shared.declared import FINITE, table_of
 
-AtPlaces = table_of("AtPlaces", "Numbers at places of the nut.", SERIES, lists=True)
-AtPlace = table_of("AtPlace", "Numbers at one place of the nut.", SERIES)
+
+class AtPlace(table_of(SERIES)):
+    """Numbers at one place of the nut."""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class ChainResults(AtPlaces):
+class ChainResults(table_of(SERIES, lists=True)):
     """Rigidity, lost motion, critical speed and buckling load over the place of the nut."""
 
     shares: Annotated[Mapping[str, Sequence[float]], Unit("1"), Info("", "share of each spring in what gives way")]
@@ -23,7 +24,7 @@ class ChainResults(AtPlaces):
     #: False where the places are those of the whole shaft.
     travel_is_known: bool
     #: The place in the travel where the chain gives way most.
-    softest: AtPlace  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
+    softest: AtPlace
     largest_load: Annotated[Force, LOAD.info]
     largest_speed: Annotated[AngularSpeed, SPEED.info]
     guide_friction: Annotated[Force, FRICTION.info]

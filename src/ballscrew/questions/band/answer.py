@@ -5,7 +5,8 @@ from __future__ import annotations
 from pydantic import Field
 
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
-from ballscrew.engine.uncertainty.bands import Interval, OutputBand
+from ballscrew.engine.uncertainty.bands import Interval as TwoEnds
+from ballscrew.engine.uncertainty.bands import OutputBand
 from ballscrew.questions.run.answer import Document
 from ballscrew.questions.shared.answer_parts import (
     Closed,
@@ -13,24 +14,22 @@ from ballscrew.questions.shared.answer_parts import (
     Numbers,
     Template,
     field,
-    model,
+    with_fields,
 )
 
-_Interval = model(
-    "Interval",
-    "Two ends with a share of the samples between them.",
-    Closed,
-    **dict.fromkeys((*Interval._fields,), (Number, ...)),
-)
-_INTERVALS = [name for name, kind in OutputBand.__annotations__.items() if kind == Interval.__name__]
+
+class Interval(with_fields(**dict.fromkeys(TwoEnds._fields, (Number, ...)))):
+    """Two ends with a share of the samples between them."""
+
+
+_INTERVALS = [name for name, kind in OutputBand.__annotations__.items() if kind == TwoEnds.__name__]
 #: The interval by both causes stands beside the value, the others under their names.
-BandedOutput = model(
-    "BandedOutput",
-    "One output and its intervals.",
-    _Interval,
-    **{name: (Number, ...) for name in OutputBand.__annotations__ if name not in _INTERVALS},
-    **{name: (_Interval, ...) for name in _INTERVALS if name != "both"},
-)
+_NUMBERS = {name: (Number, ...) for name in OutputBand.__annotations__ if name not in _INTERVALS}
+_OTHERS = {name: (Interval, ...) for name in _INTERVALS if name != "both"}
+
+
+class BandedOutput(with_fields(Interval, **_NUMBERS, **_OTHERS)):
+    """One output and its intervals."""
 
 
 class UncertainInput(Closed):
@@ -48,7 +47,9 @@ class AlternativeLaw(Closed):
     factor: Number = Field(description="torque with it over torque with the model's own law")
 
 
-class _BandTables(Closed):
+class BandTables(with_fields(**dict.fromkeys(BAND_OUTPUTS, (BandedOutput, ...)))):
+    """Intervals of all outputs, and what they come from."""
+
     level: float
     samples: int
     seed: int
@@ -57,14 +58,6 @@ class _BandTables(Closed):
     reasons: Numbers
     laws: dict[str, list[AlternativeLaw]]
     inputs: dict[str, UncertainInput]
-
-
-BandTables = model(
-    "BandTables",
-    "Intervals of all outputs, and what they come from.",
-    _BandTables,
-    **dict.fromkeys(BAND_OUTPUTS, (BandedOutput, ...)),
-)
 
 
 class BandWords(Closed):
@@ -83,6 +76,6 @@ class BandDisplay(Closed):
 class Band(Document):
     """The answer of a run with the band beside it."""
 
-    band: BandTables  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
+    band: BandTables
     words: BandWords
     display: BandDisplay

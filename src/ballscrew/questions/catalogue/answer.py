@@ -4,21 +4,17 @@ from __future__ import annotations
 
 from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.physics.sizing.catalogue import CatalogueRow
-from ballscrew.questions.shared.answer_parts import (
-    Closed,
-    Tables,
-    model,
-    quantities,
-)
+from ballscrew.questions.shared.answer_parts import Closed, Tables, quantities, with_fields
 
 _LISTED, _ALL_OF_ROW = fields_of(CatalogueRow), quantities_of(CatalogueRow)
-ListedRow = model("ListedRow", "Numbers that the catalogue lists.", Closed, **quantities(_LISTED))
-DerivedRow = model(
-    "DerivedRow",
-    "Numbers that follow from the listed ones.",
-    Closed,
-    **quantities({name: q for name, q in _ALL_OF_ROW.items() if name not in _LISTED}),
-)
+
+
+class ListedRow(with_fields(**quantities(_LISTED))):
+    """Numbers that the catalogue lists."""
+
+
+class DerivedRow(with_fields(**quantities({name: q for name, q in _ALL_OF_ROW.items() if name not in _LISTED}))):
+    """Numbers that follow from the listed ones."""
 
 
 class CatalogueEntry(Closed):
@@ -27,8 +23,8 @@ class CatalogueEntry(Closed):
     name: str
     nut: str | None
     source: str
-    row: ListedRow  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
-    derived: DerivedRow  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
+    row: ListedRow
+    derived: DerivedRow
 
 
 class RowUnits(Closed):

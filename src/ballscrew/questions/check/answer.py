@@ -5,9 +5,9 @@ from __future__ import annotations
 from pydantic import Field
 
 from ballscrew.questions.check.compute import BothRatings, Geometry
-from ballscrew.questions.run.answer import Loads, Results
+from ballscrew.questions.run.answer import Results
+from ballscrew.questions.run.nut_loads import NutLoads
 from ballscrew.questions.shared.answer_parts import (
-    Closed,
     JudgedCheck,
     Provenance,
     Record,
@@ -16,7 +16,7 @@ from ballscrew.questions.shared.answer_parts import (
     VendorRows,
     field,
 )  # fmt: skip
-from ballscrew.questions.shared.declared import schema
+from ballscrew.questions.shared.declared import with_answers
 
 
 class OneCheck(JudgedCheck):
@@ -27,7 +27,7 @@ class OneCheck(JudgedCheck):
     display: Template
 
 
-class Checks(Closed):
+class Checks(with_answers(geometry=Geometry, loads=NutLoads, ratings=BothRatings)):
     """The checks of a case, with its results."""
 
     checks: list[OneCheck]
@@ -37,11 +37,8 @@ class Checks(Closed):
     verdicts: list[Record]
     nut: str = Field(description="kind of the nut; a case without one is checked with a single nut")
     inputs: Tables
-    geometry: schema(Geometry)  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
-    results: Results  # pyright: ignore[reportInvalidTypeForm]  (a model made from the annotations)
-    loads: Loads  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
+    results: Results
     vendor_rows: VendorRows = field(optional=True)
-    ratings: schema(BothRatings)  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
     assumed: list[str]
     units: Tables
     warnings: list[Record]

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from ballscrew.basis.quantities import Info, Ratio, Torque, Unit, quantities_of
 from ballscrew.cases.schema.schema import LAWS
 from ballscrew.engine.evaluation.comparison import ComparedRule, Comparison, OfBalls, Row
 from ballscrew.engine.evaluation.comparison import Spread as TwoRows
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.questions.shared.declared import LEFT_OUT
+from ballscrew.questions.shared.declared import LEFT_OUT, OneOf
 
 _KNOWN = quantities_of(FrictionResult)
-_Slot: Any = Literal[tuple(LAWS)]
+_SLOTS = OneOf(tuple(LAWS))
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -43,7 +43,7 @@ class ComparedLaw(ComparedModel):
     """The case with another law in one slot."""
 
     #: The slot of the law.
-    slot: _Slot  # pyright: ignore[reportInvalidTypeForm]  (known at run time)
+    slot: Annotated[str, _SLOTS]
     #: False for a printed form that breaks a balance: it is in no spread.
     counts: bool
 
@@ -53,7 +53,7 @@ class SpreadEnd:
     """The least or the greatest torque of some models or laws."""
 
     #: The slot of the law; null of a model.
-    slot: _Slot | None  # pyright: ignore[reportInvalidTypeForm]  (known at run time)
+    slot: Annotated[str | None, _SLOTS]
     #: Of the model, or of the law.
     name: str
     screw_torque: Annotated[Torque, _KNOWN["screw_torque"].info]

@@ -46,8 +46,8 @@ def _by_slug(parts: Mapping[str, Any]) -> dict[str, float]:
     return {slug_of(name): float(value) for name, value in parts.items()}
 
 
-#: The numbers of the cycle in a full bath of oil, as :data:`~ballscrew.questions.duty.compute.OF_BATH` names them.
-FullBath = table_of("FullBath", "Numbers of the cycle in a full bath of oil.", OF_BATH)
+class FullBath(table_of(OF_BATH)):
+    """Numbers of the cycle in a full bath of oil."""
 
 
 class Life(Answer):
@@ -325,7 +325,7 @@ class DutyResults(CycleNumbers):
         return self._report.flooded_torque
 
     @property
-    def full_bath(self) -> FullBath | None:  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
+    def full_bath(self) -> FullBath | None:
         """Numbers of the cycle in a full bath of oil; null for one efficiency, which knows no oil."""
         return None if self._report.by_rule else FullBath(**self._report.full_bath)
 

@@ -15,7 +15,6 @@ from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.run.compute import OF_ONE_BALL
 from ballscrew.questions.run.nut_loads import NutLoads
 from ballscrew.questions.run.text import SHOWN
-from ballscrew.questions.shared import declared
 from ballscrew.questions.shared.answer_parts import (
     MASKS,
     Closed,
@@ -28,38 +27,32 @@ from ballscrew.questions.shared.answer_parts import (
     Template,
     VendorRows,
     field,
-    model,
     quantities,
+    with_fields,
 )
+from ballscrew.questions.shared.declared import with_answers
 
-Contact = model(
-    "Contact",
-    "One contact of a ball with its race.",
-    BaseModel,
-    **quantities(quantities_of(RaceState), optional=True),
-)
+
+class Contact(with_fields(BaseModel, **quantities(quantities_of(RaceState), optional=True))):
+    """One contact of a ball with its race."""
+
+
 _RESULTS = {n: q for n, q in quantities_of(FrictionResult).items() if n not in fields_of(OperatingState)}
-# Models made by ``create_model`` are variables to a type checker: where they are used as types, it is silenced.
 #: Results of one row of equal balls, and of a whole nut.
 _ALWAYS = {n: q for n, q in _RESULTS.items() if n in (*SHOWN, *MASKS, "holding_torque") and n not in OF_ONE_BALL}
-Results = model(
-    "Results",
-    "Results of one row of equal balls, or of a whole nut.",
-    Open,
-    **quantities(_ALWAYS),
-    **quantities({name: q for name, q in _RESULTS.items() if name not in _ALWAYS}, optional=True),
-    preload_drag=(
-        Number,
-        field("torque of the nut without load, seals and other losses included, SI", "N m", optional=True),
-    ),
-    contributions=(Numbers, field("parts of the friction torque, SI", "N m")),
-    validity=(dict[str, bool], ...),
-    screw=(Contact, ...),
-    nut=(Contact, ...),
-)
+_AT_TIMES = {name: quantity for name, quantity in _RESULTS.items() if name not in _ALWAYS}
 
 
-Loads = declared.schema(NutLoads)  # pyright: ignore[reportArgumentType]  (a class that is made from annotations)
+class Results(with_fields(Open, **quantities(_ALWAYS), **quantities(_AT_TIMES, optional=True))):
+    """Results of one row of equal balls, or of a whole nut."""
+
+    preload_drag: Number = field(
+        "torque of the nut without load, seals and other losses included, SI", "N m", optional=True
+    )
+    contributions: Numbers = field("parts of the friction torque, SI", "N m")
+    validity: dict[str, bool]
+    screw: Contact
+    nut: Contact
 
 
 class RunWords(Closed):
@@ -78,12 +71,11 @@ class RunDisplay(Closed):
     assumed: list[Template]
 
 
-class Document(Closed):
+class Document(with_answers(loads=(NutLoads, field("loads of the balls of a nut, SI", optional=True)))):
     """Inputs, results and units in SI; verdicts, checks and warnings; provenance."""
 
     inputs: Tables
-    results: Results  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
-    loads: Loads = field("loads of the balls of a nut, SI", optional=True)  # pyright: ignore[reportInvalidTypeForm]  (made)
+    results: Results
     vendor_rows: VendorRows = field(optional=True)
     units: Tables
     verdicts: list[Record]

@@ -16,12 +16,10 @@ _KNOWN = quantities_of(BallLoads)
 _OF_BALLS = {name: _KNOWN[name] for name in ("forward_load", "backward_load", "forward_angle", "backward_angle")}
 _OF_ALL_BALLS = {name: quantity for name, quantity in _KNOWN.items() if name not in _OF_BALLS}
 _ENDS = ("least", "mean", "greatest")
-_OfBalls = table_of("OfBalls", "Loads and contact angles of balls.", _OF_BALLS, lists=True)
-_OfAllBalls = table_of("OfAllBalls", "Numbers of all balls together.", _OF_ALL_BALLS)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class EachBall(_OfBalls):
+class EachBall(table_of(_OF_BALLS, lists=True)):
     """Loads and contact angles ball by ball, or of each kind of ball."""
 
     #: Balls that each entry stands for.
@@ -39,7 +37,7 @@ class OnFlank:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class NutLoads(_OfAllBalls):
+class NutLoads(table_of(_OF_ALL_BALLS)):
     """Loads of the balls of a nut, and how far it gives way."""
 
     #: True where the load has lifted the balls off the other flank.

@@ -18,8 +18,14 @@ from ballscrew.questions.select.objectives import OBJECTIVES
 from ballscrew.questions.shared.declared import FINITE, table_of
 
 _ROW = quantities_of(CatalogueRow)
-CycleOfNeed = table_of("CycleOfNeed", "Numbers of the cycle of a need.", NUMBERS)
-Objectives = table_of("Objectives", "The numbers compared.", {name: one.quantity for name, one in OBJECTIVES.items()})
+
+
+class CycleOfNeed(table_of(NUMBERS)):
+    """Numbers of the cycle of a need."""
+
+
+class Objectives(table_of({name: one.quantity for name, one in OBJECTIVES.items()})):
+    """The numbers compared."""
 
 
 class Failing(NamedTuple):
@@ -89,7 +95,7 @@ class OneCandidate:
     #: All checks in a few words.
     verdict: str
     #: The numbers compared.
-    objectives: Objectives  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
+    objectives: Objectives
     #: Its case file as tables.
     case: Mapping[str, Any]
     #: True where the torque in a full bath of oil is larger: loss and torques compared are the larger.
@@ -121,10 +127,10 @@ BRAKE = tuple(quantities_of(BrakeOfNeed))
 class OfMotion:
     """What a candidate has beside the others where the need has a motion."""
 
-    #: Numbers of its cycle.
-    duty: CycleOfNeed  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
+    #: Numbers of its cycle, where the need has a motion.
+    duty: CycleOfNeed
     #: Those in a full bath of oil; null by the rule of catalogues, which knows no oil.
-    full_bath: FullBath | None  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
+    full_bath: FullBath | None
     #: The torques that a motor is chosen by.
     motor_torque: MotorTorque
     #: What the brake must hold.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ballscrew.questions.service.answer import ServiceResults
 from ballscrew.questions.shared.answer_parts import Closed, Record, Tables, Template
-from ballscrew.questions.shared.declared import schema
+from ballscrew.questions.shared.declared import with_answers
 
 
 class ServiceWords(Closed):
@@ -20,11 +20,10 @@ class ServiceDisplay(Closed):
     verdicts: list[Template]
 
 
-class Service(Closed):
+class Service(with_answers(results=ServiceResults)):
     """The preload that is left in a nut."""
 
     inputs: Tables
-    results: schema(ServiceResults)  # pyright: ignore[reportInvalidTypeForm]  (made from annotations)
     units: Tables
     warnings: list[Record]
     verdicts: list[Record]

@@ -56,6 +56,11 @@ def model(name: str, meaning: str, base: type[BaseModel] = Closed, /, **fields: 
     return create(name, __doc__=meaning, __base__=base, **fields)
 
 
+def with_fields(base: type[BaseModel] = Closed, /, **fields: Any) -> Any:
+    """A base of models, ``class Row(with_fields(…))``, whose fields are known from annotations elsewhere."""
+    return model("Fields", "", base, **fields)
+
+
 class Shown(Closed):
     """A quantity in a text for people."""
 

@@ -15,7 +15,7 @@ import dataclasses
 import functools
 import types
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Annotated, Any, NamedTuple, Union, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Literal, NamedTuple, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
@@ -26,6 +26,12 @@ from ballscrew.basis.quantities import Quantity, Unit, info_of, unit_of
 LEFT_OUT = "left out"
 #: A part whose numbers are always finite.
 FINITE = "finite"
+
+
+class OneOf(NamedTuple):
+    """The words that a text may be, where they are known at run time alone."""
+
+    words: tuple[str, ...]
 
 
 class Part(NamedTuple):
@@ -61,6 +67,12 @@ class Part(NamedTuple):
     def left_out(self) -> bool:
         """True for a part that is left out where it is None."""
         return self._is(LEFT_OUT)
+
+    @property
+    def words_allowed(self) -> tuple[str, ...]:
+        """The words that a text may be; none where it may be any."""
+        said = get_args(self.annotation)[1:] if get_origin(self.annotation) is Annotated else ()
+        return next((each.words for each in said if isinstance(each, OneOf)), ())
 
     @property
     def number(self) -> Any:
@@ -117,11 +129,11 @@ class Answer:
     """An answer whose parts are annotated properties."""
 
 
-def table_of(name: str, meaning: str, quantities: Mapping[str, Quantity], *, lists: bool = False) -> type[Any]:
-    """An answer of that name with numbers, or lists of numbers, that are declared elsewhere."""
+def table_of(quantities: Mapping[str, Quantity], *, lists: bool = False) -> type[Any]:
+    """A base of answers: numbers, or lists of numbers, that are declared elsewhere."""
     kind: Any = Sequence[float] if lists else float
     fields = [(each, Annotated[kind, Unit(one.unit), one.info]) for each, one in quantities.items()]
-    return dataclasses.make_dataclass(name, fields, frozen=True, eq=False, namespace={"__doc__": meaning})
+    return dataclasses.make_dataclass("Numbers", fields, frozen=True, eq=False)
 
 
 # -- document and units ---------------------------------------------------------------------------
@@ -184,16 +196,30 @@ def units_of(cls: type) -> dict[str, Any]:
 
 
 @functools.cache
-def schema(cls: type) -> Any:
-    """The response model of an answer: a name, a type and a description for each part."""
+def schema(cls: type, *, optional: bool = False) -> Any:
+    """The response model of an answer: a name, a type and a description for each part.
+
+    ``optional`` where each part of it may be left out.
+    """
     from ballscrew.questions.shared.answer_parts import Closed, model  # pydantic, which the command line does not need
 
     said = comments_of(cls)
     fields = {
-        name: _field(part._replace(words=said[name].partition(". ")[0]) if name in said else part)
+        name: _field(part._replace(words=said[name].partition(". ")[0]) if name in said else part, optional=optional)
         for name, part in parts_of(cls).items()
     }
     return model(cls.__name__, _first_line(cls), Closed, **fields)
+
+
+def with_answers(**parts: Any) -> Any:
+    """A base of response models with answers as parts: a class, or a sequence of a class, for each name.
+
+    A pair is the class with its field.
+    """
+    from ballscrew.questions.shared.answer_parts import with_fields
+
+    pairs = {name: part if isinstance(part, tuple) else (part, ...) for name, part in parts.items()}
+    return with_fields(**{name: (_kind(Part(name, cls)), field) for name, (cls, field) in pairs.items()})
 
 
 @functools.cache
@@ -223,7 +249,7 @@ def _first_line(cls: type) -> str:
     return (cls.__doc__ or "").partition("\n")[0]
 
 
-def _field(part: Part) -> tuple[Any, Any]:
+def _field(part: Part, *, optional: bool = False) -> tuple[Any, Any]:
     from ballscrew.questions.shared.answer_parts import field
 
     # what may be left out has a default, which the description does not show
@@ -231,7 +257,7 @@ def _field(part: Part) -> tuple[Any, Any]:
     says_unit = unit == "1" or not part.meaning or f", {unit}" in part.meaning
     words = part.meaning if says_unit else f"{part.meaning}, SI"
     kind = _kind(part)
-    return (kind | None if part.may_be_none else kind, field(words, unit, optional=part.left_out))
+    return (kind | None if part.may_be_none else kind, field(words, unit, optional=optional or part.left_out))
 
 
 def _unit_within(annotation: Any) -> str | None:
@@ -241,6 +267,8 @@ def _unit_within(annotation: Any) -> str | None:
 
 def _kind(part: Part) -> Any:
     kind, inner = get_origin(part.bare) or part.bare, get_args(part.bare)
+    if part.words_allowed:
+        return Literal[part.words_allowed]
     if kind is Mapping:
         return dict[str, _kind(Part("", inner[1]))]
     if kind is Sequence:
