@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
@@ -116,8 +115,8 @@ class MotorCheck(ByValue):
                 },
             )
         return (
-            _check("motor_rms_torque", rms, motor.rated_torque, "N m", of_rms),
-            _check("motor_peak_torque", abs(largest), peak, "N m", of_peak),
+            Check.at_most(of_rms, "motor_rms_torque", rms, motor.rated_torque, "N m"),
+            Check.at_most(of_peak, "motor_peak_torque", abs(largest), peak, "N m"),
             self.speed_check,
         )
 
@@ -125,16 +124,10 @@ class MotorCheck(ByValue):
     def speed_check(self) -> Check:
         """Speed against the largest of the motor: it knows no torque."""
         speed = float(np.max(np.abs(self.duty.motor_speed)))
-        return _check(
-            "motor_speed", speed, self.motor.largest_speed, "rad/s", Message("speed of the motor against its largest")
-        )
+        message = Message("speed of the motor against its largest")
+        return Check.at_most(message, "motor_speed", speed, self.motor.largest_speed, "rad/s")
 
 
 def _of(condition: str, message: Message) -> Message:
     """A message, and the condition of the track that it is of."""
     return Message("{what}, {condition}", {"what": message, "condition": Message(condition)}) if condition else message
-
-
-def _check(name: str, value: float, limit: Any, unit: str, message: Message) -> Check:
-    utilisation = value / float(limit) if limit else math.inf if value else 0.0
-    return Check.judged(message, name, value, limit, unit, utilisation)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
@@ -82,10 +83,16 @@ class Check(NamedTuple):
         return cls(name, value, limit, unit, utilisation, holds, units.filled(message), missing, message)
 
     @classmethod
-    def judged(cls, message: Message, name: str, value: Any, limit: Any, unit: str, utilisation: Any) -> Check:
-        """A check by its utilisation."""
-        used = float(utilisation)
-        return cls.saying(message, name, float(value), float(limit), unit, used, used <= 1)
+    def at_most(cls, message: Message, name: str, value: Any, limit: Any, unit: str) -> Check:
+        """A check that holds up to a limit; its utilisation is the value over the limit."""
+        value, limit = float(value), float(limit)
+        return cls.saying(message, name, value, limit, unit, _ratio(value, limit), value <= limit)
+
+    @classmethod
+    def at_least(cls, message: Message, name: str, value: Any, limit: Any, unit: str) -> Check:
+        """A check that holds from a limit on; its utilisation is the limit over the value."""
+        value, limit = float(value), float(limit)
+        return cls.saying(message, name, value, limit, unit, _ratio(limit, value), value >= limit)
 
     @property
     def title(self) -> Message:
@@ -106,6 +113,10 @@ class Check(NamedTuple):
             limit=self.limit,
             unit=self.unit,
         )
+
+
+def _ratio(over: float, under: float) -> float:
+    return over / under if under else math.inf if over else 0.0
 
 
 def judged(checks: Sequence[Check]) -> int:
@@ -225,20 +236,12 @@ def _not_checked(name: str, unit: str, give: str) -> Check:
     return Check.saying(NOT_CHECKED.of(input=Message(give)), name, None, None, unit, None, None, give)
 
 
-def _at_most(name: str, value: float, limit: float, unit: str, message: Message) -> Check:
-    return Check.judged(message, name, value, limit, unit, value / limit)
-
-
-def _at_least(name: str, value: float, limit: float, unit: str, message: Message) -> Check:
-    return Check.judged(message, name, value, limit, unit, limit / as_array(value))
-
-
 def _static_safety(rated: Force | None, load: Force, limits: Limits) -> Check:
     name = "static_safety"
     if rated is None:
         return _not_checked(name, "1", "static_load_rating")
     message = Message("static rating against the largest load, preload included")
-    return _at_least(name, life.static_safety(rated, as_array(load)), limits.static_safety, "1", message)
+    return Check.at_least(message, name, life.static_safety(rated, as_array(load)), limits.static_safety, "1")
 
 
 def _life(rated: Force | None, loads: Sequence[Force], speed: AngularSpeed, limits: Limits) -> tuple[Check, Check]:
@@ -274,8 +277,8 @@ def _life(rated: Force | None, loads: Sequence[Force], speed: AngularSpeed, limi
         )
     turns = required / life.running_time(1.0, as_array(speed))
     return (
-        _at_least(names[0], revolutions, turns, "1", of_turns),
-        _at_least(names[1], time, required, "s", of_hours),
+        Check.at_least(of_turns, names[0], revolutions, turns, "1"),
+        Check.at_least(of_hours, names[1], time, required, "s"),
     )
 
 
@@ -284,12 +287,12 @@ def _contact_pressure(pressure: Pressure | None) -> Check:
     if pressure is None:
         return _not_checked(name, "Pa", "maximum_pressure")
     message = Message("largest Hertz pressure against that which leaves a dent of 1e-4 of the ball diameter (ISO 76)")
-    return _at_most(name, pressure, LARGEST_PRESSURE, "Pa", message)
+    return Check.at_most(message, name, pressure, LARGEST_PRESSURE, "Pa")
 
 
 def _shaft_stress(load: Force, d_r: Length, limits: Limits) -> Check:
     message = Message("largest load over the core of the shaft, pulled or pushed")
-    return _at_most("shaft_stress", shaft.shaft_stress(load, d_r), limits.shaft_stress, "Pa", message)
+    return Check.at_most(message, "shaft_stress", shaft.shaft_stress(load, d_r), limits.shaft_stress, "Pa")
 
 
 def _buckling(screw: BallScrew, load: Force, d_r: Length, installation: Installation | None, limits: Limits) -> Check:
@@ -302,7 +305,7 @@ def _buckling(screw: BallScrew, load: Force, d_r: Length, installation: Installa
         "largest load, if it pushes, against Euler's over {safety}, ends {ends}",
         {"safety": Measured(limits.buckling_safety, digits=6), "ends": Message(ends.words)},
     )
-    return _at_most(name, load, euler / limits.buckling_safety, "N", message)
+    return Check.at_most(message, name, load, euler / limits.buckling_safety, "N")
 
 
 def _critical_speed(
@@ -317,7 +320,7 @@ def _critical_speed(
         "speed against {share} of the critical speed, ends {ends}",
         {"share": Measured(limits.critical_speed_share, digits=6), "ends": Message(ends.words)},
     )
-    return _at_most(name, speed, critical * limits.critical_speed_share, "rad/s", message)
+    return Check.at_most(message, name, speed, critical * limits.critical_speed_share, "rad/s")
 
 
 def _diameter_speed_product(screw: BallScrew, speed: AngularSpeed, limits: Limits, of_make: SpeedLimit | None) -> Check:
@@ -328,4 +331,4 @@ def _diameter_speed_product(screw: BallScrew, speed: AngularSpeed, limits: Limit
         "DN value, pitch circle diameter times speed, which the return of the balls must stand; limit {source}",
         {"source": words},
     )
-    return _at_most("diameter_speed_product", value, limit, "m rad/s", message)
+    return Check.at_most(message, "diameter_speed_product", value, limit, "m rad/s")

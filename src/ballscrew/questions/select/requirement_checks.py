@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -40,9 +40,9 @@ def by_loads(
     """
     found = (
         kept_preload(preload, largest_load, balls),
-        at_least(
+        _bounded(
+            Check.at_least, _LEFT,
             "remaining_preload", float(balls.remaining_preload), required.least_remaining_preload, "N",
-            _LEFT,
         ),
         _inertia(required, case, numbers["inertia"]),
         step(required, float(case.screw.lead)),
@@ -55,17 +55,17 @@ def of_friction(
 ) -> tuple[Check, ...]:
     """A check for each other requirement that is set."""
     bounds = (
-        at_most(
+        _bounded(
+            Check.at_most, Message("torque on the shaft"),
             "drive_torque", numbers["drive_torque"], required.largest_drive_torque, "N m",
-            Message("torque on the shaft"),
         ),
-        at_most(
+        _bounded(
+            Check.at_most, Message("torque of the nut without load"),
             "preload_torque", numbers["preload_torque"], required.largest_preload_torque, "N m",
-            Message("torque of the nut without load"),
         ),
-        at_least(
+        _bounded(
+            Check.at_least, Message("rigidity of the nut under the load"),
             "rigidity", numbers["rigidity"], required.least_rigidity, "N/m",
-            Message("rigidity of the nut under the load"),
         ),
     )  # fmt: skip
     drives = back_driving(required, found) if report is None else _of_axis(required, report)
@@ -98,22 +98,15 @@ def preload_used(preload: Force, left: Force, load: Force, lift_off_load: Force)
     return np.where(np.asarray(left) > 0, 1 - np.asarray(left) / preload, lost)
 
 
-def at_most(name: str, value: float, limit: float | None, unit: str, message: Message) -> Check | None:
-    """A check that holds up to a limit, none without one; a value that is no number is not judged."""
+def _bounded(
+    check: Callable[..., Check], message: Message, name: str, value: float, limit: float | None, unit: str
+) -> Check | None:
+    """A check against a limit, none without one; a value that is no number is not judged."""
     if limit is None:
         return None
     if math.isnan(value):
         return Check.saying(_NOT_KNOWN.of(what=message), name, None, limit, unit, None, None)
-    return Check.saying(message, name, value, limit, unit, value / limit, value <= limit)
-
-
-def at_least(name: str, value: float, limit: float | None, unit: str, message: Message) -> Check | None:
-    """A check that holds from a limit on."""
-    if limit is None:
-        return None
-    if math.isnan(value):
-        return Check.saying(_NOT_KNOWN.of(what=message), name, None, limit, unit, None, None)
-    return Check.saying(message, name, value, limit, unit, limit / value if value else math.inf, value >= limit)
+    return check(message, name, value, limit, unit)
 
 
 def _inertia(required: Requirements, case: Case, value: float) -> Check | None:
@@ -122,14 +115,15 @@ def _inertia(required: Requirements, case: Case, value: float) -> Check | None:
     if limit is not None and shaft_length(required, case.installation) is None:
         message = Message("not judged: give the length of the shaft, or the stroke")
         return Check.saying(message, "inertia", None, limit, "kg m^2", None, None, "installation.unsupported_length")
-    return at_most("inertia", value, limit, "kg m^2", Message("inertia of a solid shaft"))
+    return _bounded(Check.at_most, Message("inertia of a solid shaft"), "inertia", value, limit, "kg m^2")
 
 
 def step(required: Requirements, lead: float) -> Check | None:
     """Travel of one count of the encoder."""
     if required.largest_step is None or required.counts_per_turn is None:
         return None
-    return at_most("step", lead / required.counts_per_turn, required.largest_step, "m", Message("travel of one count"))
+    count = lead / required.counts_per_turn
+    return _bounded(Check.at_most, Message("travel of one count"), "step", count, required.largest_step, "m")
 
 
 def back_driving(required: Requirements, found: Checked) -> Check | None:
