@@ -222,7 +222,6 @@ def with_answers(**parts: Any) -> Any:
     return with_fields(**{name: (_kind(Part(name, cls)), field) for name, (cls, field) in pairs.items()})
 
 
-@functools.cache
 def response(cls: type, name: str, *, judged: bool = False, beside: type | None = None) -> Any:
     """The response model of a document whose results are an answer; ``judged`` where its checks are of a screw.
 
