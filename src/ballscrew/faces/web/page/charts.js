@@ -2,7 +2,6 @@
 
 import * as parts from "./chart_parts.js";
 import { element } from "./dom.js";
-import { letDrag } from "./operating_point.js";
 import { draw, layout } from "./plot.js";
 import { data } from "./results.js";
 import { text, textOr } from "./texts.js";
@@ -113,9 +112,9 @@ export function torque(swept, answer, mechanisms, banded) {
     return total[place];
   };
   const others = names.length + (banded && typeof banded !== "string" ? 2 : 0);
-  letDrag("torque-chart", { x: "screw_speed", trace: others + 1, place: (at) => [at, nearest(at)] });
   return draw("torque-chart", {
     name: "torque_over_speed",
+    drag: { x: "screw_speed", trace: others + 1, place: (at) => [at, nearest(at)] },
     caption: text("speed.caption", { load }),
     description: text("speed.description", { load, total: totalText }),
     figure: (colours) => ({
@@ -206,9 +205,9 @@ export function map(swept, answer) {
     units.inDisplayUnit("axial_load", operation.axial_load),
   );
   const efficiency = units.digits(answer.results.efficiency ?? answer.results.back_driving_efficiency);
-  letDrag("map-chart", { x: "screw_speed", y: "axial_load", trace: 2, place: (at, load) => [at, load] });
   return draw("map-chart", {
     name: "efficiency_map",
+    drag: { x: "screw_speed", y: "axial_load", trace: 2, place: (at, load) => [at, load] },
     caption: text("map.caption"),
     description: text("map.description", { efficiency }),
     figure: (colours) => ({

@@ -1,4 +1,4 @@
-// Elements, tables and files.
+// Elements, tables and CSV.
 
 /** @typedef {Record<string, string | number | boolean | null | undefined | ((event: Event) => void)>} Attributes */
 /** @typedef {string | number | Node | null | undefined} Child */
@@ -87,29 +87,6 @@ export function table(caption, headings, rows, { beside = true } = {}) {
  */
 export function scrolling(label, content) {
   return element("div", { class: "scroll whole", tabindex: "0", role: "region", "aria-label": label }, content);
-}
-
-/** The name of the design that files begin with. */
-let design = "";
-
-/** @param {string} name */
-export function nameFiles(name) {
-  design = name;
-}
-
-/**
- * Save a file, whose name begins with that of the design.
- *
- * @param {string} name
- * @param {Blob} content
- */
-export function save(name, content) {
-  const address = URL.createObjectURL(content);
-  const link = element("a", { href: address, download: `ballscrew-${design}${name}` });
-  document.body.append(link);
-  link.click();
-  link.remove();
-  setTimeout(() => URL.revokeObjectURL(address), 10_000);
 }
 
 /**

@@ -1,8 +1,9 @@
 // Files to save: the case, the answer, the curve, the drawing, the report.
 
 import * as designs from "./designs.js";
-import { byId, csv, element, save } from "./dom.js";
+import { byId, csv, element } from "./dom.js";
 import { runJob } from "./jobs.js";
+import { save } from "./saving.js";
 import { isSilent, linesOf, send } from "./server.js";
 import { text } from "./texts.js";
 

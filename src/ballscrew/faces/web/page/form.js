@@ -57,8 +57,9 @@ export function build(source) {
   );
   // the list of starts stays: typing the first letters of one is not interrupted
   if (isFirst) form.append(startField(source));
+  const helping = help.placeIn(form);
   while (form.children.length > 1) form.lastChild?.remove();
-  form.append(...parts, help.placeIn(form));
+  form.append(...parts, helping);
   const { start, changes, file } = state.designs[state.show];
   showStart(start, Object.hasOwn(vocabulary.starts, start) ? file : undefined);
   byId("reset").hidden = !Object.keys(changes).length;

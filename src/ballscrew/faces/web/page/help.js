@@ -44,33 +44,34 @@ const PAGES = {
   deviations: "nut",
 };
 
-const place = element("aside", { id: "help", "aria-label": text("help.label") });
-
 /**
  * The place of the help, at the lower end of the form.
  *
  * @param {HTMLElement} form
  */
 export function placeIn(form) {
-  if (!place.parentElement) form.addEventListener("focusin", ({ target }) => follow(target));
-  if (!place.childElementCount) place.hidden = true;
+  const before = form.querySelector("#help");
+  if (before) return before;
+  const place = element("aside", { id: "help", "aria-label": text("help.label"), hidden: true });
+  form.addEventListener("focusin", ({ target }) => follow(place, target));
   return place;
 }
 
-/** @param {EventTarget | null} target */
-function follow(target) {
+/** @param {HTMLElement} place @param {EventTarget | null} target */
+function follow(place, target) {
   const field = target instanceof Element ? target.closest("[data-path]") : null;
   const path = field instanceof HTMLElement ? field.dataset.path : undefined;
-  if (path) show(path);
+  if (path) show(place, path);
   else if (!(target instanceof Node && place.contains(target))) place.hidden = true;
 }
 
 /**
  * Show the help of a field.
  *
+ * @param {HTMLElement} place
  * @param {string} path
  */
-function show(path) {
+function show(place, path) {
   const { description = "", "x-symbol": tex, "x-hint": hint } = fieldOf(path) ?? {};
   const help = helpIn(path, description);
   const advice = translated(hint ?? "");

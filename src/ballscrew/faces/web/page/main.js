@@ -5,7 +5,7 @@ import * as bath from "./bath.js";
 import * as cards from "./cards.js";
 import { consequences } from "./consequences.js";
 import * as designs from "./designs.js";
-import { byId, element, nameFiles, within } from "./dom.js";
+import { byId, element, within } from "./dom.js";
 import * as downloads from "./downloads.js";
 import * as files from "./files.js";
 import * as form from "./form.js";
@@ -178,7 +178,6 @@ async function showForm() {
     const known = states.valueAt(answers.current().answer?.inputs, path);
     return typeof known === "string" ? { law: known } : known;
   };
-  nameFiles(designs.fileName(design));
   keepFocus(() => {
     form.build({ state, given, lawOf, onChange });
     form.showValues(effective());

@@ -18,6 +18,8 @@ const FAR = 0.05;
 const DIGITS = 3;
 /** Pixels around the diamond within which it is taken. */
 const REACH = 22;
+/** Pixels between the diamond and the words of the hover. */
+const GAP = 10;
 
 /**
  * A slider for a field, to stand below it; none where the field has none.
@@ -133,33 +135,29 @@ const FIELDS = {
 };
 
 /**
- * What can be dragged in a chart: the inputs along its axes, and where the diamond is drawn for a place of the pointer.
+ * What can be dragged in a chart: the inputs along its axes, where the diamond is drawn for a place of the pointer, and
+ * which trace it is.
  *
  * @typedef {{ x: string, y?: string, place: (x: number, y: number) => [number, number], trace: number }} Handle
  */
-/** The handle of each chart, in the units that it shows. @type {Map<string, Handle>} */
-const handles = new Map();
 
 /**
  * Let the diamond of a chart be dragged. The field takes the value when it is let go: until then the chart stays as it
  * is under the pointer.
  *
  * @param {string} id
- * @param {Handle} handle
+ * @param {() => Handle | undefined} handle that of the chart as it is drawn now
  */
 export function letDrag(id, handle) {
-  const isNew = !handles.has(id);
-  handles.set(id, handle);
-  if (!isNew) return;
   const holder = byId(id);
   /** @type {[number, number] | undefined} */
   let at;
   holder.addEventListener("pointerdown", (event) => take(event), { capture: true });
   holder.addEventListener("touchstart", (event) => at && event.stopPropagation(), { capture: true });
   holder.addEventListener("pointermove", (event) => {
-    uncover(id); // once it is drawn
+    uncover(); // once it is drawn
     if (at) move(event);
-    else holder.classList.toggle("near", isNear(id, event));
+    else holder.classList.toggle("near", isNear(event));
   });
   holder.addEventListener("pointerup", () => drop());
   holder.addEventListener("pointercancel", () => {
@@ -168,8 +166,8 @@ export function letDrag(id, handle) {
 
   /** @param {PointerEvent} event */
   function take(event) {
-    if (!isNear(id, event)) return;
-    at = pointOf(id);
+    if (!isNear(event)) return;
+    at = point();
     holder.setPointerCapture(event.pointerId);
     event.preventDefault();
     event.stopPropagation();
@@ -177,25 +175,57 @@ export function letDrag(id, handle) {
 
   /** @param {PointerEvent} event */
   function move(event) {
-    const plot = plotOf(id);
-    const { place, trace } = /** @type {Handle} */ (handles.get(id));
-    if (!plot) return;
+    const [plot, held] = [plotOf(id), handle()];
+    if (!plot || !held) return;
     const { left, top } = plot.getBoundingClientRect();
     const { xaxis, yaxis } = plot._fullLayout;
     /** @param {any} axis @param {number} pixel */
     const value = (axis, pixel) => axis.p2d(Math.min(axis._length, Math.max(0, pixel - axis._offset)));
-    at = place(value(xaxis, event.clientX - left), value(yaxis, event.clientY - top));
-    globalThis.Plotly.restyle(plot, { x: [[at[0]]], y: [[at[1]]] }, [trace]);
+    at = held.place(value(xaxis, event.clientX - left), value(yaxis, event.clientY - top));
+    globalThis.Plotly.restyle(plot, { x: [[at[0]]], y: [[at[1]]] }, [held.trace]);
   }
 
   function drop() {
-    if (!at) return;
-    const [x, y] = at;
+    const [held, dropped] = [handle(), at];
     at = undefined;
-    const { x: first, y: second } = /** @type {Handle} */ (handles.get(id));
+    if (!held || !dropped) return;
+    const [x, y] = dropped;
     asOne(() => {
-      commit(first, x);
-      if (second) commit(second, y);
+      commit(held.x, x);
+      if (held.y) commit(held.y, y);
+    });
+  }
+
+  /** The place of the diamond. @returns {[number, number] | undefined} */
+  function point() {
+    const trace = plotOf(id)?.data[handle()?.trace ?? -1];
+    return trace && [trace.x[0], trace.y[0]];
+  }
+
+  /** @param {PointerEvent} event */
+  function isNear(event) {
+    const [plot, there] = [plotOf(id), point()];
+    if (!plot || !there) return false;
+    const [x, y] = placeOf(plot, there);
+    return Math.hypot(x - event.clientX, y - event.clientY) < REACH;
+  }
+
+  /** Keep the words of the hover off the diamond: they stand below it, or above it where there is no room. */
+  function uncover() {
+    const plot = plotOf(id);
+    if (!plot || "uncovered" in plot.dataset) return;
+    plot.dataset.uncovered = "";
+    plot.on("plotly_hover", () => {
+      const layer = plot.querySelector(".hoverlayer");
+      const words = layer?.querySelector(".legend, .hovertext");
+      const there = point();
+      if (!layer || !words || !there) return;
+      layer.style.transform = "";
+      const { left, right, top, bottom } = words.getBoundingClientRect();
+      const [x, y] = placeOf(plot, there);
+      if (x < left - GAP || x > right + GAP || y < top - GAP || y > bottom + GAP) return;
+      const room = plot.getBoundingClientRect().bottom - (y + GAP) > bottom - top;
+      layer.style.transform = `translateY(${room ? y + GAP - top : y - GAP - bottom}px)`;
     });
   }
 }
@@ -209,34 +239,6 @@ function commit(name, shown) {
   put(path, units.toSI(shown, units.unitOf(name), si), si);
 }
 
-/** Plots whose hover keeps off their diamond. @type {WeakSet<Element>} */
-const uncovered = new WeakSet();
-/** Pixels between the diamond and the words of the hover. */
-const GAP = 10;
-
-/**
- * Keep the words of the hover off the diamond: they stand below it, or above it where there is no room.
- *
- * @param {string} id
- */
-function uncover(id) {
-  const plot = plotOf(id);
-  if (!plot || uncovered.has(plot)) return;
-  uncovered.add(plot);
-  plot.on("plotly_hover", () => {
-    const layer = plot.querySelector(".hoverlayer");
-    const words = layer?.querySelector(".legend, .hovertext");
-    const point = pointOf(id);
-    if (!layer || !words || !point) return;
-    layer.style.transform = "";
-    const { left, right, top, bottom } = words.getBoundingClientRect();
-    const [x, y] = placeOf(plot, point);
-    if (x < left - GAP || x > right + GAP || y < top - GAP || y > bottom + GAP) return;
-    const room = plot.getBoundingClientRect().bottom - (y + GAP) > bottom - top;
-    layer.style.transform = `translateY(${room ? y + GAP - top : y - GAP - bottom}px)`;
-  });
-}
-
 /** Where a point of a plot is on the screen. @param {any} plot @param {[number, number]} point @returns {[number, number]} */
 function placeOf(plot, point) {
   const { left, top } = plot.getBoundingClientRect();
@@ -248,18 +250,4 @@ function placeOf(plot, point) {
 function plotOf(id) {
   const plot = /** @type {any} */ (byId(id).querySelector(".plot"));
   return plot?._fullLayout?.xaxis ? plot : undefined;
-}
-
-/** The place of the diamond. @param {string} id @returns {[number, number] | undefined} */
-function pointOf(id) {
-  const trace = plotOf(id)?.data[handles.get(id)?.trace ?? -1];
-  return trace && [trace.x[0], trace.y[0]];
-}
-
-/** @param {string} id @param {PointerEvent} event */
-function isNear(id, event) {
-  const [plot, point] = [plotOf(id), pointOf(id)];
-  if (!plot || !point) return false;
-  const [x, y] = placeOf(plot, point);
-  return Math.hypot(x - event.clientX, y - event.clientY) < REACH;
 }

@@ -1,6 +1,8 @@
 // A chart in its place: the plot, its legend, its numbers as a table, and both as files.
 
-import { byId, csv, element, save, table, within } from "./dom.js";
+import { byId, csv, element, table, within } from "./dom.js";
+import { letDrag } from "./operating_point.js";
+import { save } from "./saving.js";
 import { hasComma, localised, text, textOr } from "./texts.js";
 
 /** @typedef {{ ink: string, line: string, panel: string, accent: string, second: string }} Colours */
@@ -18,6 +20,7 @@ import { hasComma, localised, text, textOr } from "./texts.js";
  * @property {(colours: Colours) => Figure} figure
  * @property {(colours: Colours) => LegendEntry[]} legend
  * @property {() => [string[], import("./dom.js").Cell[][]]} numbers
+ * @property {import("./operating_point.js").Handle} [drag] its diamond, where that can be dragged
  */
 
 /** plotly.js is large: the numbers do not wait for it. @type {Promise<void>} */
@@ -34,44 +37,18 @@ const ON_PAPER = { width: 660, height: 210 };
 /** Colours of what is printed or saved: light, whatever the screen is. @type {Colours} */
 const PAPER = { ink: "#1c2127", line: "#d5dade", panel: "#ffffff", accent: "#0062a0", second: "#a34a00" };
 
-/** Charts of the page, by their place. @type {Map<string, Chart>} */
-const charts = new Map();
-/** Places in or near the viewport. @type {Set<string>} */
-const visible = new Set();
-/** Charts that are drawn when they come into the viewport. @type {Set<string>} */
-const pending = new Set();
-/** @type {Colours | undefined} */
-let screenColours;
-
-// charts outside the viewport are drawn when they come into it: that halves the time of a key press
-const observer = new IntersectionObserver(
-  (entries) => {
-    for (const { target, isIntersecting } of entries) {
-      if (isIntersecting) visible.add(target.id);
-      else visible.delete(target.id);
-      if (isIntersecting && pending.delete(target.id)) show(target.id, colours());
-    }
-  },
-  { rootMargin: "250px" },
-);
-for (const place of document.querySelectorAll(".chart")) observer.observe(place);
-
-/** Places that were made after the page was loaded, by their names. @type {Map<string, Element>} */
-const made = new Map();
-
-/**
- * Watch a place for a chart that was made after the page was loaded; one of the same name is done with.
- *
- * @param {Element} place
- */
-export function watch(place) {
-  const before = made.get(place.id);
-  if (before && before !== place) {
-    observer.unobserve(before);
-    purge(before);
-  }
-  made.set(place.id, place);
-  observer.observe(place);
+/** Colours of the screen, which has two sets of them. @returns {Colours} */
+function coloursOfScreen() {
+  const style = getComputedStyle(document.documentElement);
+  /** @param {string} name */
+  const colour = (name) => style.getPropertyValue(`--${name}`).trim();
+  return {
+    ink: colour("ink"),
+    line: colour("line"),
+    panel: colour("panel"),
+    accent: colour("accent"),
+    second: colour("second"),
+  };
 }
 
 /**
@@ -83,22 +60,6 @@ export function watch(place) {
 function purge(place) {
   const plot = place.querySelector(".plot");
   if (plot) globalThis.Plotly?.purge(plot);
-}
-
-function colours() {
-  if (!screenColours) {
-    const style = getComputedStyle(document.documentElement);
-    /** @param {string} name */
-    const colour = (name) => style.getPropertyValue(`--${name}`).trim();
-    screenColours = {
-      ink: colour("ink"),
-      line: colour("line"),
-      panel: colour("panel"),
-      accent: colour("accent"),
-      second: colour("second"),
-    };
-  }
-  return screenColours;
 }
 
 /**
@@ -142,89 +103,6 @@ export function layout({ ink, line, panel }, x, y, more = {}) {
   };
 }
 
-/**
- * Draw a chart in its place.
- *
- * @param {string} id
- * @param {Chart} chart
- */
-export async function draw(id, chart) {
-  await loaded;
-  charts.set(id, chart);
-  const holder = byId(id);
-  holder.hidden = false;
-  if (!holder.querySelector(".plot")) frame(id, chart, holder);
-  within(holder, ".plot").setAttribute("aria-label", chart.description);
-  showLegend(id, chart.legend(colours()));
-  showNumbers(id, holder);
-  if (visible.has(id)) await show(id, colours());
-  else pending.add(id);
-}
-
-/**
- * @param {string} id
- * @param {Colours} palette
- * @param {Layout} more
- */
-async function show(id, palette, more = {}) {
-  const chart = charts.get(id);
-  if (!chart) return;
-  const { traces, layout: own } = chart.figure(palette);
-  await globalThis.Plotly.react(within(byId(id), ".plot"), traces, { ...own, ...more }, CONFIG);
-}
-
-/**
- * Take a chart away, of which there is nothing to show.
- *
- * @param {string} id
- */
-export function hide(id) {
-  charts.delete(id);
-  pending.delete(id);
-  byId(id).hidden = true;
-}
-
-/**
- * The reason in place of a chart that could not be computed.
- *
- * @param {string} id
- * @param {string} reason
- */
-export function showFailure(id, reason) {
-  charts.delete(id);
-  pending.delete(id);
-  purge(byId(id));
-  byId(id).replaceChildren(element("p", { class: "warning" }, text("chart.none", { reason })));
-}
-
-/**
- * @param {string} id
- * @param {Chart} chart
- * @param {HTMLElement} holder
- */
-function frame(id, { name }, holder) {
-  const words = textOr(`chart.name.${name}`, name.replaceAll("_", " ")); // five charts have the same buttons
-  const summary = element("summary", {}, text("chart.numbers"), element("span", { class: "hidden" }, `: ${words}`));
-  const details = element("details", {}, summary);
-  details.addEventListener("toggle", () => showNumbers(id, holder));
-  /**
-   * @param {string} kind
-   * @param {(chart: Chart) => void} action
-   */
-  const button = (kind, action) => {
-    const onclick = () => {
-      const chart = charts.get(id);
-      if (chart) action(chart);
-    };
-    return element("button", { type: "button", onclick, "aria-label": `${kind}: ${words}` }, kind);
-  };
-  holder.replaceChildren(
-    element("div", { class: "plot", role: "img" }),
-    element("ul", { class: "legend" }),
-    element("div", { class: "beside" }, details, button("CSV", saveCsv), button("SVG", saveSvg)),
-  );
-}
-
 /** @param {Chart} chart */
 function saveCsv(chart) {
   save(`-${chart.name}.csv`, new Blob([csv(...chart.numbers())], { type: "text/csv" }));
@@ -233,13 +111,12 @@ function saveCsv(chart) {
 /**
  * The table of numbers, where it is open.
  *
- * @param {string} id
+ * @param {Chart} chart
  * @param {HTMLElement} holder
  */
-function showNumbers(id, holder) {
+function showNumbers(chart, holder) {
   const details = holder.querySelector("details");
-  const chart = charts.get(id);
-  if (!details?.open || !chart) return;
+  if (!details?.open) return;
   const [headings, rows] = chart.numbers();
   const rounded = rows.map((cells) =>
     cells.map((cell) =>
@@ -285,23 +162,173 @@ async function saveSvg({ name, figure }) {
   save(`-${name}.svg`, new Blob([decodeURIComponent(found.slice(found.indexOf(",") + 1))], { type: "image/svg+xml" }));
 }
 
-/**
- * Draw all charts again, for paper or for the screen.
- *
- * @param {Colours} palette
- * @param {Layout} [more]
- */
-function redraw(palette, more) {
-  for (const [id, chart] of charts) {
-    pending.delete(id);
-    showLegend(id, chart.legend(palette));
-    show(id, palette, more);
+/** The charts of the page. Those outside the viewport are drawn when they come into it: that halves the time of a key press. */
+class Charts {
+  /** By their places. @type {Map<string, Chart>} */
+  #charts = new Map();
+  /** Places in or near the viewport. @type {Set<string>} */
+  #visible = new Set();
+  /** Places of charts that are drawn when they come into the viewport. @type {Set<string>} */
+  #pending = new Set();
+  /** Places that were made after the page was loaded, by their names. @type {Map<string, Element>} */
+  #made = new Map();
+  /** Places whose diamond can be dragged. @type {Set<string>} */
+  #dragged = new Set();
+  /** @type {Colours | undefined} */
+  #colours;
+  #observer = new IntersectionObserver((entries) => this.#look(entries), { rootMargin: "250px" });
+
+  constructor() {
+    for (const place of document.querySelectorAll(".chart")) this.#observer.observe(place);
+    addEventListener("beforeprint", () => this.#redraw(PAPER, ON_PAPER));
+    addEventListener("afterprint", () => this.#redraw(this.#screen, { autosize: true }));
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+      this.#colours = undefined;
+      this.#redraw(this.#screen);
+    });
+  }
+
+  get #screen() {
+    this.#colours ??= coloursOfScreen();
+    return this.#colours;
+  }
+
+  /**
+   * Watch a place for a chart that was made after the page was loaded; one of the same name is done with.
+   *
+   * @param {Element} place
+   */
+  watch(place) {
+    const before = this.#made.get(place.id);
+    if (before && before !== place) {
+      this.#observer.unobserve(before);
+      purge(before);
+    }
+    this.#made.set(place.id, place);
+    this.#observer.observe(place);
+  }
+
+  /**
+   * Draw a chart in its place.
+   *
+   * @param {string} id
+   * @param {Chart} chart
+   */
+  async draw(id, chart) {
+    await loaded;
+    this.#charts.set(id, chart);
+    const holder = byId(id);
+    holder.hidden = false;
+    if (!holder.querySelector(".plot")) this.#frame(id, chart, holder);
+    if (chart.drag && !this.#dragged.has(id)) {
+      this.#dragged.add(id);
+      letDrag(id, () => this.#charts.get(id)?.drag);
+    }
+    within(holder, ".plot").setAttribute("aria-label", chart.description);
+    showLegend(id, chart.legend(this.#screen));
+    showNumbers(chart, holder);
+    if (this.#visible.has(id)) await this.#show(id, this.#screen);
+    else this.#pending.add(id);
+  }
+
+  /**
+   * Take a chart away, of which there is nothing to show.
+   *
+   * @param {string} id
+   */
+  hide(id) {
+    this.#charts.delete(id);
+    this.#pending.delete(id);
+    byId(id).hidden = true;
+  }
+
+  /**
+   * The reason in place of a chart that could not be computed.
+   *
+   * @param {string} id
+   * @param {string} reason
+   */
+  showFailure(id, reason) {
+    this.#charts.delete(id);
+    this.#pending.delete(id);
+    purge(byId(id));
+    byId(id).replaceChildren(element("p", { class: "warning" }, text("chart.none", { reason })));
+  }
+
+  /** @param {IntersectionObserverEntry[]} entries */
+  #look(entries) {
+    for (const { target, isIntersecting } of entries) {
+      if (isIntersecting) this.#visible.add(target.id);
+      else this.#visible.delete(target.id);
+      if (isIntersecting && this.#pending.delete(target.id)) this.#show(target.id, this.#screen);
+    }
+  }
+
+  /**
+   * @param {string} id
+   * @param {Colours} palette
+   * @param {Layout} more
+   */
+  async #show(id, palette, more = {}) {
+    const chart = this.#charts.get(id);
+    if (!chart) return;
+    const { traces, layout: own } = chart.figure(palette);
+    await globalThis.Plotly.react(within(byId(id), ".plot"), traces, { ...own, ...more }, CONFIG);
+  }
+
+  /**
+   * Draw all charts again, for paper or for the screen.
+   *
+   * @param {Colours} palette
+   * @param {Layout} [more]
+   */
+  #redraw(palette, more) {
+    for (const [id, chart] of this.#charts) {
+      this.#pending.delete(id);
+      showLegend(id, chart.legend(palette));
+      this.#show(id, palette, more);
+    }
+  }
+
+  /**
+   * @param {string} id
+   * @param {Chart} chart
+   * @param {HTMLElement} holder
+   */
+  #frame(id, { name }, holder) {
+    /** @param {(chart: Chart) => void} action */
+    const withChart = (action) => () => {
+      const chart = this.#charts.get(id);
+      if (chart) action(chart);
+    };
+    const words = textOr(`chart.name.${name}`, name.replaceAll("_", " ")); // five charts have the same buttons
+    const summary = element("summary", {}, text("chart.numbers"), element("span", { class: "hidden" }, `: ${words}`));
+    const details = element("details", {}, summary);
+    details.addEventListener(
+      "toggle",
+      withChart((chart) => showNumbers(chart, holder)),
+    );
+    /**
+     * @param {string} kind
+     * @param {(chart: Chart) => void} action
+     */
+    const button = (kind, action) =>
+      element("button", { type: "button", onclick: withChart(action), "aria-label": `${kind}: ${words}` }, kind);
+    holder.replaceChildren(
+      element("div", { class: "plot", role: "img" }),
+      element("ul", { class: "legend" }),
+      element("div", { class: "beside" }, details, button("CSV", saveCsv), button("SVG", saveSvg)),
+    );
   }
 }
 
-addEventListener("beforeprint", () => redraw(PAPER, ON_PAPER));
-addEventListener("afterprint", () => redraw(colours(), { autosize: true }));
-matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
-  screenColours = undefined;
-  redraw(colours());
-});
+const charts = new Charts();
+
+/** @type {Charts["watch"]} */
+export const watch = (place) => charts.watch(place);
+/** @type {Charts["draw"]} */
+export const draw = (id, chart) => charts.draw(id, chart);
+/** @type {Charts["hide"]} */
+export const hide = (id) => charts.hide(id);
+/** @type {Charts["showFailure"]} */
+export const showFailure = (id, reason) => charts.showFailure(id, reason);

@@ -111,23 +111,28 @@ export function rounded(name, value, band) {
   return { text: written, interval: `${text("answer.interval", { low, high })}${end}` };
 }
 
-/** @type {ReturnType<typeof setTimeout>} */
-let announcement;
-let announced = "";
+/** What screen readers are told of the answer. */
+class Announcer {
+  #words = "";
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  #timer;
 
-/**
- * Announce a text to screen readers, once typing has come to rest.
- *
- * @param {string} words
- */
-function announce(words) {
-  if (words === announced) return;
-  announced = words;
-  clearTimeout(announcement);
-  announcement = setTimeout(() => {
-    byId("said").textContent = words;
-  }, ANNOUNCE_AFTER);
+  /**
+   * Announce a text once typing has come to rest.
+   *
+   * @param {string} words
+   */
+  announce(words) {
+    if (words === this.#words) return;
+    this.#words = words;
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => {
+      byId("said").textContent = words;
+    }, ANNOUNCE_AFTER);
+  }
 }
+
+const announcer = new Announcer();
 
 /**
  * Show everything of one answer but its charts.
@@ -149,7 +154,7 @@ export function show(answer, { band, checks }) {
   const summary = `${numbersInWords}${inHeadline(answer)}${checks ? ` ${verdict(checks)}` : ""}`;
   byId("summary").textContent = summary;
   if (!byId("results").classList.contains("stale")) {
-    announce(summary);
+    announcer.announce(summary);
     document.title = `${torque.text} · ballscrew`;
   }
   showVerdicts(answer);
@@ -334,7 +339,7 @@ export function fail({ lines, said }) {
   const standing = text("answer.standing");
   const all = before ? [...lines, standing] : lines;
   byId("faults").replaceChildren(...all.map((line) => element("p", {}, line)));
-  announce(before ? `${said} ${standing}` : said);
+  announcer.announce(before ? `${said} ${standing}` : said);
 }
 
 export function succeed() {

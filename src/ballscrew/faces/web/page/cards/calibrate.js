@@ -1,8 +1,9 @@
 // The card of a calibration: a log, what its columns were taken for, the fit, and the case with what was found.
 
 import * as designs from "../designs.js";
-import { element, save, scrolling, table } from "../dom.js";
+import { element, scrolling, table } from "../dom.js";
 import { watch } from "../plot.js";
+import { save } from "../saving.js";
 import { ask, linesOf, sendJson } from "../server.js";
 import { ofServer, text } from "../texts.js";
 import * as units from "../units.js";

@@ -11,11 +11,11 @@ export const PLACES = ["calibrate-model-chart", "calibrate-residual-chart"];
 /** What residuals are shown over, if the log has it. @type {Record<string, typeof FORCE>} */
 const OVER = { screw_speed: TURNING, axial_load: FORCE, temperature: TEMPERATURE, time: TIME };
 const KINDS = ["fitted", "held_out", "outlier"];
+/** The menu of what the residuals are shown over, and what that is at first. */
+const MENU = "calibrate-over";
+const USUAL = "screw_speed";
 
 /** @typedef {{ kinds: string[], measured: number[], predicted: number[] } & Record<string, number[]>} Picture */
-
-/** What the residuals are shown over. */
-let over = "screw_speed";
 
 /** @param {FitAnswer} found */
 export function show(found) {
@@ -50,13 +50,14 @@ export function show(found) {
       picture.kinds.map((kind, place) => [shown.measured[place], shown.predicted[place], kind]),
     ],
   });
-  residuals(found, picture);
+  const before = /** @type {HTMLSelectElement | null} */ (document.getElementById(MENU));
+  residuals(found, picture, before?.value ?? USUAL);
 }
 
-/** @param {FitAnswer} found @param {Picture} picture */
-function residuals(found, picture) {
+/** @param {FitAnswer} found @param {Picture} picture @param {string} wanted what they are shown over, if the log has it */
+function residuals(found, picture, wanted) {
   const there = Object.keys(OVER).filter((name) => name in picture);
-  if (!there.includes(over)) [over] = there;
+  const over = there.includes(wanted) ? wanted : there[0];
   const quantity = OVER[over];
   const x = quantity.all(picture[over]);
   const off = TORQUE.all(picture.residual);
@@ -94,21 +95,20 @@ function residuals(found, picture) {
       picture.kinds.map((kind, place) => [x[place], off[place], kind]),
     ],
   });
-  menu(found, picture, there);
+  menu(found, picture, there, over);
 }
 
-/** A menu of what the residuals are shown over. @param {FitAnswer} found @param {Picture} picture @param {string[]} there */
-function menu(found, picture, there) {
-  const id = "calibrate-over";
-  document.getElementById(id)?.closest("p")?.remove();
-  const select = element("select", { id }, ...there.map((name) => element("option", { value: name }, nameOf(name))));
+/** A menu of what the residuals are shown over. @param {FitAnswer} found @param {Picture} picture @param {string[]} there @param {string} over */
+function menu(found, picture, there, over) {
+  document.getElementById(MENU)?.closest("p")?.remove();
+  const options = there.map((name) => element("option", { value: name }, nameOf(name)));
+  const select = element("select", { id: MENU }, ...options);
   select.value = over;
   select.addEventListener("change", () => {
-    over = select.value;
-    residuals(found, picture);
-    byId(id).focus();
+    residuals(found, picture, select.value);
+    byId(MENU).focus();
   });
-  const line = element("p", { class: "card-start" }, element("label", { for: id }, text("calibrate.over")), select);
+  const line = element("p", { class: "card-start" }, element("label", { for: MENU }, text("calibrate.over")), select);
   byId(PLACES[1]).after(line);
 }
 

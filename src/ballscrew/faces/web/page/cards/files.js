@@ -1,9 +1,10 @@
 // The card of files: designs by name, projects, screws of one's own, and what stays in this browser.
 
 import * as designs from "../designs.js";
-import { byId, element, save } from "../dom.js";
+import { byId, element } from "../dom.js";
 import * as keeping from "../keeping.js";
 import * as opening from "../opening.js";
+import { save } from "../saving.js";
 import { linesOf, send } from "../server.js";
 import { LETTERS } from "../state.js";
 import { language, text } from "../texts.js";

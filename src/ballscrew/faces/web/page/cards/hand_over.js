@@ -1,7 +1,8 @@
 // The card of a hand-over: a target, its choices, the error of what is made, its files, and the command for the same.
 
 import * as designs from "../designs.js";
-import { element, save, scrolling, table } from "../dom.js";
+import { element, scrolling, table } from "../dom.js";
+import { save } from "../saving.js";
 import { get } from "../server.js";
 import { ofServer, text, textOr } from "../texts.js";
 import * as units from "../units.js";
