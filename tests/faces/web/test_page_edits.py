@@ -59,13 +59,13 @@ def test_undo_takes_one_edit_back(visit):
 
 
 EDITS = """async (edits) => {
-  const { asOne, edit } = await import("/page/history.js");
+  const { entries } = await import("/page/history.js");
   const address = location.hash;
-  const one = ([value, path]) => edit(value ? `${address}&x=${value}` : address, path);
+  const one = ([value, path]) => entries.edit(value ? `${address}&x=${value}` : address, path);
   const place = () => history.state?.place ?? 0;
   const before = place();
   for (const step of edits) {
-    if (Array.isArray(step[0])) asOne(() => step.forEach(one));
+    if (Array.isArray(step[0])) entries.asOne(() => step.forEach(one));
     else one(step);
   }
   return place() - before;
@@ -255,12 +255,12 @@ def test_a_warning_is_said_once(visit):
 
 #: The duty of the second edit is answered long after that of the third one.
 LATE = """async () => {
-  const { current, keepWhole } = await import("/page/answers.js");
-  const found = current().whole.case;
+  const { answers } = await import("/page/answers.js");
+  const found = answers.current().whole.case;
   const of = (mass) => ({ ...found, axis: { ...found.axis, mass } });
   const { fetch } = window;
-  const checks = () => JSON.stringify(current().checks);
-  await keepWhole(of("400 kg"));
+  const checks = () => JSON.stringify(answers.current().checks);
+  await answers.keepWhole(of("400 kg"));
   const before = checks();
   window.fetch = async (address, options) => {
     const answer = await fetch(address, { ...options, signal: undefined });
@@ -268,8 +268,8 @@ LATE = """async () => {
     return answer;
   };
   try {
-    const late = keepWhole(of("4000 kg"));
-    await keepWhole(of("400 kg"));
+    const late = answers.keepWhole(of("4000 kg"));
+    await answers.keepWhole(of("400 kg"));
     const then = checks();
     await late;
     return [before, then, checks()];

@@ -90,7 +90,7 @@ def test_a_limit_that_was_reached_is_said_as_it_is(visit, start):
 
 DUPLICATED = """async () => {
   const jobs = await import("/page/jobs.js");
-  const { own } = await import("/page/keeping.js");
+  const { keeping } = await import("/page/keeping.js");
   const asked = [];
   const { fetch } = window;
   window.fetch = async (address, { method = "GET" }) => {
@@ -103,7 +103,7 @@ DUPLICATED = """async () => {
     copy("another");
     const found = jobs.keptJob("test");
     await jobs.runJob("duty", {}, { place: "test", signal });
-    copy(own());
+    copy(keeping.own());
     await jobs.runJob("duty", {}, { place: "test", signal });
     const cancelled = await jobs.runJob("duty", { other: 1 }, { place: "test", signal: AbortSignal.abort() })
       .catch((error) => error.name);

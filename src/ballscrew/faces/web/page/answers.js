@@ -5,17 +5,18 @@ import * as charts from "./charts.js";
 import * as checks from "./checks.js";
 import { showDesigns, showModels } from "./compare.js";
 import * as curves from "./curves.js";
-import { titleOf } from "./designs.js";
+import { caseOf, titleOf } from "./designs.js";
 import { byId } from "./dom.js";
 import * as drawings from "./drawing.js";
-import { jump } from "./form.js";
+import * as inputs from "./inputs.js";
 import { inWords, labelOf } from "./messages.js";
 import { showFailure } from "./plot.js";
 import * as results from "./results.js";
 import { withoutCards } from "./schema.js";
-import { ask, keep, known, linesOf, Problem, sendJson, sendLines } from "./server.js";
+import { ask, keep, known, Latest, linesOf, Problem, sendJson, sendLines } from "./server.js";
 import { LETTERS } from "./state.js";
 import * as stiffness from "./stiffness.js";
+import { store } from "./store.js";
 import * as temperatures from "./temperatures.js";
 import { text } from "./texts.js";
 import { vocabulary } from "./vocabulary.js";
@@ -51,23 +52,9 @@ const PAINT_TIMEOUT = 500;
  * @property {Compare} [models]
  */
 
-let requests = new AbortController();
-let bandRequest = new AbortController();
-/** That of the checks: an edit of a card asks for them alone. */
-let checksRequest = new AbortController();
-/** @type {ReturnType<typeof setTimeout>} */
-let bandTimer;
-/** @type {Displayed} */
-let displayed = { band: null, starts: [] };
-
-/** The answer on the page, or none yet. */
-export function current() {
-  return displayed;
-}
-
 /**
  * What is asked: the case on the page, without what only cards ask about and as a file has it; the designs side by side,
- * of which those ``beside`` are sent with it, as far as nothing is known of them; and who is told of faults.
+ * of which those ``beside`` are sent with it, as far as nothing is known of them.
  *
  * @typedef {object} Question
  * @property {Body} body
@@ -75,50 +62,9 @@ export function current() {
  * @property {Body[]} designs
  * @property {Body[]} beside
  * @property {boolean} band
- * @property {(faults: FaultLine[]) => results.Refusal} report
  * @property {number} start
  * @property {AbortSignal} signal
  */
-
-/**
- * Show the answer of the current case, and all designs side by side. Requests of the cases before are cancelled.
- *
- * @param {() => Promise<Record<string, unknown>[]>} cases
- * @param {import("./state.js").State} state
- * @param {(faults: FaultLine[]) => results.Refusal} report shows faults beside their fields
- */
-export async function update(cases, { designs: listed, show, band, own }, report) {
-  requests.abort();
-  requests = new AbortController();
-  const { signal } = requests;
-  const start = performance.now();
-  clearTimeout(bandTimer);
-  bandRequest.abort();
-  checksRequest.abort();
-  displayed.starts = listed.map(titleOf);
-  byId("results").setAttribute("aria-busy", "true");
-  try {
-    const found = await cases();
-    if (signal.aborted) return;
-    const bodies = found.map((one) => ({ case: withoutCards(one) }));
-    const body = bodies[show];
-    const designs = atOnePoint(bodies, own);
-    const beside = designs.filter((one) => !isSame(one, body) && !(known("run", one) && known("check", one)));
-    const asked = { body, whole: { case: found[show] }, designs, beside, band, report, start, signal };
-    try {
-      await follow(asked);
-    } catch (error) {
-      if (signal.aborted) return;
-      const hasFaults = error instanceof Problem && error.faults.length;
-      results.fail(hasFaults ? report(error.faults) : results.refusal(linesOf(error)));
-      await showTable(asked, await others(asked, error));
-    }
-  } catch (error) {
-    if (!signal.aborted) results.fail(results.refusal(linesOf(error)));
-  } finally {
-    if (!signal.aborted) byId("results").setAttribute("aria-busy", "false");
-  }
-}
 
 /**
  * Ask for each design by itself where the case on the page is refused. Returns why designs have no answers.
@@ -157,169 +103,6 @@ function atOnePoint(bodies, own) {
  */
 function isSame(one, other) {
   return JSON.stringify(one) === JSON.stringify(other);
-}
-
-/**
- * Ask, and draw each line of the answer as it comes.
- *
- * @param {Question} asked
- */
-async function follow(asked) {
-  const { body, beside, signal, start } = asked;
-  /** Why a design has no answer. @type {Map<Body, unknown>} */
-  const refused = new Map();
-  let waiting = 2 * (1 + beside.length);
-  let isWarm = false;
-  /** @type {Promise<void> | undefined} */
-  let judged;
-  for await (const line of sendLines("answers", { ...body, beside: beside.map((one) => one.case) }, signal)) {
-    if (signal.aborted) return;
-    const { question, place } = line;
-    if (question === "run" || question === "check") {
-      const sent = place ? beside[place - 1] : body;
-      if ("answer" in line) keep(question, sent, line.answer);
-      else if (question === "run") refused.set(sent, new Problem(line.problem));
-      waiting -= refused.has(sent) ? 2 : 1; // what is not run is not checked
-    }
-    if (place === 0) {
-      if (question === "run") showNumbers(/** @type {any} */ (line).answer, asked);
-      else if (question === "check") judged = showChecks(body);
-      else await CHARTS[question](line, asked);
-      isWarm ||= question === "cold_and_hot";
-    }
-    if (signal.aborted) return;
-    if (waiting === 0) {
-      waiting = -1;
-      await showTable(asked, refused);
-    }
-  }
-  await judged;
-  const { answer } = displayed;
-  if (signal.aborted || !answer) return;
-  if (!isWarm) temperatures.leaveOut(answer);
-  await measurePaint("all", start, signal);
-  if (!signal.aborted) showBand(asked.band);
-}
-
-/**
- * Show the numbers of the case.
- *
- * @param {Run} answer
- * @param {Question} asked
- */
-function showNumbers(answer, { body, whole, band: wanted, report, start, signal }) {
-  const key = JSON.stringify(body);
-  const { designs, asked, starts } = displayed;
-  /** @type {Displayed} */
-  const before = displayed.key === key ? displayed : { band: null, starts };
-  const { checks: checked, band, bandAlongSpeed } = before;
-  displayed = { body, whole, key, answer, checks: checked, band, bandAlongSpeed, designs, asked, starts };
-  report([]);
-  results.succeed();
-  if (wanted && !displayed.band) displayed.band = { state: "pending" };
-  results.show(answer, displayed);
-  bath.show(answer);
-  stiffness.show(answer);
-  measurePaint("numbers", start, signal);
-}
-
-/**
- * Show the checks of the case, and the verdict that they lead to: those over its cycle, if it has one. Those that were
- * asked for before are cancelled.
- *
- * @param {Body} body
- */
-async function showChecks(body) {
-  checksRequest.abort();
-  checksRequest = new AbortController();
-  const { signal } = checksRequest;
-  const { answer, whole } = displayed;
-  if (!answer) return;
-  /** @type {checks.Judged | undefined} */
-  let checked = known("check", body);
-  if (whole && isMoving(whole)) {
-    try {
-      checked = await checksOfCycle(whole, signal);
-    } catch (error) {
-      if (signal.aborted) return;
-      throw error;
-    }
-    if (signal.aborted) return;
-  }
-  displayed.checks = checked;
-  results.show(answer, displayed);
-  checks.show(checked, jump);
-}
-
-/** What draws each curve, and the drawing. @type {Record<string, (line: AnswerLine, asked: Question) => Promise<void>>} */
-const CHARTS = {
-  over_speed: async (line, asked) => {
-    await drawn("torque-chart", line, asked, (answer, found) => {
-      displayed.alongSpeed = found;
-      return drawTorque(answer);
-    });
-    measurePaint("chart", asked.start, asked.signal);
-    await drawn("film-chart", line, asked, (answer, found) => curves.film(found, answer));
-  },
-  cold_and_hot: (line, asked) =>
-    drawn("temperatures", line, asked, (answer, found) => {
-      displayed.hotAndCold = found;
-      temperatures.show(found, answer);
-    }),
-  over_both: (line, asked) =>
-    drawn("map-chart", line, asked, (answer, found) => {
-      displayed.everywhere = found;
-      return charts.map(found, answer);
-    }),
-  over_load: (line, asked) =>
-    drawn("pressure-chart", line, asked, (answer, found) => {
-      displayed.alongLoad = found;
-      return curves.pressure(found, answer);
-    }),
-  drawing: (line, asked) =>
-    drawn("drawing", line, asked, (_, found) => {
-      displayed.drawing = found;
-      drawings.show(found);
-    }),
-};
-
-/**
- * Draw an answer, once what was drawn before is on the screen, or show why there is none.
- *
- * @param {string} id
- * @param {AnswerLine} line
- * @param {Question} asked
- * @param {(answer: Run, found: any) => unknown} draw
- */
-async function drawn(id, line, { signal }, draw) {
-  if ("problem" in line) {
-    showFailure(id, new Problem(line.problem).lines.join("; "));
-    return;
-  }
-  await nextTask();
-  if (!signal.aborted && displayed.answer) await draw(displayed.answer, line.answer);
-}
-
-/**
- * Show all designs side by side, and add their bands where they are wanted.
- *
- * @param {Question} asked
- * @param {Map<Body, unknown>} refused why a design has no answer
- */
-async function showTable(asked, refused) {
-  const { designs, body, band } = asked;
-  /** @type {import("./compare.js").Answers} */
-  const found = {};
-  for (const [place, one] of designs.entries()) {
-    const sent = isSame(one, body) ? body : one;
-    found[LETTERS[place]] = refused.has(sent)
-      ? { reason: reasonOf(refused.get(sent)) }
-      : { run: known("run", one), ...(designs.length > 1 && { checks: known("check", one) }) };
-  }
-  displayed.designs = found;
-  displayed.asked = asked;
-  await showDesigns(found, displayed.starts, vocabulary.mechanisms);
-  if (band && designs.length > 1 && !refused.has(body)) addBands(asked);
 }
 
 /** Why a design has no answer, in words. @param {unknown} error */
@@ -371,102 +154,341 @@ function nextTask() {
   });
 }
 
-/** Draw the torque over the speed, with its band where that is there. @param {Run} answer */
-function drawTorque(answer) {
-  const { alongSpeed, band, bandAlongSpeed } = displayed;
-  return alongSpeed && charts.torque(alongSpeed, answer, vocabulary.mechanisms, band ? bandAlongSpeed : undefined);
-}
-
 /**
- * The band of the torque over the speed, at some of the points of its curve.
+ * Do something after a while, unless it is cancelled until then.
  *
- * @param {Body} body
- * @param {Run} answer
+ * @param {number} delay
  * @param {AbortSignal} signal
+ * @param {() => void} work
  */
-async function addBandAlongSpeed(body, answer, signal) {
-  const { alongSpeed } = displayed;
-  if (!alongSpeed) return;
-  const step = answer.loads ? STEP_OF_BAND.nut : STEP_OF_BAND.screw;
-  const all = /** @type {number[]} */ (alongSpeed.axes.screw_speed.values);
-  // counted from the ends of the chart, which have a band
-  const speeds = all.filter((_, place) => Math.min(place, all.length - 1 - place) % step === 0);
-  const vary = { screw_speed: `${speeds.join(", ")} rad/s` };
-  /** @type {Sweep | string} */
-  let found;
-  try {
-    found = await sendJson("sweep", { ...body, vary, outputs: ["screw_torque"], band: true }, signal);
-  } catch (error) {
-    if (signal.aborted) return;
-    found = linesOf(error).join("; ");
-  }
-  if (signal.aborted || alongSpeed !== displayed.alongSpeed) return;
-  displayed.bandAlongSpeed = found;
-  await drawTorque(answer);
+function after(delay, signal, work) {
+  const timer = setTimeout(work, delay);
+  signal.addEventListener("abort", () => clearTimeout(timer));
 }
 
-/**
- * Keep the case for files, of which only what cards ask about has changed; its cycle is judged anew.
- *
- * @param {Record<string, unknown>} found
- */
-export async function keepWhole(found) {
-  const before = displayed.whole;
-  displayed.whole = { case: found };
-  const { answer, body, whole } = displayed;
-  if (!answer || !body || !(isMoving(whole) || (before && isMoving(before)))) return;
-  try {
-    await showChecks(body);
-  } catch (error) {
-    results.fail(results.refusal(linesOf(error)));
-  }
-}
+/** The answers to the state of the page, as far as they are there. */
+class Answers {
+  #requests = new Latest();
+  #bands = new Latest();
+  /** Those of the checks: an edit of a card asks for them alone. */
+  #judging = new Latest();
+  /** @type {Displayed} */
+  #displayed = { band: null, starts: [] };
 
-/** Show all of it again in other units, without requests. */
-export function redisplay() {
-  const { answer, checks: checked, alongSpeed, everywhere, alongLoad, drawing, designs, starts, models } = displayed;
-  if (!answer) return;
-  results.show(answer, displayed);
-  stiffness.show(answer);
-  checks.show(checked, jump);
-  if (alongSpeed) {
-    drawTorque(answer);
-    curves.film(alongSpeed, answer);
+  constructor() {
+    drawings.NARROW.addEventListener("change", () => {
+      if (this.#displayed.drawing) drawings.show(this.#displayed.drawing);
+    });
   }
-  if (everywhere) charts.map(everywhere, answer);
-  if (alongLoad) curves.pressure(alongLoad, answer);
-  if (displayed.hotAndCold) temperatures.show(displayed.hotAndCold, answer);
-  if (drawing) drawings.show(drawing);
-  if (designs) showDesigns(designs, starts, vocabulary.mechanisms);
-  if (models) showModels(models);
-}
 
-/**
- * Compute and show the band where it is wanted, once typing has come to rest.
- *
- * @param {boolean} wanted
- */
-export function showBand(wanted) {
-  clearTimeout(bandTimer);
-  bandRequest.abort();
-  const { answer, body, band } = displayed;
-  if (!answer || !body) return;
-  /** @param {results.Band | null} found */
-  const display = (found) => {
-    displayed.band = found;
-    results.show(answer, displayed);
+  /** The answer on the page, or none yet. */
+  current() {
+    return this.#displayed;
+  }
+
+  /**
+   * Show the answer of the current case, and all designs side by side. Requests of the cases before are cancelled.
+   */
+  async update() {
+    const { designs: listed, show, band, own } = store.state;
+    const signal = this.#requests.begin();
+    const start = performance.now();
+    this.#bands.cancel();
+    this.#judging.cancel();
+    this.clearModels();
+    this.#displayed.starts = listed.map(titleOf);
+    byId("results").setAttribute("aria-busy", "true");
+    try {
+      const found = await Promise.all(listed.map(caseOf));
+      if (signal.aborted) return;
+      const bodies = found.map((one) => ({ case: withoutCards(one) }));
+      const body = bodies[show];
+      const designs = atOnePoint(bodies, own);
+      const beside = designs.filter((one) => !isSame(one, body) && !(known("run", one) && known("check", one)));
+      const asked = { body, whole: { case: found[show] }, designs, beside, band, start, signal };
+      try {
+        await this.#follow(asked);
+      } catch (error) {
+        if (signal.aborted) return;
+        const hasFaults = error instanceof Problem && error.faults.length;
+        results.fail(hasFaults ? inputs.showFaults(error.faults) : results.refusal(linesOf(error)));
+        await this.#showTable(asked, await others(asked, error));
+      }
+    } catch (error) {
+      if (!signal.aborted) results.fail(results.refusal(linesOf(error)));
+    } finally {
+      if (!signal.aborted) byId("results").setAttribute("aria-busy", "false");
+    }
+  }
+
+  /**
+   * Keep the case for files, of which only what cards ask about has changed; its cycle is judged anew.
+   *
+   * @param {Record<string, unknown>} found
+   */
+  async keepWhole(found) {
+    const before = this.#displayed.whole;
+    this.#displayed.whole = { case: found };
+    const { answer, body, whole } = this.#displayed;
+    if (!answer || !body || !(isMoving(whole) || (before && isMoving(before)))) return;
+    try {
+      await this.#showChecks(body);
+    } catch (error) {
+      results.fail(results.refusal(linesOf(error)));
+    }
+  }
+
+  /** Show all of it again in other units, without requests. */
+  redisplay() {
+    const found = this.#displayed;
+    const { answer, alongSpeed, everywhere, alongLoad, hotAndCold, drawing, designs, models } = found;
+    if (!answer) return;
+    results.show(answer, found);
+    stiffness.show(answer);
+    checks.show(found.checks);
+    if (alongSpeed) {
+      this.#drawTorque(answer);
+      curves.film(alongSpeed, answer);
+    }
+    if (everywhere) charts.map(everywhere, answer);
+    if (alongLoad) curves.pressure(alongLoad, answer);
+    if (hotAndCold) temperatures.show(hotAndCold, answer);
+    if (drawing) drawings.show(drawing);
+    if (designs) showDesigns(designs, found.starts, vocabulary.mechanisms);
+    if (models) showModels(models);
+  }
+
+  /**
+   * Compute and show the band where it is wanted, once typing has come to rest.
+   *
+   * @param {boolean} wanted
+   */
+  showBand(wanted) {
+    this.#bands.cancel();
+    const { answer, body, band } = this.#displayed;
+    if (!answer || !body) return;
+    if (!wanted) {
+      if (!band && !this.#displayed.bandAlongSpeed) return;
+      this.#displayBand(answer, null);
+      this.#drawTorque(answer);
+      return;
+    }
+    if (band && band.state !== "pending") return;
+    this.#displayBand(answer, { state: "pending" });
+    const signal = this.#bands.begin();
+    after(BAND_DELAY, signal, () => this.#addBand(body, answer, signal));
+  }
+
+  /**
+   * The bands of the designs side by side, or none of them.
+   *
+   * @param {boolean} wanted
+   */
+  showBandsOfDesigns(wanted) {
+    const { designs, starts, asked } = this.#displayed;
+    if (!designs || !asked || Object.keys(designs).length < 2) return;
+    for (const one of Object.values(designs)) delete one.band;
+    if (wanted) this.#addBands(asked);
+    else showDesigns(designs, starts, vocabulary.mechanisms);
+  }
+
+  /** Compute and show the case with all models and laws. */
+  async compareModels() {
+    const { body } = this.#displayed;
+    if (!body) return;
+    byId("models").textContent = text("models.pending");
+    try {
+      const found = await sendJson("compare", body);
+      if (body !== this.#displayed.body) {
+        this.clearModels();
+        return;
+      }
+      this.#displayed.models = found;
+      showModels(found);
+    } catch (error) {
+      byId("models").textContent = linesOf(error).join("; ");
+    }
+  }
+
+  /** Remove the models and laws of another case. */
+  clearModels() {
+    delete this.#displayed.models;
+    byId("models").textContent = "";
+  }
+
+  /**
+   * Ask, and draw each line of the answer as it comes.
+   *
+   * @param {Question} asked
+   */
+  async #follow(asked) {
+    const { body, beside, signal, start } = asked;
+    /** Why a design has no answer. @type {Map<Body, unknown>} */
+    const refused = new Map();
+    let waiting = 2 * (1 + beside.length);
+    let isWarm = false;
+    /** @type {Promise<void> | undefined} */
+    let judged;
+    for await (const line of sendLines("answers", { ...body, beside: beside.map((one) => one.case) }, signal)) {
+      if (signal.aborted) return;
+      const { question, place } = line;
+      if (question === "run" || question === "check") {
+        const sent = place ? beside[place - 1] : body;
+        if ("answer" in line) keep(question, sent, line.answer);
+        else if (question === "run") refused.set(sent, new Problem(line.problem));
+        waiting -= refused.has(sent) ? 2 : 1; // what is not run is not checked
+      }
+      if (place === 0) {
+        if (question === "run") this.#showNumbers(/** @type {any} */ (line).answer, asked);
+        else if (question === "check") judged = this.#showChecks(body);
+        else await this.#charts[question](line, asked);
+        isWarm ||= question === "cold_and_hot";
+      }
+      if (signal.aborted) return;
+      if (waiting === 0) {
+        waiting = -1;
+        await this.#showTable(asked, refused);
+      }
+    }
+    await judged;
+    const { answer } = this.#displayed;
+    if (signal.aborted || !answer) return;
+    if (!isWarm) temperatures.leaveOut(answer);
+    await measurePaint("all", start, signal);
+    if (!signal.aborted) this.showBand(asked.band);
+  }
+
+  /**
+   * Show the numbers of the case.
+   *
+   * @param {Run} answer
+   * @param {Question} asked
+   */
+  #showNumbers(answer, { body, whole, band: wanted, start, signal }) {
+    const key = JSON.stringify(body);
+    const { designs, asked, starts } = this.#displayed;
+    /** @type {Displayed} */
+    const before = this.#displayed.key === key ? this.#displayed : { band: null, starts };
+    const { checks: checked, band, bandAlongSpeed } = before;
+    this.#displayed = { body, whole, key, answer, checks: checked, band, bandAlongSpeed, designs, asked, starts };
+    inputs.showAnswer(answer);
+    results.succeed();
+    if (wanted && !this.#displayed.band) this.#displayed.band = { state: "pending" };
+    results.show(answer, this.#displayed);
+    bath.show(answer);
+    stiffness.show(answer);
+    measurePaint("numbers", start, signal);
+  }
+
+  /**
+   * Show the checks of the case, and the verdict that they lead to: those over its cycle, if it has one. Those that were
+   * asked for before are cancelled.
+   *
+   * @param {Body} body
+   */
+  async #showChecks(body) {
+    const signal = this.#judging.begin();
+    const { answer, whole } = this.#displayed;
+    if (!answer) return;
+    /** @type {checks.Judged | undefined} */
+    let checked = known("check", body);
+    if (whole && isMoving(whole)) {
+      try {
+        checked = await checksOfCycle(whole, signal);
+      } catch (error) {
+        if (signal.aborted) return;
+        throw error;
+      }
+      if (signal.aborted) return;
+    }
+    this.#displayed.checks = checked;
+    results.show(answer, this.#displayed);
+    checks.show(checked);
+  }
+
+  /** What draws each curve, and the drawing. @type {Record<string, (line: AnswerLine, asked: Question) => Promise<void>>} */
+  #charts = {
+    over_speed: async (line, asked) => {
+      await this.#drawn("torque-chart", line, asked, (answer, found) => {
+        this.#displayed.alongSpeed = found;
+        return this.#drawTorque(answer);
+      });
+      measurePaint("chart", asked.start, asked.signal);
+      await this.#drawn("film-chart", line, asked, (answer, found) => curves.film(found, answer));
+    },
+    cold_and_hot: (line, asked) =>
+      this.#drawn("temperatures", line, asked, (answer, found) => {
+        this.#displayed.hotAndCold = found;
+        temperatures.show(found, answer);
+      }),
+    over_both: (line, asked) =>
+      this.#drawn("map-chart", line, asked, (answer, found) => {
+        this.#displayed.everywhere = found;
+        return charts.map(found, answer);
+      }),
+    over_load: (line, asked) =>
+      this.#drawn("pressure-chart", line, asked, (answer, found) => {
+        this.#displayed.alongLoad = found;
+        return curves.pressure(found, answer);
+      }),
+    drawing: (line, asked) =>
+      this.#drawn("drawing", line, asked, (_, found) => {
+        this.#displayed.drawing = found;
+        drawings.show(found);
+      }),
   };
-  if (!wanted) {
-    if (!band && !displayed.bandAlongSpeed) return;
-    display(null);
-    drawTorque(answer);
-    return;
+
+  /**
+   * Draw an answer, once what was drawn before is on the screen, or show why there is none.
+   *
+   * @param {string} id
+   * @param {AnswerLine} line
+   * @param {Question} asked
+   * @param {(answer: Run, found: any) => unknown} draw
+   */
+  async #drawn(id, line, { signal }, draw) {
+    if ("problem" in line) {
+      showFailure(id, new Problem(line.problem).lines.join("; "));
+      return;
+    }
+    await nextTask();
+    if (!signal.aborted && this.#displayed.answer) await draw(this.#displayed.answer, line.answer);
   }
-  if (band && band.state !== "pending") return;
-  display({ state: "pending" });
-  bandRequest = new AbortController();
-  const { signal } = bandRequest;
-  bandTimer = setTimeout(async () => {
+
+  /**
+   * Show all designs side by side, and add their bands where they are wanted.
+   *
+   * @param {Question} asked
+   * @param {Map<Body, unknown>} refused why a design has no answer
+   */
+  async #showTable(asked, refused) {
+    const { designs, body, band } = asked;
+    /** @type {import("./compare.js").Answers} */
+    const found = {};
+    for (const [place, one] of designs.entries()) {
+      const sent = isSame(one, body) ? body : one;
+      found[LETTERS[place]] = refused.has(sent)
+        ? { reason: reasonOf(refused.get(sent)) }
+        : { run: known("run", one), ...(designs.length > 1 && { checks: known("check", one) }) };
+    }
+    this.#displayed.designs = found;
+    this.#displayed.asked = asked;
+    await showDesigns(found, this.#displayed.starts, vocabulary.mechanisms);
+    if (band && designs.length > 1 && !refused.has(body)) this.#addBands(asked);
+  }
+
+  /** Draw the torque over the speed, with its band where that is there. @param {Run} answer */
+  #drawTorque(answer) {
+    const { alongSpeed, band, bandAlongSpeed } = this.#displayed;
+    return alongSpeed && charts.torque(alongSpeed, answer, vocabulary.mechanisms, band ? bandAlongSpeed : undefined);
+  }
+
+  /**
+   * @param {Body} body
+   * @param {Run} answer
+   * @param {AbortSignal} signal
+   */
+  async #addBand(body, answer, signal) {
     /** @type {results.Band} */
     let found;
     try {
@@ -474,68 +496,68 @@ export function showBand(wanted) {
     } catch (error) {
       found = { state: "failed", lines: linesOf(error) };
       if (error instanceof Problem && error.isBusy && !signal.aborted) {
-        bandTimer = setTimeout(() => showBand(wanted), BUSY_DELAY); // nobody has asked for it by hand
+        after(BUSY_DELAY, signal, () => this.showBand(true)); // nobody has asked for it by hand
         return;
       }
     }
     if (signal.aborted) return;
-    display(found);
-    if (found.state === "done") await addBandAlongSpeed(body, answer, signal);
-  }, BAND_DELAY);
-}
+    this.#displayBand(answer, found);
+    if (found.state === "done") await this.#addBandAlongSpeed(body, answer, signal);
+  }
 
-/**
- * The bands of the designs side by side, or none of them.
- *
- * @param {boolean} wanted
- */
-export function showBandsOfDesigns(wanted) {
-  const { designs, starts, asked } = displayed;
-  if (!designs || !asked || Object.keys(designs).length < 2) return;
-  for (const one of Object.values(designs)) delete one.band;
-  if (wanted) addBands(asked);
-  else showDesigns(designs, starts, vocabulary.mechanisms);
-}
+  /** @param {Run} answer @param {results.Band | null} found */
+  #displayBand(answer, found) {
+    this.#displayed.band = found;
+    results.show(answer, this.#displayed);
+  }
 
-/**
- * The bands of the designs, one after the other, once typing has come to rest.
- *
- * @param {Question} asked
- */
-async function addBands({ designs, signal }) {
-  await new Promise((resolve) => setTimeout(resolve, BAND_DELAY));
-  for (const [place, body] of designs.entries()) {
-    const one = displayed.designs?.[LETTERS[place]];
-    if (signal.aborted || !one?.run || !displayed.band) continue;
+  /**
+   * The band of the torque over the speed, at some of the points of its curve.
+   *
+   * @param {Body} body
+   * @param {Run} answer
+   * @param {AbortSignal} signal
+   */
+  async #addBandAlongSpeed(body, answer, signal) {
+    const { alongSpeed } = this.#displayed;
+    if (!alongSpeed) return;
+    const step = answer.loads ? STEP_OF_BAND.nut : STEP_OF_BAND.screw;
+    const all = /** @type {number[]} */ (alongSpeed.axes.screw_speed.values);
+    // counted from the ends of the chart, which have a band
+    const speeds = all.filter((_, place) => Math.min(place, all.length - 1 - place) % step === 0);
+    const vary = { screw_speed: `${speeds.join(", ")} rad/s` };
+    /** @type {Sweep | string} */
+    let found;
     try {
-      one.band = await ask("band", body, signal);
-    } catch {
-      continue; // of this design there is none
+      found = await sendJson("sweep", { ...body, vary, outputs: ["screw_torque"], band: true }, signal);
+    } catch (error) {
+      if (signal.aborted) return;
+      found = linesOf(error).join("; ");
     }
-    if (!signal.aborted && displayed.designs) showDesigns(displayed.designs, displayed.starts, vocabulary.mechanisms);
+    if (signal.aborted || alongSpeed !== this.#displayed.alongSpeed) return;
+    this.#displayed.bandAlongSpeed = found;
+    await this.#drawTorque(answer);
+  }
+
+  /**
+   * The bands of the designs, one after the other, once typing has come to rest.
+   *
+   * @param {Question} asked
+   */
+  async #addBands({ designs, signal }) {
+    await new Promise((resolve) => setTimeout(resolve, BAND_DELAY));
+    for (const [place, body] of designs.entries()) {
+      const one = this.#displayed.designs?.[LETTERS[place]];
+      if (signal.aborted || !one?.run || !this.#displayed.band) continue;
+      try {
+        one.band = await ask("band", body, signal);
+      } catch {
+        continue; // of this design there is none
+      }
+      const { designs: all, starts } = this.#displayed;
+      if (!signal.aborted && all) showDesigns(all, starts, vocabulary.mechanisms);
+    }
   }
 }
 
-/** Compute and show the case with all models and laws. */
-export async function compareModels() {
-  const { body } = displayed;
-  if (!body) return;
-  byId("models").textContent = text("models.pending");
-  try {
-    const found = await sendJson("compare", body);
-    if (body !== displayed.body) {
-      clearModels();
-      return;
-    }
-    displayed.models = found;
-    showModels(found);
-  } catch (error) {
-    byId("models").textContent = linesOf(error).join("; ");
-  }
-}
-
-/** Remove the models and laws of another case. */
-export function clearModels() {
-  delete displayed.models;
-  byId("models").textContent = "";
-}
+export const answers = new Answers();

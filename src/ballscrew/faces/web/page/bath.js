@@ -38,6 +38,6 @@ export function show(answer) {
 
 /** Fill the bath of the current design, or leave that out again. */
 export function turn() {
-  if (isFull()) delete designs.current().changes[PATH];
-  else designs.change(PATH, FULL);
+  if (isFull()) designs.takeBack(PATH);
+  else designs.change({ [PATH]: FULL }, { rebuild: true, isStep: true });
 }

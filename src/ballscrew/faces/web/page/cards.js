@@ -1,19 +1,11 @@
 // Cards: parts of the page that are loaded when they are first opened, and that answer questions of their own.
 
-import * as designs from "./designs.js";
 import { byId, element } from "./dom.js";
-import { linesOf, waitForServer } from "./server.js";
+import { jump as jumpInForm } from "./form.js";
+import { connection, linesOf } from "./server.js";
+import { store } from "./store.js";
 import { text } from "./texts.js";
 
-/**
- * What a card gets from the page: ``keep`` writes the state into the address and tells all cards.
- *
- * @typedef {object} Page
- * @property {Vocabulary} vocabulary
- * @property {(path: string, unit: string) => void} setUnit chooses the unit of a field
- * @property {(path: string) => void} jump goes to a field of the form
- * @property {() => void} keep
- */
 /**
  * A card that is open: ``follow`` shows what the state of the page is now.
  *
@@ -31,35 +23,107 @@ const SCRIPTS = {
   "hand-over": "./cards/hand_over.js",
   files: "./cards/files.js",
 };
-/** Scripts that could not be loaded, by name, and how often: browsers keep a failure for its address. @type {Map<string, number>} */
-const failures = new Map();
-
-/** @type {Page} */
-let page;
-/** Goes to a field of the form. @type {(path: string) => void} */
-let goToForm = () => {};
-/** Cards that have been opened once. @type {Map<string, Card>} */
-const opened = new Map();
-
 /** Sections of the case by the cards that have their fields. @type {Record<string, string>} */
 const HOMES = { axis: "duty", motion: "duty", motor: "duty", surroundings: "warm-up" };
 
-/** @param {Page} found */
-export function setUp(found) {
-  page = { ...found, jump };
-  goToForm = found.jump;
-  for (const name of Object.keys(SCRIPTS)) {
-    byId(`${name}-open`).addEventListener("click", () => {
-      const { cards } = designs.all();
-      if (cards.includes(name)) cards.splice(cards.indexOf(name), 1);
-      else cards.push(name);
-      page.keep();
+/** The place of a card, whose script is loaded when it is first opened. */
+class Place {
+  #name;
+  #script;
+  /** @type {Card | undefined} */
+  #card;
+  /** How often its script could not be loaded: browsers keep a failure for its address. */
+  #failures = 0;
+
+  /** @param {string} name @param {string} script */
+  constructor(name, script) {
+    this.#name = name;
+    this.#script = script;
+  }
+
+  /** True where the state has it open. */
+  get #isOpen() {
+    return store.state.cards.includes(this.#name);
+  }
+
+  setUp() {
+    byId(`${this.#name}-open`).addEventListener("click", () => {
+      store.change(({ cards }) => {
+        if (this.#isOpen) cards.splice(cards.indexOf(this.#name), 1);
+        else cards.push(this.#name);
+      }, OF_CARDS);
       openAll();
     });
   }
+
+  /** Open it or close it, as the state has it. */
+  async show() {
+    const button = byId(`${this.#name}-open`);
+    button.setAttribute("aria-expanded", String(this.#isOpen));
+    button.textContent = text(this.#isOpen ? "card.close" : "card.open");
+    byId(this.#name).hidden = !this.#isOpen;
+    if (!this.#isOpen) this.#card?.stop();
+    else if (this.#card || (await this.#load())) await this.follow();
+  }
+
+  /** Let the card follow the page where it is open, and say in it why it cannot. */
+  async follow() {
+    if (!this.#isOpen || !this.#card) return;
+    try {
+      await this.#card.follow();
+      this.#say("");
+    } catch (error) {
+      this.#say(linesOf(error).join("; "));
+    }
+  }
+
+  /** Set the card up; false, and the reason in its place, where its script could not be loaded. */
+  async #load() {
+    try {
+      /** @type {{ setUp: (holder: HTMLElement) => Card }} */
+      const { setUp: make } = await import(this.#failures ? `${this.#script}?${this.#failures}` : this.#script);
+      this.#card ??= make(byId(this.#name));
+      return true;
+    } catch (error) {
+      this.#failures += 1;
+      connection.wait();
+      this.#say(linesOf(error).join("; "));
+      return false;
+    }
+  }
+
+  /** Say in its place why it does not follow. @param {string} words */
+  #say(words) {
+    const holder = byId(this.#name);
+    holder.querySelector(".card-trouble")?.remove();
+    if (words) holder.prepend(element("p", { class: "warning card-trouble", role: "status" }, words));
+  }
+}
+
+const PLACES = Object.entries(SCRIPTS).map(([name, script]) => new Place(name, script));
+/** What follows where a card is opened or closed. */
+const OF_CARDS = /** @type {const} */ ({ of: "cards" });
+
+export function setUp() {
+  for (const place of PLACES) place.setUp();
   for (const button of document.querySelectorAll("[data-card]")) {
     button.addEventListener("click", () => goTo(/** @type {HTMLElement} */ (button).dataset.card ?? ""));
   }
+}
+
+/** Open the cards of the state, and close the others. */
+export async function openAll() {
+  for (const place of PLACES) await place.show();
+}
+
+/** Tell the open cards of a change. */
+export function follow() {
+  for (const place of PLACES) place.follow();
+}
+
+/** Have a card among those that are open. @param {string} name */
+function haveOpen(name) {
+  if (!store.state.cards.includes(name)) store.change(({ cards }) => cards.push(name), OF_CARDS);
 }
 
 /**
@@ -68,74 +132,10 @@ export function setUp(found) {
  * @param {string} name
  */
 async function goTo(name) {
-  const { cards } = designs.all();
-  if (!cards.includes(name)) {
-    cards.push(name);
-    page.keep();
-  }
+  haveOpen(name);
   await openAll();
   byId(`${name}-title`).scrollIntoView({ block: "start" });
   byId(`${name}-open`).focus({ preventScroll: true });
-}
-
-/** Open the cards of the state, and close the others. */
-export async function openAll() {
-  const { cards } = designs.all();
-  for (const name of Object.keys(SCRIPTS)) {
-    const isOpen = cards.includes(name);
-    const button = byId(`${name}-open`);
-    button.setAttribute("aria-expanded", String(isOpen));
-    button.textContent = text(isOpen ? "card.close" : "card.open");
-    byId(name).hidden = !isOpen;
-    const card = opened.get(name);
-    if (!isOpen) card?.stop();
-    else if (card) await followed(name, card);
-    else {
-      const made = await set(name);
-      if (made) await followed(name, made);
-    }
-  }
-}
-
-/**
- * A card that was set up; none, and the reason in its place, where its script could not be loaded.
- *
- * @param {string} name
- */
-async function set(name) {
-  const times = failures.get(name) ?? 0;
-  try {
-    /** @type {{ setUp: (holder: HTMLElement, page: Page) => Card }} */
-    const { setUp: make } = await import(times ? `${SCRIPTS[name]}?${times}` : SCRIPTS[name]);
-    opened.set(name, opened.get(name) ?? make(byId(name), page));
-    return opened.get(name);
-  } catch (error) {
-    failures.set(name, times + 1);
-    waitForServer();
-    say(name, linesOf(error).join("; "));
-    return undefined;
-  }
-}
-
-/**
- * Let a card follow the page, and say in it why it cannot.
- *
- * @param {string} name
- * @param {Card} card
- */
-async function followed(name, card) {
-  try {
-    await card.follow();
-    say(name, "");
-  } catch (error) {
-    say(name, linesOf(error).join("; "));
-  }
-}
-
-/** Say in the place of a card why it does not follow. @param {string} name @param {string} words */
-function say(name, words) {
-  byId(name).querySelector(".card-trouble")?.remove();
-  if (words) byId(name).prepend(element("p", { class: "warning card-trouble", role: "status" }, words));
 }
 
 /**
@@ -143,16 +143,14 @@ function say(name, words) {
  *
  * @param {string} path
  */
-async function jump(path) {
+export async function jump(path) {
   const home = HOMES[path.split(".")[0]];
   if (!home) {
-    goToForm(path);
+    jumpInForm(path);
     return;
   }
-  const { cards } = designs.all();
-  if (!cards.includes(home)) {
-    cards.push(home);
-    page.keep();
+  if (!store.state.cards.includes(home)) {
+    haveOpen(home);
     await openAll();
   }
   /** @type {NodeListOf<HTMLElement>} */
@@ -160,10 +158,4 @@ async function jump(path) {
   const field = [...fields].find((one) => one.dataset.path === path);
   (field ?? byId(home)).scrollIntoView({ block: "center" });
   /** @type {HTMLElement | null | undefined} */ (field?.querySelector("input, select"))?.focus();
-}
-
-/** Tell the open cards of a change. */
-export function follow() {
-  const { cards } = designs.all();
-  for (const [name, card] of opened) if (cards.includes(name)) followed(name, card);
 }

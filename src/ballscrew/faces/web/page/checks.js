@@ -1,5 +1,6 @@
 // The checks: how much of each limit is used, what fails, and what was not judged for want of an input.
 
+import { jump } from "./cards.js";
 import { byId, element, table } from "./dom.js";
 import { ofRecord } from "./messages.js";
 import { text, textOr } from "./texts.js";
@@ -119,9 +120,8 @@ function percentage(share) {
  * The share of the limit as a bar, a number and a word; or the field to fill in.
  *
  * @param {OneCheck} check
- * @param {(path: string) => void} jump
  */
-function used(check, jump) {
+function used(check) {
   const { utilisation, holds } = check;
   if (holds === null) {
     const [path, wanted] = FIELDS[check.missing] ?? [];
@@ -147,15 +147,14 @@ function used(check, jump) {
  * The panel of checks.
  *
  * @param {Judged | undefined} found
- * @param {(path: string) => void} jump goes to a field
  */
-export function show(found, jump) {
+export function show(found) {
   if (!found) {
     byId("checks").textContent = text("checks.none");
     return;
   }
   byId("checks").replaceChildren(
-    ...panel(found, text(found.isOfCycle ? "duty.checks_caption" : "checks.caption"), jump),
+    ...panel(found, text(found.isOfCycle ? "duty.checks_caption" : "checks.caption")),
     element(
       "p",
       { class: "small" },
@@ -170,15 +169,14 @@ export function show(found, jump) {
  *
  * @param {Judged} found
  * @param {string} caption
- * @param {(path: string) => void} jump goes to a field
  */
-export function panel(found, caption, jump) {
+export function panel(found, caption) {
   const tone = found.checks.some((one) => one.holds === false) ? "careful" : found.holds ? "good" : "";
   const headings = ["", text("checks.value"), text("checks.used")];
   const rows = found.checks.map((check) => [
     element("span", { title: ofRecord(check) }, nameOf(check)),
     element("span", {}, numberOf(check), limitOf(check, found.checks)),
-    used(check, jump),
+    used(check),
   ]);
   const content = table(caption, headings, rows);
   content.className = "checks";

@@ -3,13 +3,13 @@
 import { operationOf } from "./chart_parts.js";
 import * as charts from "./charts.js";
 import { verdict } from "./checks.js";
-import * as designs from "./designs.js";
 import { byId, element, scrolling, table } from "./dom.js";
 import { labelOf } from "./messages.js";
 import { words } from "./fields.js";
 import { data, greatestPressure, leastFilm, nameOf, numbersOf, rounded } from "./results.js";
 import { OF_CARDS, SECTIONS } from "./schema.js";
 import { LETTERS } from "./state.js";
+import { store } from "./store.js";
 import { text } from "./texts.js";
 import * as units from "./units.js";
 
@@ -123,7 +123,7 @@ export async function showDesigns(answers, starts, mechanisms) {
  * @param {number} place
  */
 function changesOf(place) {
-  const { designs: all, own } = designs.all();
+  const { designs: all, own } = store.state;
   const { changes = {}, tables: sections = {} } = all[place] ?? {};
   const ofFields = Object.entries(changes).map(([path, value]) => {
     const change = `${labelOf(path)}: ${value === "" ? text("form.not_given") : units.inLanguage(value)}`;

@@ -3,6 +3,7 @@
 import * as schema from "./schema.js";
 import { get } from "./server.js";
 import * as states from "./state.js";
+import { store } from "./store.js";
 import { vocabulary } from "./vocabulary.js";
 
 /** Sections that belong to the use of a screw, not to the screw. */
@@ -22,40 +23,28 @@ const OF_OIL = [
 ];
 /** Letters of a name that stand in the name of a file. */
 const NOT_IN_FILES = /[^\p{L}\p{N}._-]+/gu;
+/** What another design on the page is: a step, with a form of its own. */
+const STEP = { rebuild: true, isStep: true };
 
-/** @type {states.State} */
-let state;
-/** Writes the state into the address and shows it. @type {(options: Follow) => Promise<void>} */
-let follow;
-/** Tables of the cases to start from, by name. @type {Map<string, states.Tables>} */
+/** Tables of the cases to start from, by name, which the server has said. @type {Map<string, states.Tables>} */
 const starts = new Map();
-
-/** @typedef {{ rebuild?: boolean, keep?: boolean, formOnly?: boolean, path?: string, ofCards?: boolean }} Follow */
-
-/**
- * @param {(options: Follow) => Promise<void>} listener follows changes that cards make
- */
-export function setUp(listener) {
-  follow = listener;
-}
-
-/**
- * The state of the page, which is another object after Back.
- *
- * @param {states.State} found
- */
-export function use(found) {
-  state = found;
-}
+/** Leads in SI of screws whose lead is no plain number, by the screw as it is given. @type {Map<string, number>} */
+const leads = new Map();
 
 /** The design on the page. */
 export function current() {
-  return state.designs[state.show];
+  return designIn(store.state);
 }
 
-/** The state of the page: all designs, and which of them is shown. */
-export function all() {
-  return state;
+/**
+ * The design that a state shows.
+ *
+ * @template {states.FrozenState} State
+ * @param {State} state
+ * @returns {State["designs"][number]}
+ */
+function designIn({ designs, show }) {
+  return designs[show];
 }
 
 /**
@@ -90,7 +79,7 @@ export async function startOf(name) {
 /**
  * The tables of a design before its changes; its start is known once it has been shown.
  *
- * @param {states.Design} design
+ * @param {states.FrozenDesign} design
  */
 function baseOf(design) {
   return states.base(starts.get(design.start) ?? {}, design);
@@ -99,16 +88,31 @@ function baseOf(design) {
 /**
  * The tables of a design whose start is known, as the form shows them.
  *
- * @param {states.Design} design
+ * @param {states.FrozenDesign} design
  */
 export function tablesOf(design) {
   return states.tables(baseOf(design), design.changes, schema.fieldOf);
 }
 
+/** The lead of the current design as it is given, and in SI, where it was computed with one. */
+export function currentLead() {
+  const { screw } = tablesOf(current());
+  return { given: screw?.lead, computed: leads.get(JSON.stringify(screw)) };
+}
+
+/**
+ * Keep the lead that the current design was computed with.
+ *
+ * @param {number} lead in SI
+ */
+export function keepLead(lead) {
+  leads.set(JSON.stringify(tablesOf(current()).screw), lead);
+}
+
 /**
  * The case of a design, as a file has it.
  *
- * @param {states.Design} design
+ * @param {states.FrozenDesign} design
  */
 export async function caseOf(design) {
   const start = await startOf(design.start);
@@ -119,7 +123,7 @@ export async function caseOf(design) {
 /**
  * What files of a design are called.
  *
- * @param {states.Design} design
+ * @param {states.FrozenDesign} design
  */
 export function fileName({ name, file, start }) {
   const text = name || file?.replace(/\.[^.]*$/, "") || start;
@@ -127,13 +131,24 @@ export function fileName({ name, file, start }) {
 }
 
 /**
- * Keep a text of the current design where it differs from its start.
+ * Change texts of the current design; a text is kept where it differs from its start.
  *
+ * @param {Record<string, string>} texts by their paths, in their order
+ * @param {import("./store.js").About} about
+ */
+export function change(texts, about) {
+  return store.change((state) => {
+    const design = designIn(state);
+    for (const [path, text] of Object.entries(texts)) changeText(design, path, text);
+  }, about);
+}
+
+/**
+ * @param {states.Design} design
  * @param {string} path
  * @param {string} text
  */
-export function change(path, text) {
-  const design = current();
+function changeText(design, path, text) {
   const { changes } = design;
   if (text === "" && states.valueAt(baseOf(design), path) === undefined) delete changes[path];
   else changes[path] = text;
@@ -142,10 +157,18 @@ export function change(path, text) {
   }
 }
 
+/**
+ * Take the change of a text of the current design back: its start has it again.
+ *
+ * @param {string} path
+ */
+export function takeBack(path) {
+  store.change((state) => delete designIn(state).changes[path], STEP);
+}
+
 /** Take all changes of the current design back. */
 export function reset() {
-  const design = current();
-  state.designs[state.show] = states.design(design.start, {}, states.ownOf(design));
+  replaceBy(states.design(current().start, {}, states.ownOf(current())));
 }
 
 /**
@@ -154,9 +177,34 @@ export function reset() {
  * @param {string} start
  */
 export function startFrom(start) {
-  const own = states.ownOfUse(current());
   const changes = { ...changesOfUse(current()), ...preloadFor(start) };
-  state.designs[state.show] = states.design(start, changes, own);
+  replaceBy(states.design(start, changes, states.ownOfUse(current())));
+}
+
+/**
+ * Put a design in the place of the current one.
+ *
+ * @param {states.Design} design
+ */
+function replaceBy(design) {
+  store.change((state) => {
+    state.designs[state.show] = design;
+  }, STEP);
+}
+
+/**
+ * Show a field in another unit.
+ *
+ * @param {string} path
+ * @param {string} unit
+ */
+export function chooseUnit(path, unit) {
+  store.change(
+    (state) => {
+      state.fields[path] = unit;
+    },
+    { rebuild: true, of: "view" },
+  );
 }
 
 /**
@@ -177,7 +225,7 @@ function preloadFor(start) {
 /**
  * The changes that stay when another screw takes the place of the current one: an oil that was changed stays whole.
  *
- * @param {states.Design} design
+ * @param {states.FrozenDesign} design
  */
 function changesOfUse(design) {
   const kept = Object.fromEntries(
@@ -204,29 +252,51 @@ export function currentCase() {
  * @param {states.Tables} sections
  * @param {string} [path] the field that was edited, if it was one
  */
-export async function setTables(sections, path) {
-  const design = current();
+export function setTables(sections, path) {
   const given = Object.keys(sections);
-  // a typed text of such a section is replaced with it
-  for (const path of Object.keys(design.changes)) if (given.includes(path.split(".")[0])) delete design.changes[path];
-  design.tables = { ...design.tables, ...structuredClone(sections) };
-  await follow(schema.areOfCards(given) ? { ofCards: true, keep: !path, path } : { rebuild: true, keep: true });
+  return store.change(
+    (state) => {
+      const design = designIn(state);
+      // a typed text of such a section is replaced with it
+      for (const one of Object.keys(design.changes)) if (given.includes(one.split(".")[0])) delete design.changes[one];
+      design.tables = { ...design.tables, ...structuredClone(sections) };
+    },
+    schema.areOfCards(given) ? { of: "cards", isStep: !path, path } : STEP,
+  );
 }
 
 /**
  * Change the need of the card of choosing; all keys of one field are undone at once.
  *
- * @param {states.Need} need
+ * @param {states.Frozen<states.Need>} need
  * @param {string} [path] the field that was edited, if it was one
  */
 export function setNeed(need, path) {
-  state.need = need;
-  follow({ ofCards: true, keep: !path, path });
+  store.change(
+    (state) => {
+      state.need = structuredClone(need);
+    },
+    { of: "cards", isStep: !path, path },
+  );
+}
+
+/**
+ * Have a table of screws to choose from.
+ *
+ * @param {states.OwnTable} table
+ */
+export function useTable(table) {
+  store.change(
+    (state) => {
+      state.table = table;
+    },
+    { of: "cards" },
+  );
 }
 
 // -- files and several designs ----------------------------------------------------------------------
 
-/** What people call a design: its name, and what it starts from. @param {states.Design} design */
+/** What people call a design: its name, and what it starts from. @param {states.FrozenDesign} design */
 export function titleOf({ name, file, start }) {
   const from = isRow(start) ? start : (file ?? start);
   return name && name !== from ? `${name}: ${from}` : from;
@@ -259,26 +329,26 @@ export async function ofCase(sections, own) {
  * @returns {number} how many there was no place for
  */
 export function add(more) {
-  const untouched = state.designs.length === 1 && isUntouched(current());
-  const before = untouched ? [] : state.designs;
-  const room = states.LETTERS.length - before.length;
-  const taken = more.slice(0, room);
+  const { designs } = store.state;
+  const first = designs.length === 1 && isUntouched(current()) ? 0 : designs.length;
+  const taken = more.slice(0, states.LETTERS.length - first);
   if (taken.length) {
-    state.designs = [...before, ...taken];
-    state.show = before.length;
-    follow({ rebuild: true, keep: true });
+    store.change((state) => {
+      state.designs.splice(first, state.designs.length, ...taken);
+      state.show = first;
+    }, STEP);
   }
   return more.length - taken.length;
 }
 
-/** @param {states.Design} design */
+/** @param {states.FrozenDesign} design */
 function isUntouched(design) {
   return !isRow(design.start) && !Object.keys(design.changes).length && !Object.keys(states.ownOf(design)).length;
 }
 
 /** Test whether one more design has its place. */
 export function hasRoom() {
-  return state.designs.length < states.LETTERS.length;
+  return store.state.designs.length < states.LETTERS.length;
 }
 
 /**
@@ -287,8 +357,9 @@ export function hasRoom() {
  * @param {number} place
  */
 export function show(place) {
-  state.show = place;
-  follow({ rebuild: true, keep: true });
+  store.change((state) => {
+    state.show = place;
+  }, STEP);
 }
 
 /**
@@ -297,10 +368,11 @@ export function show(place) {
  * @param {number} place
  */
 export function duplicate(place) {
-  const { start, changes, name, ...own } = state.designs[place];
-  state.designs.push(states.design(start, changes, own));
-  state.show = state.designs.length - 1;
-  follow({ rebuild: true, keep: true });
+  store.change((state) => {
+    const { start, changes, name, ...own } = state.designs[place];
+    state.designs.push(states.design(start, changes, own));
+    state.show = state.designs.length - 1;
+  }, STEP);
 }
 
 /**
@@ -309,10 +381,11 @@ export function duplicate(place) {
  * @param {number} place
  */
 export function remove(place) {
-  if (state.designs.length === 1) return;
-  state.designs.splice(place, 1);
-  if (state.show > place || state.show === state.designs.length) state.show -= 1;
-  follow({ rebuild: true, keep: true });
+  if (store.state.designs.length === 1) return;
+  store.change((state) => {
+    state.designs.splice(place, 1);
+    if (state.show > place || state.show === state.designs.length) state.show -= 1;
+  }, STEP);
 }
 
 /**
@@ -322,9 +395,13 @@ export function remove(place) {
  * @param {string} name
  */
 export function rename(place, name) {
-  if (name) state.designs[place].name = name;
-  else delete state.designs[place].name;
-  follow({ rebuild: true, path: `${states.LETTERS[place]}.name` });
+  store.change(
+    (state) => {
+      if (name) state.designs[place].name = name;
+      else delete state.designs[place].name;
+    },
+    { rebuild: true, path: `${states.LETTERS[place]}.name` },
+  );
 }
 
 /**
@@ -333,20 +410,19 @@ export function rename(place, name) {
  * @param {string} path
  */
 export function setAside(path) {
-  const design = current();
   const parts = path.split(".");
   const name = parts.pop() ?? "";
-  const aside = { ...structuredClone(design.aside) };
-  const own = structuredClone(design.tables ?? {});
+  /** @type {states.Tables} */
+  const aside = { ...structuredClone(current().aside) };
+  /** @type {states.Tables} */
+  const own = { ...structuredClone(current().tables) };
   const from = parts.length ? states.valueAt(own, parts.join(".")) : own;
   if (!from || typeof from !== "object" || !Object.hasOwn(from, name)) return;
   let to = aside;
   for (const part of parts) to = to[part] ??= {};
   to[name] = from[name];
   delete from[name];
-  design.aside = aside;
-  design.tables = own;
-  follow({ rebuild: true, keep: true });
+  store.change((state) => Object.assign(designIn(state), { aside, tables: own }), STEP);
 }
 
 /** Test whether what stands at a path came from a file. @param {string} path */
@@ -359,7 +435,7 @@ export async function forProject() {
   /** @type {Set<string>} */
   const names = new Set();
   const found = [];
-  for (const [place, one] of state.designs.entries()) {
+  for (const [place, one] of store.state.designs.entries()) {
     const wanted = one.name || `${states.LETTERS[place]} ${titleOf(one)}`;
     let name = wanted;
     for (let number = 2; names.has(name); number += 1) name = `${wanted} (${number})`;

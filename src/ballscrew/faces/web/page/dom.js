@@ -90,6 +90,16 @@ export function scrolling(label, content) {
 }
 
 /**
+ * Show words above the form, or nothing there.
+ *
+ * @param {(string | Node)[]} words
+ */
+export function showNotice(...words) {
+  byId("notice").replaceChildren(...words);
+  byId("notice").hidden = !words.some(Boolean);
+}
+
+/**
  * Columns as CSV (RFC 4180).
  *
  * @param {string[]} headings

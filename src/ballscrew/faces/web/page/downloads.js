@@ -1,10 +1,11 @@
 // Files to save: the case, the answer, the curve, the drawing, the report.
 
+import { answers } from "./answers.js";
 import * as designs from "./designs.js";
 import { byId, csv, element } from "./dom.js";
 import { runJob } from "./jobs.js";
 import { save } from "./saving.js";
-import { isSilent, linesOf, send } from "./server.js";
+import { connection, linesOf, send } from "./server.js";
 import { text } from "./texts.js";
 
 /** @typedef {import("./texts.js").Key} Key */
@@ -19,24 +20,16 @@ const KINDS = {
   HTML: ["download.html", "report?kind=html"],
 };
 
-/** Of what each kind is being made, and what cancels that. @type {Map<string, { key: string, request: AbortController }>} */
-const making = new Map();
+/** Of what a kind of file is being made, and what cancels that. @typedef {{ key: string, request: AbortController }} Making */
 
-/** @typedef {{ whole?: object, answer?: Run, alongSpeed?: Sweep }} Current */
-
-/**
- * Buttons for all kinds; ``current`` gives the case and the answer.
- *
- * @param {() => Current} current
- */
-export function build(current) {
+/** Buttons for all kinds. */
+export function build() {
+  /** @type {Map<string, Making>} */
+  const making = new Map();
   const buttons = Object.entries(KINDS).map(([kind, [key]]) => {
     const words = text(key);
-    return element(
-      "button",
-      { type: "button", title: words, "aria-label": `${kind}: ${words}`, onclick: () => saveAs(kind, current()) },
-      kind,
-    );
+    const onclick = () => saveAs(kind, making);
+    return element("button", { type: "button", title: words, "aria-label": `${kind}: ${words}`, onclick }, kind);
   });
   byId("downloads").replaceChildren(...buttons);
 }
@@ -48,17 +41,18 @@ function say(words) {
 
 /**
  * @param {string} kind
- * @param {Current} current
+ * @param {Map<string, Making>} making
  */
-async function saveAs(kind, { whole, answer, alongSpeed }) {
+async function saveAs(kind, making) {
+  const { whole, answer, alongSpeed } = answers.current();
   if (!whole || !answer || byId("results").classList.contains("stale")) {
-    say(text(isSilent() ? "download.silent" : "download.fault"));
+    say(text(connection.isSilent ? "download.silent" : "download.fault"));
     return;
   }
   const [, address] = KINDS[kind];
   try {
     if (address) {
-      if (!(await saveMade(kind, address, bodyOf(address, whole)))) return;
+      if (!(await saveMade(kind, address, bodyOf(address, whole), making))) return;
     } else if (kind === "JSON") {
       const { words, display, ...document } = answer;
       save(".json", new Blob([JSON.stringify(document, null, 2)], { type: "application/json" }));
@@ -75,9 +69,10 @@ async function saveAs(kind, { whole, answer, alongSpeed }) {
  * @param {string} kind
  * @param {string} address
  * @param {object} body
+ * @param {Map<string, Making>} making
  * @returns {Promise<boolean>} false where another one is on its way in its place
  */
-async function saveMade(kind, address, body) {
+async function saveMade(kind, address, body, making) {
   const key = JSON.stringify(body);
   const before = making.get(kind);
   say(text("download.making", { kind }));

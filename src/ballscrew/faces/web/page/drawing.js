@@ -3,22 +3,16 @@
 import { byId } from "./dom.js";
 import { inUnits } from "./units.js";
 
-const NARROW = matchMedia("(max-width: 46rem)");
+/** Matches a window that is too narrow for both halves beside each other: another one needs the drawing anew. */
+export const NARROW = matchMedia("(max-width: 46rem)");
 /** Room before the title of the second half. */
 const MARGIN = 6;
-
-/** @type {Template | undefined} */
-let shown;
-NARROW.addEventListener("change", () => {
-  if (shown) show(shown);
-});
 
 /** @param {Template} template */
 export function show(template) {
   const found = new DOMParser().parseFromString(inUnits(template), "image/svg+xml").documentElement;
   if (found.nodeName !== "svg") return;
   found.setAttribute("lang", "en"); // its words are the server's
-  shown = template;
   const whole = /** @type {SVGSVGElement} */ (/** @type {unknown} */ (document.importNode(found, true)));
   byId("drawing").replaceChildren(...(NARROW.matches ? halves(whole) : [whole]));
 }

@@ -6,7 +6,7 @@ import { text, textOr } from "./texts.js";
 import * as units from "./units.js";
 
 /** @typedef {import("./schema.js").SchemaNode} SchemaNode */
-/** @typedef {import("./state.js").State} State */
+/** @typedef {import("./state.js").FrozenState} State */
 /**
  * A change by the user: of the text or the unit of a field, or of the start of the design; or all of them taken back.
  *

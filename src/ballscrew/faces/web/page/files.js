@@ -1,20 +1,17 @@
 // Files at the door of the page: opened or dropped, and the words on what stays in this browser. The rest is loaded late.
 
-import { byId, element } from "./dom.js";
-import * as keeping from "./keeping.js";
+import { byId, element, showNotice } from "./dom.js";
+import { keeping } from "./keeping.js";
 import { language, text } from "./texts.js";
 
 /** Deleting everything is asked for twice within this time, in milliseconds. */
 const SURE_WITHIN = 6000;
 
-/** @typedef {(...words: (string | Node)[]) => void} Say */
-
-/** @param {Say} say */
-export function setUp(say) {
+export function setUp() {
   const input = /** @type {HTMLInputElement} */ (byId("open-file"));
   byId("open").addEventListener("click", () => input.click());
   input.addEventListener("change", () => {
-    open([...(input.files ?? [])], say);
+    open([...(input.files ?? [])]);
     input.value = ""; // the same file can be opened again
   });
   // a card that takes files itself prevents both
@@ -22,20 +19,17 @@ export function setUp(say) {
   addEventListener("drop", (event) => {
     if (event.defaultPrevented) return;
     event.preventDefault();
-    open([...(event.dataTransfer?.files ?? [])], say);
+    open([...(event.dataTransfer?.files ?? [])]);
   });
   setUpKeeping();
 }
 
-/**
- * @param {File[]} files
- * @param {Say} say
- */
-async function open(files, say) {
+/** @param {File[]} files */
+async function open(files) {
   if (!files.length) return;
   const { open: opened } = await import("./opening.js");
   const lines = await opened(files);
-  say(...lines.flatMap((line) => [line, element("br")]).slice(0, -1));
+  showNotice(...lines.flatMap((line) => [line, element("br")]).slice(0, -1));
 }
 
 function setUpKeeping() {
@@ -59,19 +53,18 @@ function setUpKeeping() {
       show();
     }, SURE_WITHIN);
   });
-  keeping.follow(show);
+  keeping.addEventListener("change", show);
   show();
 }
 
 /**
  * Say that work of before is shown, and how to begin anew.
  *
- * @param {keeping.Work} work
- * @param {Say} say
+ * @param {import("./keeping.js").Work} work
  */
-export function sayRestored({ saved }, say) {
+export function sayRestored({ saved }) {
   const when = new Intl.DateTimeFormat(language, { dateStyle: "medium", timeStyle: "short" }).format(saved);
   const afresh = element("button", { type: "button", id: "afresh" }, text("keep.afresh"));
   afresh.addEventListener("click", () => keeping.show("#A=paper"));
-  say(`${text("keep.restored", { when })} `, afresh);
+  showNotice(`${text("keep.restored", { when })} `, afresh);
 }

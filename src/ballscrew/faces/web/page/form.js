@@ -12,7 +12,7 @@ import { text, textOr } from "./texts.js";
 import { vocabulary } from "./vocabulary.js";
 
 /** @typedef {import("./schema.js").SchemaNode} SchemaNode */
-/** @typedef {import("./state.js").State} State */
+/** @typedef {import("./state.js").FrozenState} State */
 /** @typedef {import("./fields.js").Change} Change */
 /** @typedef {import("./fields.js").Source} Source */
 

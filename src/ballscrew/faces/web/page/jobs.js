@@ -1,6 +1,6 @@
 // Long work: a job of the server, which is asked how far it is, cancelled, and found again after the page was loaded again.
 
-import { own } from "./keeping.js";
+import { keeping } from "./keeping.js";
 import { answerAt, get, Problem, sendJson } from "./server.js";
 
 const PREFIX = "ballscrew.job.";
@@ -32,7 +32,7 @@ export function keptJob(place) {
     /** @type {Kept | null} */
     const job = JSON.parse(sessionStorage.getItem(PREFIX + place) ?? "null");
     // without HTTPS no tab has a name that stays
-    return job && (!navigator.locks || job.tab === own()) ? job : undefined;
+    return job && (!navigator.locks || job.tab === keeping.own()) ? job : undefined;
   } catch {
     return undefined; // storage is forbidden: jobs are found until the page is loaded again
   }
@@ -67,7 +67,7 @@ export async function runJob(address, body, options) {
       if (signal.aborted || !(error instanceof Problem && error.status === NOT_FOUND)) throw error;
     }
   } else if (before) cancel(before);
-  const job = { id: await begun(address, body, signal), tab: own(), key, about };
+  const job = { id: await begun(address, body, signal), tab: keeping.own(), key, about };
   keep(place, job);
   return answerOf(job, options);
 }

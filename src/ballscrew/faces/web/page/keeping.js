@@ -11,42 +11,6 @@ const VIEWS = ["band", "cards", "show", "unit", "units"];
 /** @typedef {{ id: string, fragment: string, title: string, saved: number }} Work */
 /** Why nothing is kept. @typedef {"" | "forbidden" | "full"} Trouble */
 
-let id = "";
-/** The state that this tab began with, which is no work yet. @type {string | undefined} */
-let first;
-/** @type {{ fragment: string, title: string } | undefined} */
-let pending;
-/** @type {ReturnType<typeof setTimeout>} */
-let timer;
-/** @type {Trouble} */
-let trouble = "";
-/** Told of changes here and in other tabs. @type {Set<() => void>} */
-const listeners = new Set();
-
-/** The storage of the browser, or none where it is forbidden. */
-function storage() {
-  try {
-    return localStorage;
-  } catch {
-    trouble = "forbidden";
-    return undefined;
-  }
-}
-
-/** @param {() => void} listener is told of what is kept and of what is not, also by other tabs */
-export function follow(listener) {
-  listeners.add(listener);
-}
-
-function tell() {
-  for (const listener of listeners) listener();
-}
-
-/** Why nothing is kept; empty where all is. */
-export function whyNot() {
-  return trouble;
-}
-
 /**
  * Take an entry for this tab, where no other tab has it. The browser gives it back when the tab ends.
  *
@@ -64,87 +28,12 @@ function claim(wanted) {
   });
 }
 
-/**
- * Find the entry of this tab: that of before it was loaded again, the last one that no tab has open, or a new one.
- *
- * @returns {Promise<Work | undefined>} the last work, where the address says nothing else
- */
-export async function begin() {
-  addEventListener("storage", tell);
-  addEventListener("pagehide", write);
-  const [latest] = location.hash ? [] : kept();
-  const before = latest ? latest.id : readOwn();
-  if (await claim(before)) beOwn(before);
-  else await claim(beNew());
-  return latest;
-}
-
-/** @param {string} one the entry of this tab from now on */
-function beOwn(one) {
-  id = one;
-  try {
-    sessionStorage.setItem(OWN, id);
-  } catch {
-    trouble ||= "forbidden";
-  }
-}
-
-function beNew() {
-  beOwn(crypto.getRandomValues(new Uint32Array(2)).join("-"));
-  return id;
-}
-
-/**
- * Show other work in this tab. What it has kept stays, and so does what is shown: a change begins an entry of its own.
- *
- * @param {string} fragment
- */
-export function show(fragment) {
-  write();
-  first = fragment;
-  claim(beNew());
-  tell();
-  location.hash = fragment;
-}
-
 function readOwn() {
   try {
     return sessionStorage.getItem(OWN) ?? "";
   } catch {
     return "";
   }
-}
-
-/**
- * Keep the state of this tab once typing rests.
- *
- * @param {string} fragment
- * @param {string} title
- */
-export function keep(fragment, title) {
-  first ??= fragment;
-  if (fragment === first && !pending && !found(id)) return;
-  pending = { fragment, title };
-  clearTimeout(timer);
-  timer = setTimeout(write, DELAY);
-}
-
-function write() {
-  clearTimeout(timer);
-  if (!pending || !id) return;
-  const kept = found(id);
-  // to load a page again or to open a card is no edit: a new tab begins with what was edited last
-  const saved = kept && edited(kept.fragment) === edited(pending.fragment) ? kept.saved : Date.now();
-  const work = { ...pending, id, saved };
-  pending = undefined;
-  const before = trouble;
-  try {
-    storage()?.setItem(PREFIX + id, JSON.stringify(work));
-    if (trouble === "full") trouble = "";
-  } catch {
-    trouble = "full";
-  }
-  if (before !== trouble || trouble === "") tell();
 }
 
 /** A state without what is only looked at: cards that are open, the design that is shown, units. @param {string} fragment */
@@ -154,42 +43,151 @@ function edited(fragment) {
   return String(parameters);
 }
 
-/**
- * @param {string} wanted
- * @returns {Work | undefined}
- */
-function found(wanted) {
-  try {
-    const work = JSON.parse(storage()?.getItem(PREFIX + wanted) ?? "");
-    return typeof work.fragment === "string" ? { title: "", saved: 0, ...work, id: wanted } : undefined;
-  } catch {
-    return undefined;
+/** The work that is kept; those who listen to ``change`` are told what is kept and what is not, also by other tabs. */
+class Keeping extends EventTarget {
+  #id = "";
+  /** The state that this tab began with, which is no work yet. @type {string | undefined} */
+  #first;
+  /** @type {{ fragment: string, title: string } | undefined} */
+  #pending;
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  #timer;
+  /** @type {Trouble} */
+  #trouble = "";
+
+  /**
+   * Find the entry of this tab: that of before it was loaded again, the last one that no tab has open, or a new one.
+   *
+   * @returns {Promise<Work | undefined>} the last work, where the address says nothing else
+   */
+  async begin() {
+    addEventListener("storage", () => this.#tell());
+    addEventListener("pagehide", () => this.#write());
+    const [latest] = location.hash ? [] : this.kept();
+    const before = latest ? latest.id : readOwn();
+    if (await claim(before)) this.#beOwn(before);
+    else await claim(this.#beNew());
+    return latest;
+  }
+
+  /** The entry of this tab. */
+  own() {
+    return this.#id;
+  }
+
+  /** Why nothing is kept; empty where all is. */
+  whyNot() {
+    return this.#trouble;
+  }
+
+  /** All that is kept, the newest first. */
+  kept() {
+    return Object.keys(this.#storage() ?? {})
+      .filter((key) => key.startsWith(PREFIX))
+      .flatMap((key) => this.#found(key.slice(PREFIX.length)) ?? [])
+      .sort((one, other) => other.saved - one.saved);
+  }
+
+  /**
+   * Keep the state of this tab once typing rests.
+   *
+   * @param {string} fragment
+   * @param {string} title
+   */
+  keep(fragment, title) {
+    this.#first ??= fragment;
+    if (fragment === this.#first && !this.#pending && !this.#found(this.#id)) return;
+    this.#pending = { fragment, title };
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => this.#write(), DELAY);
+  }
+
+  /**
+   * Show other work in this tab. What it has kept stays, and so does what is shown: a change begins an entry of its own.
+   *
+   * @param {string} fragment
+   */
+  show(fragment) {
+    this.#write();
+    this.#first = fragment;
+    claim(this.#beNew());
+    this.#tell();
+    location.hash = fragment;
+  }
+
+  /**
+   * Delete entries; what is on the page stays until the tab is closed, and the next change keeps it again.
+   *
+   * @param {string[]} ids
+   */
+  forget(ids) {
+    clearTimeout(this.#timer);
+    this.#pending = undefined;
+    for (const one of ids) this.#storage()?.removeItem(PREFIX + one);
+    if (this.#trouble === "full") this.#trouble = "";
+    this.#first = ""; // no state is that: the next change is work
+    this.#tell();
+  }
+
+  #tell() {
+    this.dispatchEvent(new Event("change"));
+  }
+
+  /** The storage of the browser, or none where it is forbidden. */
+  #storage() {
+    try {
+      return localStorage;
+    } catch {
+      this.#trouble = "forbidden";
+      return undefined;
+    }
+  }
+
+  /** @param {string} one the entry of this tab from now on */
+  #beOwn(one) {
+    this.#id = one;
+    try {
+      sessionStorage.setItem(OWN, one);
+    } catch {
+      this.#trouble ||= "forbidden";
+    }
+  }
+
+  #beNew() {
+    this.#beOwn(crypto.getRandomValues(new Uint32Array(2)).join("-"));
+    return this.#id;
+  }
+
+  #write() {
+    clearTimeout(this.#timer);
+    if (!this.#pending || !this.#id) return;
+    const kept = this.#found(this.#id);
+    // to load a page again or to open a card is no edit: a new tab begins with what was edited last
+    const saved = kept && edited(kept.fragment) === edited(this.#pending.fragment) ? kept.saved : Date.now();
+    const work = { ...this.#pending, id: this.#id, saved };
+    this.#pending = undefined;
+    const before = this.#trouble;
+    try {
+      this.#storage()?.setItem(PREFIX + this.#id, JSON.stringify(work));
+      if (this.#trouble === "full") this.#trouble = "";
+    } catch {
+      this.#trouble = "full";
+    }
+    if (before !== this.#trouble || this.#trouble === "") this.#tell();
+  }
+
+  /**
+   * @param {string} wanted
+   * @returns {Work | undefined}
+   */
+  #found(wanted) {
+    try {
+      const work = JSON.parse(this.#storage()?.getItem(PREFIX + wanted) ?? "");
+      return typeof work.fragment === "string" ? { title: "", saved: 0, ...work, id: wanted } : undefined;
+    } catch {
+      return undefined;
+    }
   }
 }
 
-/** All that is kept, the newest first. */
-export function kept() {
-  return Object.keys(storage() ?? {})
-    .filter((key) => key.startsWith(PREFIX))
-    .flatMap((key) => found(key.slice(PREFIX.length)) ?? [])
-    .sort((one, other) => other.saved - one.saved);
-}
-
-/** The entry of this tab. */
-export function own() {
-  return id;
-}
-
-/**
- * Delete entries; what is on the page stays until the tab is closed, and the next change keeps it again.
- *
- * @param {string[]} ids
- */
-export function forget(ids) {
-  clearTimeout(timer);
-  pending = undefined;
-  for (const one of ids) storage()?.removeItem(PREFIX + one);
-  if (trouble === "full") trouble = "";
-  first = ""; // no state is that: the next change is work
-  tell();
-}
+export const keeping = new Keeping();

@@ -1,36 +1,17 @@
-// Files that are opened or dropped: cases, projects and needs become designs; a table of screws is kept to choose from.
+// Files that are opened or dropped: cases and projects become designs, a need that of the page; a table of screws is kept
+// to choose from.
 
 import * as designs from "./designs.js";
+import { readNeed } from "./needs.js";
 import { linesOf, sendJson } from "./server.js";
 import { LETTERS, OF_SCREW } from "./state.js";
+import { store } from "./store.js";
 import { text } from "./texts.js";
 
 /** Bytes of a file that the server takes, with its third more for the request. */
 const MOST_BYTES = 700_000;
 /** Names that a notice has at most. */
 const MOST_NAMES = 5;
-
-/** @typedef {{ file: { name: string, base64: string }, opened: Opened }} OwnTable */
-
-/** The table of screws that was opened last. @type {OwnTable | undefined} */
-let table;
-/** The need that was opened last. @type {{ name: string, tables: Record<string, any> } | undefined} */
-let need;
-/** Told of tables and needs. @type {Set<() => void>} */
-const listeners = new Set();
-
-export function ownTable() {
-  return table;
-}
-
-export function openedNeed() {
-  return need;
-}
-
-/** @param {() => void} listener */
-export function follow(listener) {
-  listeners.add(listener);
-}
 
 /**
  * The designs in a file, as the server reads it.
@@ -92,9 +73,8 @@ async function take(file, opened) {
   const lines = notes.map((note) => `${file.name}: ${note}`);
   if (comments) lines.push(text("open.comments", { file: file.name, count: comments }));
   if (kind === "table" || kind === "need") {
-    if (kind === "table") table = { file, opened };
-    else need = { name: file.name, tables: found[0].case };
-    for (const listener of listeners) listener();
+    if (kind === "table") designs.useTable({ file, opened });
+    else designs.setNeed(readNeed(found[0].case));
     return [text(kind === "table" ? "open.table" : "open.need", { file: file.name, count: found.length }), ...lines];
   }
   const more = await Promise.all(
@@ -106,13 +86,13 @@ async function take(file, opened) {
       }),
     ),
   );
-  const before = designs.all().designs.length;
+  const before = store.state.designs.length;
   const left = designs.add(more);
   if (left) {
     const none = found.slice(found.length - left).map(({ name }) => name);
     lines.push(text("open.no_room", { names: listed(none), most: LETTERS.length }));
   }
-  const { designs: now } = designs.all();
+  const { designs: now } = store.state;
   const letters = LETTERS.slice(now.length > before || left ? now.length - (found.length - left) : 0, now.length);
   if (letters.length) lines.unshift(text("open.done", { file: file.name, letters: letters.join(", ") }));
   const asides = [...new Set(found.flatMap(({ aside }) => Object.keys(aside)))];
@@ -134,6 +114,6 @@ export async function takeRow({ name, case: sections }) {
   const use = Object.entries(await designs.currentCase()).filter(([section]) => !OF_SCREW.includes(section));
   const both = { ...sections, ...Object.fromEntries(use) };
   if (sections.losses) both.losses = { ...both.losses, .../** @type {object} */ (sections.losses) };
-  const one = await designs.ofCase(both, { name, file: table?.file.name });
+  const one = await designs.ofCase(both, { name, file: store.state.table?.file.name });
   return designs.add([one]) === 0;
 }

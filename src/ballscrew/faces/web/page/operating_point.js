@@ -1,7 +1,7 @@
 // The operating point moved by hand: sliders beside the fields, and the diamond of a chart that can be dragged.
 
 import { byId, element } from "./dom.js";
-import { asOne } from "./history.js";
+import { entries } from "./history.js";
 import { text } from "./texts.js";
 import * as units from "./units.js";
 
@@ -190,7 +190,7 @@ export function letDrag(id, handle) {
     at = undefined;
     if (!held || !dropped) return;
     const [x, y] = dropped;
-    asOne(() => {
+    entries.asOne(() => {
       commit(held.x, x);
       if (held.y) commit(held.y, y);
     });

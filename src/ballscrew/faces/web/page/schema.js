@@ -45,12 +45,17 @@ export const OF_CARDS = {
 /** Fields that the form does not have. */
 export const LEFT_OUT = ["screw.catalogue", "screw.catalogue_file", "lubricant.oil_file"];
 
-/** @type {{ $defs: Record<string, SchemaNode>, properties: Record<string, SchemaNode> }} */
-let schema;
+/** The document of the server, filled before anything is shown. */
+const schema = {
+  /** @type {Record<string, SchemaNode>} */
+  $defs: {},
+  /** @type {Record<string, SchemaNode>} */
+  properties: {},
+};
 
 /** @param {typeof schema} document */
-export function setSchema(document) {
-  schema = document;
+export function fill(document) {
+  Object.assign(schema, document);
 }
 
 /**

@@ -30,34 +30,34 @@ export function linesOf(error) {
   return [text("server.silent", { reason })];
 }
 
-/** Asks whether the server is there again, while it is not. @type {ReturnType<typeof setInterval> | undefined} */
-let asking;
-/** Told when the server is there again. @type {Set<() => void>} */
-const listeners = new Set();
+/** The connection to the server; those who listen to ``return`` are told when one that fell silent answers again. */
+class Connection extends EventTarget {
+  /** Asks whether the server is there again, while it is not. @type {ReturnType<typeof setInterval> | undefined} */
+  #asking;
 
-/** True from a request that did not reach the server until it answers again. */
-export function isSilent() {
-  return asking !== undefined;
-}
+  /** True from a request that did not reach the server until it answers again. */
+  get isSilent() {
+    return this.#asking !== undefined;
+  }
 
-/** @param {() => void} listener is told when a server that fell silent answers again */
-export function onReturn(listener) {
-  listeners.add(listener);
-}
+  /** Ask until the server answers again. */
+  wait() {
+    this.#asking ??= setInterval(() => this.#ask(), AGAIN);
+  }
 
-/** Ask until the server answers again. */
-export function waitForServer() {
-  asking ??= setInterval(async () => {
+  async #ask() {
     try {
       await fetch(SMALL, { cache: "no-store" });
     } catch {
       return; // it is still silent
     }
-    clearInterval(asking);
-    asking = undefined;
-    for (const listener of listeners) listener();
-  }, AGAIN);
+    clearInterval(this.#asking);
+    this.#asking = undefined;
+    this.dispatchEvent(new Event("return"));
+  }
 }
+
+export const connection = new Connection();
 
 /**
  * The response of the server; where it does not answer, it is asked until it does.
@@ -69,7 +69,7 @@ async function reached(address, options) {
   try {
     return await fetch(address, options);
   } catch (error) {
-    if (!options?.signal?.aborted) waitForServer();
+    if (!options?.signal?.aborted) connection.wait();
     throw error;
   }
 }
@@ -162,17 +162,57 @@ async function* parts(response, signal) {
   try {
     for (let part = await reader?.read(); part && !part.done; part = await reader?.read()) yield part.value;
   } catch (error) {
-    if (!signal.aborted) waitForServer();
+    if (!signal.aborted) connection.wait();
     throw error;
+  }
+}
+
+/** Requests of one kind, of which a new one cancels that before. */
+export class Latest {
+  #controller = new AbortController();
+
+  /** Cancel the one before. @returns {AbortSignal} that of a new one */
+  begin() {
+    this.cancel();
+    this.#controller = new AbortController();
+    return this.#controller.signal;
+  }
+
+  cancel() {
+    this.#controller.abort();
   }
 }
 
 /** Most answers that are kept, and most characters of JSON of all of them together. */
 const MOST_KEPT = 50;
 const MOST_CHARACTERS = 20e6;
-/** Answers by their addresses and bodies, with their characters of JSON. @type {Map<string, [any, number]>} */
-const kept = new Map();
-let characters = 0;
+
+/** Answers by their addresses and bodies, of which the oldest give way. */
+class Kept {
+  /** Each with its characters of JSON. @type {Map<string, [any, number]>} */
+  #answers = new Map();
+  #characters = 0;
+
+  /** @param {string} key */
+  get(key) {
+    return this.#answers.get(key)?.[0];
+  }
+
+  /** @param {string} key @param {any} answer */
+  add(key, answer) {
+    const size = JSON.stringify(answer).length;
+    if (size > MOST_CHARACTERS || this.#answers.has(key)) return;
+    this.#answers.set(key, [answer, size]);
+    this.#characters += size;
+    for (const [oldest, [, its]] of this.#answers) {
+      if (this.#answers.size <= MOST_KEPT && this.#characters <= MOST_CHARACTERS) break;
+      this.#answers.delete(oldest);
+      this.#characters -= its;
+    }
+  }
+}
+
+const kept = new Kept();
 
 /**
  * The answer of an address to a body; of the same body again it is not asked again while it is kept.
@@ -197,7 +237,7 @@ export async function ask(address, body, signal, compute = () => sendJson(addres
  * @param {object} body
  */
 export function known(address, body) {
-  return kept.get(`${address} ${JSON.stringify(body)}`)?.[0];
+  return kept.get(`${address} ${JSON.stringify(body)}`);
 }
 
 /**
@@ -208,14 +248,5 @@ export function known(address, body) {
  * @param {any} answer
  */
 export function keep(address, body, answer) {
-  const key = `${address} ${JSON.stringify(body)}`;
-  const size = JSON.stringify(answer).length;
-  if (size > MOST_CHARACTERS || kept.has(key)) return;
-  kept.set(key, [answer, size]);
-  characters += size;
-  for (const [oldest, [, its]] of kept) {
-    if (kept.size <= MOST_KEPT && characters <= MOST_CHARACTERS) break;
-    kept.delete(oldest);
-    characters -= its;
-  }
+  kept.add(`${address} ${JSON.stringify(body)}`, answer);
 }

@@ -1,4 +1,5 @@
-// State of the page: its designs, each with its start, its own tables and its changes. All of it is in the address.
+// What the state of the page is: its designs, each with its start, its own tables and its changes, and how it stands in
+// the address. The state that is there has store.js.
 
 export const LETTERS = ["A", "B", "C", "D", "E", "F", "G", "H"];
 const OTHER_KEYS = ["need", "show", "units", "band", "at", "cards", "hours", "rest", "heat"];
@@ -34,7 +35,8 @@ export const OF_SCREW = ["screw", "nut", "bodies", "deviations"];
 /**
  * ``show`` is the place of the current design, ``own`` compares each design at its own load and speed, ``fields`` has
  * units chosen for single fields, ``cards`` are those that are open, ``heat`` has the hours of work and of rest of a
- * warm-up as they were typed, and whether it has bands.
+ * warm-up as they were typed, and whether it has bands. ``table`` is the table of screws that was opened last, which is
+ * too large for the address.
  *
  * @typedef {object} State
  * @property {Design[]} designs
@@ -46,7 +48,12 @@ export const OF_SCREW = ["screw", "nut", "bodies", "deviations"];
  * @property {string[]} cards
  * @property {{ hours: string, rest: string, band: boolean }} heat
  * @property {Need} need
+ * @property {OwnTable} [table]
  */
+/** @typedef {{ file: { name: string, base64: string }, opened: Opened }} OwnTable */
+/** What nobody may change who reads it. @template T @typedef {T extends object ? { readonly [Name in keyof T]: Frozen<T[Name]> } : T} Frozen */
+/** The state for those who read it. @typedef {Frozen<State>} FrozenState */
+/** @typedef {Frozen<Design>} FrozenDesign */
 
 /**
  * @param {string} start
@@ -120,8 +127,8 @@ function plainTexts(table) {
   return isTable(table) ? Object.fromEntries(Object.entries(table).filter(([, one]) => typeof one === "string")) : {};
 }
 
-/** @returns {State} */
-function initial() {
+/** The state of a page that has just been opened. @returns {State} */
+export function initial() {
   const heat = { hours: HOURS, rest: REST, band: false };
   return {
     designs: [design()],
@@ -139,7 +146,7 @@ function initial() {
 /**
  * The state as the fragment of an address.
  *
- * @param {State} state
+ * @param {FrozenState} state
  */
 export function toFragment(state) {
   const parameters = new URLSearchParams();

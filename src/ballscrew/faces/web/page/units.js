@@ -1,6 +1,9 @@
 // Units. Inputs are kept as text with a unit, as they were typed; only what is displayed is converted.
 
+import { currentLead } from "./designs.js";
+import { store } from "./store.js";
 import { hasComma, localised, sentence, textOr } from "./texts.js";
+import { vocabulary } from "./vocabulary.js";
 
 const NUMBER = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(.*?)\s*$/i;
 const COMMA = /^(\s*[-+]?\d*),(\d+)/;
@@ -27,35 +30,17 @@ const FULL_WIDTH = 0xfee0;
 const OF_SCREW = "rad/s";
 const OF_NUT = "m/s";
 
-/** @type {Vocabulary} */
-let vocabulary;
-let system = "metric";
-/** The lead in SI, where it is known: one turn of the screw moves the nut by it. @type {number | undefined} */
-let lead;
-
-/** @param {Vocabulary} document */
-export function setVocabulary(document) {
-  vocabulary = document;
-}
-
-/** @param {string} name */
-export function setSystem(name) {
-  system = Object.hasOwn(vocabulary.systems, name) ? name : "metric";
-}
-
+/** The system of units on the page: that of its state, where there is such a one. */
 export function currentSystem() {
-  return system;
+  const { system } = store.state;
+  return Object.hasOwn(vocabulary.systems, system) ? system : "metric";
 }
 
-/**
- * The lead that turns speeds of the nut into speeds of the screw; where it is not known, neither does.
- *
- * @param {unknown} text as the design gives it
- * @param {number | undefined} computed the lead in SI that it was computed with, where the text is no plain number
- */
-export function setLead(text, computed) {
-  const found = parse(text, "m");
-  lead = (found ? toSI(found.number, found.unit, "m") : computed) || undefined;
+/** The lead in SI of the current design, where it is known: one turn of the screw moves the nut by it. @returns {number | undefined} */
+function lead() {
+  const { given, computed } = currentLead();
+  const found = parse(given, "m");
+  return (found ? toSI(found.number, found.unit, "m") : computed) || undefined;
 }
 
 /** Powers as they are written above the line. @type {Record<string, string>} */
@@ -83,7 +68,7 @@ export function symbol(unit) {
  * @param {string} unit
  */
 export function inSystem(unit) {
-  return vocabulary.systems[system][unit] ?? unit;
+  return vocabulary.systems[currentSystem()][unit] ?? unit;
 }
 
 /**
@@ -112,7 +97,8 @@ export function isUnit(unit, field) {
  * @param {SchemaNode} field
  */
 export function choicesOf(field) {
-  return [...choices(field["x-si-unit"]), ...(lead ? choices(field["x-through-lead"]) : [])].map((one) => one.unit);
+  const along = choices(field["x-through-lead"]);
+  return [...choices(field["x-si-unit"]), ...(along.length && lead() ? along : [])].map((one) => one.unit);
 }
 
 /**
@@ -121,9 +107,9 @@ export function choicesOf(field) {
  */
 function conversion(unit, si) {
   const found = choices(si).find((one) => one.unit === unit);
-  if (found || si !== OF_SCREW || !lead) return found;
-  const along = choices(OF_NUT).find((one) => one.unit === unit);
-  return along && { ...along, factor: (along.factor * 2 * Math.PI) / lead };
+  const along = found || si !== OF_SCREW ? undefined : choices(OF_NUT).find((one) => one.unit === unit);
+  const turn = along && lead();
+  return along && turn ? { ...along, factor: (along.factor * 2 * Math.PI) / turn } : found;
 }
 
 /**

@@ -7,6 +7,7 @@ import { save } from "../saving.js";
 import { ask, linesOf, sendJson } from "../server.js";
 import { ofServer, text } from "../texts.js";
 import * as units from "../units.js";
+import { vocabulary } from "../vocabulary.js";
 import * as charts from "./calibrate_charts.js";
 import { choices, columns, meaningOf } from "./log_columns.js";
 import { button, caseFile, commandLine, dropZone, exampleButton, faultLines } from "./log_parts.js";
@@ -27,10 +28,9 @@ const CHANGED = ["model", "lubricant", "screw", "nut", "losses", "calibration"];
 
 /**
  * @param {HTMLElement} holder
- * @param {import("../cards.js").Page} page
  * @returns {import("../cards.js").Card}
  */
-export function setUp(holder, page) {
+export function setUp(holder) {
   /** @type {import("./log_parts.js").SentFile | undefined} */
   let log;
   /** Columns given by hand. @type {Record<string, string>} */
@@ -55,7 +55,7 @@ export function setUp(holder, page) {
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   let timer;
 
-  const options = page.vocabulary.options.fit.filter(({ name }) => !OF_COLUMNS.includes(name));
+  const options = vocabulary.options.fit.filter(({ name }) => !OF_COLUMNS.includes(name));
   /** What is given of them. @type {import("./option_fields.js").Given} */
   const chosen = {};
   const more = optionFields("fit", options, chosen, () => {
@@ -74,11 +74,10 @@ export function setUp(holder, page) {
     result,
     show: (found) => show(found),
     place: (faults) => {
-      problems.replaceChildren(...faultLines(faults, page.jump));
+      problems.replaceChildren(...faultLines(faults));
       result.hidden = faults.length > 0; // what another log told is no answer below a fault
       return undefined;
     },
-    jump: page.jump,
     isLarge: () => true,
     about: () => ({ fitted: fittedCase, free: known }),
   });

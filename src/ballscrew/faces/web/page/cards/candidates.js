@@ -4,6 +4,7 @@ import * as designs from "../designs.js";
 import { element } from "../dom.js";
 import { draw, layout, watch } from "../plot.js";
 import { LETTERS } from "../state.js";
+import { store } from "../store.js";
 import { text, textOr } from "../texts.js";
 import * as units from "../units.js";
 
@@ -373,7 +374,7 @@ async function take({ case: sections, label }, say) {
     return;
   }
   designs.add([await designs.ofCase(sections, { name: label })]);
-  say(text("choose.taken", { name: label, letter: LETTERS[designs.all().show] }));
+  say(text("choose.taken", { name: label, letter: LETTERS[store.state.show] }));
 }
 
 /**

@@ -7,7 +7,7 @@ import * as schema from "../schema.js";
 import { valueAt } from "../state.js";
 
 /** @typedef {import("../fields.js").Change} Change */
-/** @typedef {import("../state.js").State} State */
+/** @typedef {import("../state.js").FrozenState} State */
 /** @typedef {import("../state.js").Tables} Tables */
 
 /**
@@ -16,7 +16,7 @@ import { valueAt } from "../state.js";
  * @param {string} section
  * @param {string} title
  * @param {string[]} names
- * @param {{ state: Readonly<State>, tables: Tables, onChange: (change: Change) => void }} source
+ * @param {{ state: State, tables: Tables, onChange: (change: Change) => void }} source
  */
 export function fieldset(section, title, names, { state, tables, onChange }) {
   /** @param {string} path */

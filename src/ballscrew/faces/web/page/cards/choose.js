@@ -5,43 +5,17 @@ import { element, within } from "../dom.js";
 import { inWords, labelOf } from "../messages.js";
 import { choiceField, numberField } from "../fields.js";
 import { answerOfKept, drop, keptJob, runJob } from "../jobs.js";
-import * as opening from "../opening.js";
+import { FIELDS, LISTS, OF_MASS } from "../needs.js";
 import * as schema from "../schema.js";
 import { get, linesOf, Problem, sendJson } from "../server.js";
 import { valueAt } from "../state.js";
+import { store } from "../store.js";
 import { text, textOr } from "../texts.js";
 import * as units from "../units.js";
 import { asTheyCome, candidates } from "./candidates.js";
 
-/** Fields of a need, by their short names: where a case has them, or nothing where only needs have them. */
-/** @type {Record<string, string>} */
-const FIELDS = {
-  axial_load: "operation.axial_load",
-  mass: "axis.mass",
-  inclination: "axis.inclination",
-  acceleration: "motion.acceleration",
-  feed: "",
-  stroke: "",
-  unsupported_length: "installation.unsupported_length",
-  ends: "installation.ends",
-  running_time: "limits.running_time",
-  nut: "nut.type",
-  preload: "nut.preload",
-  grade: "lubricant.grade",
-  temperature: "lubricant.temperature",
-  back_driving: "",
-  accuracy: "",
-  least_rigidity: "",
-  largest_drive_torque: "",
-  largest_preload_torque: "",
-  largest_inertia: "",
-};
-/** Fields that take several values. */
-const LISTS = ["preload"];
 /** Fields that a duty has in its own way, and its sections. */
 const OF_POINT = ["axial_load", "feed"];
-/** Fields that make a motion, in place of a force; a design has them in its duty. */
-const OF_MASS = ["mass", "inclination", "acceleration"];
 const OF_DUTY = ["axis", "motion", "motor"];
 /** @type {Record<string, import("../schema.js").SchemaNode>} */
 const OF_NEEDS = { back_driving: { enum: ["allowed", "needed", "forbidden"], default: "allowed" }, accuracy: {} };
@@ -49,6 +23,7 @@ const OF_NEEDS = { back_driving: { enum: ["allowed", "needed", "forbidden"], def
 const PLACE = "choose";
 
 /** @typedef {import("../state.js").Need} Need */
+/** @typedef {import("../state.js").Frozen<Need>} FrozenNeed */
 
 /** @param {HTMLElement} holder @returns {import("../cards.js").Card} */
 export function setUp(holder) {
@@ -77,17 +52,18 @@ export function setUp(holder) {
   let known = {};
   /** What the fields were made of. */
   let shown = "";
+  /** The table of one's own that may take the place of the catalogue. @type {typeof store.state.table} */
+  let offered;
   let request = new AbortController();
   let withTable = true;
   /** What a selection costs, and the inputs that somebody has said may stay empty. */
   let [cost, agreed] = ["", ""];
 
-  /** @returns {Need} */
-  const need = () => designs.all().need;
+  const need = () => store.state.need;
 
   function build() {
     const { texts, units } = need();
-    const state = { ...designs.all(), fields: units };
+    const state = { ...store.state, fields: units };
     /** @param {string} path */
     const given = (path) => texts[path.slice("need.".length)];
     const made = Object.entries(FIELDS).map(([name, path]) => {
@@ -126,7 +102,8 @@ export function setUp(holder) {
 
   /** The duty of the current design, and a table of one's own in place of the catalogue. */
   async function showSources() {
-    const table = opening.ownTable();
+    const { table } = store.state;
+    offered = table;
     const moves = "motion" in (await designs.currentCase());
     const own = element("input", {
       type: "checkbox",
@@ -146,7 +123,7 @@ export function setUp(holder) {
     );
   }
 
-  /** @param {Need} found @param {string} [path] */
+  /** @param {FrozenNeed} found @param {string} [path] */
   function write(found, path) {
     shown = path ? JSON.stringify(found) : "";
     designs.setNeed(found, path);
@@ -174,7 +151,7 @@ export function setUp(holder) {
     request.abort();
     request = new AbortController();
     const { signal } = request;
-    const table = withTable ? opening.ownTable()?.file : undefined;
+    const table = withTable ? store.state.table?.file : undefined;
     progress.replaceChildren(element("p", {}, text("card.computing")));
     await conclude(begun(table, signal), signal);
   }
@@ -322,23 +299,18 @@ export function setUp(holder) {
     fields.querySelector(".wrong")?.scrollIntoView({ block: "nearest" });
   }
 
-  const takeNeed = () => {
-    const found = opening.openedNeed();
-    if (found) write(readNeed(found.tables));
-  };
-  opening.follow(takeNeed);
-  opening.follow(showSources);
   const ready = get("need-schema").then(async (found) => {
     known = { ...found.$defs.Need.properties, ...OF_NEEDS };
-    if (opening.openedNeed() && !Object.keys(need().texts).length) takeNeed();
-    else if (!Object.keys(need().texts).length) await takeDesign();
-    else build();
+    const { texts, rest } = need();
+    if (Object.keys({ ...texts, ...rest }).length) build();
+    else await takeDesign();
     resume();
   });
   return {
     follow: () => {
       ready.then(() => {
         if (JSON.stringify(need()) !== shown) build();
+        else if (store.state.table !== offered) showSources();
       });
     },
     stop: () => request.abort(),
@@ -348,7 +320,7 @@ export function setUp(holder) {
 /**
  * The fields that do not count: a duty has load and speed in its own way, and a mass makes the force.
  *
- * @param {Need} need
+ * @param {FrozenNeed} need
  */
 function leftOut({ texts, duty }) {
   if (duty) return [...OF_POINT, ...OF_MASS];
@@ -368,7 +340,7 @@ function counts({ candidates: all, holding }) {
 /**
  * The tables of a need, as ``ballscrew select`` reads them.
  *
- * @param {Need} need
+ * @param {FrozenNeed} need
  */
 async function tables(need) {
   const { texts, rest, duty } = need;
@@ -380,40 +352,4 @@ async function tables(need) {
   const current = await designs.currentCase();
   const moving = OF_DUTY.filter((name) => name in current).map((name) => [name, current[name]]);
   return { ...found, ...Object.fromEntries(moving) };
-}
-
-/**
- * A need that was opened: what fields show becomes their texts, the rest stays as it is.
- *
- * @param {Record<string, any>} opened
- * @returns {Need}
- */
-function readNeed(opened) {
-  const rest = structuredClone(opened);
-  /** @type {Record<string, string>} */
-  const texts = {};
-  for (const [name, path] of Object.entries(FIELDS)) {
-    // a motion that is written out stays as it is
-    const places = OF_MASS.includes(name) ? [] : [path];
-    for (const place of [...places, `need.${name}`, name].filter(Boolean)) {
-      const [section, field] = place.split(".");
-      const value = valueAt(rest, place);
-      const isShort =
-        field === undefined
-          ? !["string", "number"].includes(typeof value)
-          : typeof value === "object" && !Array.isArray(value);
-      if (value === undefined || isShort || (Array.isArray(value) && !LISTS.includes(name))) continue;
-      texts[name] = Array.isArray(value) ? value.join("; ") : String(value);
-      if (field === undefined) delete rest[section];
-      else delete rest[section][field];
-      if (field !== undefined && !Object.keys(rest[section]).length) delete rest[section];
-    }
-  }
-  // an operation may state the feed
-  if (typeof rest.operation?.feed === "string") {
-    texts.feed = rest.operation.feed;
-    delete rest.operation.feed;
-    if (!Object.keys(rest.operation).length) delete rest.operation;
-  }
-  return { texts, units: {}, rest, duty: false };
 }

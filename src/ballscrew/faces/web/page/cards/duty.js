@@ -7,8 +7,10 @@ import { isSmall, sent, tooLarge } from "../opening.js";
 import { watch } from "../plot.js";
 import * as schema from "../schema.js";
 import * as states from "../state.js";
+import { store } from "../store.js";
 import { text, textOr } from "../texts.js";
 import * as units from "../units.js";
+import { vocabulary } from "../vocabulary.js";
 import { placeFaults, showValues } from "./case_fields.js";
 import * as charts from "./duty_charts.js";
 import { inputs } from "./motion.js";
@@ -26,11 +28,9 @@ const OF_EXAMPLE = ["axis", "motion", "motor", "bearings", "guides"];
 const ROUNDING = 1e-9;
 /**
  * @param {HTMLElement} holder
- * @param {import("../cards.js").Page} page
  * @returns {import("../cards.js").Card}
  */
-export function setUp(holder, page) {
-  const { vocabulary } = page;
+export function setUp(holder) {
   const note = element("p", { class: "small" });
   const editor = element("div", { class: "card-inputs" });
   const words = element("div");
@@ -42,7 +42,6 @@ export function setUp(holder, page) {
     result,
     show: (found) => show(found),
     place: (faults) => placeFaults(editor, faults),
-    jump: page.jump,
     isLarge: (body) => "trace" in body,
   });
   const recorded = element("p", { class: "card-start" });
@@ -62,7 +61,7 @@ export function setUp(holder, page) {
 
   /** @param {Tables} found */
   function keyOf(found) {
-    const { fields, show: design } = designs.all();
+    const { fields, show: design } = store.state;
     return JSON.stringify([found.axis, found.motion, found.motor, fields, design, units.currentSystem()]);
   }
 
@@ -82,7 +81,7 @@ export function setUp(holder, page) {
   /** @param {import("../fields.js").Change} change */
   function onChange({ path = "", text: typed = "", unit }) {
     if (unit !== undefined) {
-      page.setUnit(path, unit);
+      designs.chooseUnit(path, unit);
       return;
     }
     const [section] = path.split(".");
@@ -102,7 +101,7 @@ export function setUp(holder, page) {
       shown = keyOf(tables);
       const focused = document.activeElement?.id;
       const usual = /** @type {Tables} */ (example.motor);
-      editor.replaceChildren(...inputs(() => tables, designs.all(), vocabulary.motions, usual, { put, onChange }));
+      editor.replaceChildren(...inputs(() => tables, store.state, vocabulary.motions, usual, { put, onChange }));
       if (answer) showValues(editor, answer.inputs);
       if (focused) document.getElementById(focused)?.focus({ preventScroll: true });
     }
@@ -206,7 +205,7 @@ export function setUp(holder, page) {
       ),
       numbers(results),
       ...smoothing(results),
-      ...checks.panel(checks.ofCycle(found), text("duty.checks_caption"), page.jump),
+      ...checks.panel(checks.ofCycle(found), text("duty.checks_caption")),
     );
     charts.show(results, vocabulary.causes);
     parts.replaceChildren(partsOf(results), brake(results), phases(results));

@@ -2,11 +2,12 @@
 
 import * as designs from "../designs.js";
 import { byId, element } from "../dom.js";
-import * as keeping from "../keeping.js";
-import * as opening from "../opening.js";
+import { keeping } from "../keeping.js";
+import { takeRow } from "../opening.js";
 import { save } from "../saving.js";
 import { linesOf, send } from "../server.js";
 import { LETTERS } from "../state.js";
+import { store } from "../store.js";
 import { language, text } from "../texts.js";
 
 /** Kinds of project files. */
@@ -42,8 +43,10 @@ export function setUp(holder) {
   );
   /** The letters and titles that the list was made of. */
   let shown = "";
+  /** The table whose screws are listed. @type {typeof store.state.table} */
+  let listed;
   const follow = () => {
-    const { designs: all, show } = designs.all();
+    const { designs: all, show } = store.state;
     const key = JSON.stringify([
       all.map((one) => [designs.titleOf({ ...one, name: "" }), Object.keys(one.aside ?? {})]),
       show,
@@ -54,18 +57,17 @@ export function setUp(holder) {
       const field = /** @type {HTMLInputElement} */ (byId(`name-${LETTERS[place]}`));
       if (field !== document.activeElement) field.value = one.name ?? "";
     }
+    if (store.state.table !== listed) showOwnRows(rows, say);
+    listed = store.state.table;
     showKept(works);
   };
-  const showRows = () => showOwnRows(rows, say);
-  opening.follow(showRows);
-  keeping.follow(() => showKept(works));
-  showRows();
+  keeping.addEventListener("change", () => showKept(works));
   follow();
   return { follow, stop: () => {} };
 }
 
 function listOfDesigns() {
-  const { designs: all, show } = designs.all();
+  const { designs: all, show } = store.state;
   const body = all.map((one, place) => {
     const letter = LETTERS[place];
     const asides = Object.keys(one.aside ?? {});
@@ -151,13 +153,13 @@ async function saveProject(kind, say) {
  * @param {(words: string) => void} say
  */
 function showOwnRows(holder, say) {
-  const table = opening.ownTable();
+  const { table } = store.state;
   if (!table) {
     holder.replaceChildren();
     return;
   }
   const items = table.opened.designs.map((row) => {
-    const take = async () => say((await opening.takeRow(row)) ? "" : text("files.full", { most: LETTERS.length }));
+    const take = async () => say((await takeRow(row)) ? "" : text("files.full", { most: LETTERS.length }));
     const label = text("files.take_row", { name: row.name });
     return element(
       "li",

@@ -15,10 +15,9 @@ const RANGES = { axial_load: "-5:5 kN", screw_speed: "-300:300 rpm" };
 
 /**
  * @param {HTMLElement} holder
- * @param {import("../cards.js").Page} page
  * @returns {import("../cards.js").Card}
  */
-export function setUp(holder, page) {
+export function setUp(holder) {
   /** @type {Targets["targets"]} */
   let targets = [];
   /** @type {import("../state.js").Tables} */
@@ -33,10 +32,9 @@ export function setUp(holder, page) {
     result,
     show: (found) => show(found),
     place: (faults) => {
-      problems.replaceChildren(...faultLines(faults, page.jump));
+      problems.replaceChildren(...faultLines(faults));
       return undefined;
     },
-    jump: page.jump,
   });
   const make = button("hand-over-make", "hand_over.make", async () => {
     tables = await designs.currentCase();

@@ -1,5 +1,6 @@
 // Parts that cards with logs share: a place to drop a log, its faults in words, and the command that does the same.
 
+import { jump } from "../cards.js";
 import * as designs from "../designs.js";
 import { element } from "../dom.js";
 import { inWords, labelOf, withPlace } from "../messages.js";
@@ -92,9 +93,8 @@ export function exampleButton(name, take) {
  * A line for each fault: a button to the field of the form, or the words on the log.
  *
  * @param {FaultLine[]} faults
- * @param {(path: string) => void} jump
  */
-export function faultLines(faults, jump) {
+export function faultLines(faults) {
   return faults.map((fault) => {
     if (schema.fieldOf(fault.where)) {
       const words = `${labelOf(fault.where)}: ${inWords(fault)}`;

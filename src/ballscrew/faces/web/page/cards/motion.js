@@ -7,7 +7,7 @@ import * as units from "../units.js";
 import { fieldset } from "./case_fields.js";
 import { editor, idOf, kindOf } from "./segments.js";
 
-/** @typedef {import("../state.js").State} State */
+/** @typedef {import("../state.js").FrozenState} State */
 /** @typedef {import("../state.js").Tables} Tables */
 /** @typedef {import("../schema.js").SchemaNode} SchemaNode */
 
@@ -48,7 +48,7 @@ function nodesOfSegments() {
  * The inputs. They stay while somebody types, so that each edit begins from what the sections are by then.
  *
  * @param {() => Tables} current sections of the case as they are now
- * @param {Readonly<State>} state
+ * @param {State} state
  * @param {Record<string, string[]>} motions the fields of each kind of motion
  * @param {Tables | undefined} usualMotor the motor that a case without one is given
  * @param {{ put: Put, onChange: (change: import("../fields.js").Change) => void }} listeners

@@ -10,6 +10,7 @@ import { numbersOf } from "../results.js";
 import { definition, fieldOf, SECTIONS } from "../schema.js";
 import { ask, linesOf, Problem, sendJson } from "../server.js";
 import { LETTERS, valueAt } from "../state.js";
+import { store } from "../store.js";
 import { text } from "../texts.js";
 import * as units from "../units.js";
 
@@ -199,7 +200,7 @@ export function setUp(holder) {
  * @returns {Promise<(Curve & { body?: { case: Record<string, unknown> } })[]>}
  */
 async function runsOf(signal) {
-  const { designs: all, own } = designs.all();
+  const { designs: all, own } = store.state;
   const cases = await Promise.all(all.map(designs.caseOf));
   const { operation } = cases[0];
   return Promise.all(

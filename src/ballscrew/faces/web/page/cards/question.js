@@ -1,6 +1,7 @@
 // The question of a card: asked as a job once typing has come to rest, with the time that it takes and a button that
 // cancels. After the page was loaded again, the job and its answer are found again.
 
+import { jump } from "../cards.js";
 import { element } from "../dom.js";
 import { inWords, labelOf } from "../messages.js";
 import { answerOfKept, keptJob, runJob } from "../jobs.js";
@@ -24,7 +25,6 @@ const RESUMED = "job ";
  * @property {HTMLElement} result
  * @property {(answer: any) => void} show
  * @property {(faults: FaultLine[]) => FaultLine[] | undefined} place
- * @property {(path: string) => void} jump goes to a field of the form
  * @property {(body: object) => boolean} [isLarge] tests whether a body is too large to keep answers by it
  * @property {() => any} [about] what its answer is shown with, and is not part of it
  */
@@ -34,7 +34,7 @@ const RESUMED = "job ";
  *
  * @param {Parts} parts
  */
-export function question({ address, result, show, place, jump, isLarge = () => false, about }) {
+export function question({ address, result, show, place, isLarge = () => false, about }) {
   const line = element("div", { class: "card-line" });
   let request = new AbortController();
   /** @type {ReturnType<typeof setTimeout> | undefined} */

@@ -5,6 +5,7 @@ import { element, scrolling, table } from "../dom.js";
 import { draw, layout, watch } from "../plot.js";
 import { ofServer, text } from "../texts.js";
 import * as units from "../units.js";
+import { vocabulary } from "../vocabulary.js";
 import { button, caseFile, commandLine, dropZone, exampleButton, faultLines } from "./log_parts.js";
 import { flags, optionFields } from "./option_fields.js";
 import { data, FORCE, TEMPERATURE, TORQUE, TURNING } from "./quantities.js";
@@ -19,10 +20,9 @@ const TOLERANCE = "10";
 
 /**
  * @param {HTMLElement} holder
- * @param {import("../cards.js").Page} page
  * @returns {import("../cards.js").Card}
  */
-export function setUp(holder, page) {
+export function setUp(holder) {
   /** @type {Record<string, import("./log_parts.js").SentFile>} */
   const logs = {};
   /** @type {import("../state.js").Tables} */
@@ -39,11 +39,10 @@ export function setUp(holder, page) {
     result,
     show: (found) => show(found),
     place: (faults) => {
-      problems.replaceChildren(...faultLines(faults, page.jump));
+      problems.replaceChildren(...faultLines(faults));
       result.hidden = faults.length > 0; // what another log told is no answer below a fault
       return undefined;
     },
-    jump: page.jump,
     isLarge: () => true,
   });
   const zones = ["new", "worn"].map((name) =>
@@ -63,7 +62,7 @@ export function setUp(holder, page) {
   });
   start.disabled = true;
   const command = element("div");
-  const options = page.vocabulary.options.service.filter(({ name }) => name !== "tolerance"); // it has its own place
+  const options = vocabulary.options.service.filter(({ name }) => name !== "tolerance"); // it has its own place
   /** What is given of them. @type {import("./option_fields.js").Given} */
   const chosen = {};
   const more = optionFields("service", options, chosen, () => follow());

@@ -5,8 +5,10 @@ import { element, table } from "../dom.js";
 import { watch } from "../plot.js";
 import * as schema from "../schema.js";
 import * as states from "../state.js";
+import { store } from "../store.js";
 import { ofServer, text, textOr } from "../texts.js";
 import * as units from "../units.js";
+import { vocabulary } from "../vocabulary.js";
 import { fieldset, placeFaults, showValues } from "./case_fields.js";
 import { data, FORCE, GROWTH, HOURS, POWER, quantity, TEMPERATURE, TORQUE } from "./quantities.js";
 import { question } from "./question.js";
@@ -43,11 +45,9 @@ const SERIES = { growth: "shaft_growth", power: "friction_power" };
 
 /**
  * @param {HTMLElement} holder
- * @param {import("../cards.js").Page} page
  * @returns {import("../cards.js").Card}
  */
-export function setUp(holder, page) {
-  const { vocabulary } = page;
+export function setUp(holder) {
   const note = element("p", { class: "small" });
   const editor = element("div", { class: "card-inputs" });
   const words = element("div");
@@ -67,7 +67,6 @@ export function setUp(holder, page) {
     result,
     show: (found) => show(found),
     place: (faults) => placeFaults(editor, faults),
-    jump: page.jump,
   });
   holder.replaceChildren(note, editor, asked.line, result);
   for (const place of places) watch(place);
@@ -85,15 +84,15 @@ export function setUp(holder, page) {
     charts.axis(answer.results, Number(slider.value));
   });
 
-  function keyOf() {
-    const { fields, heat, show: design } = designs.all();
+  function keyOf(heat = store.state.heat) {
+    const { fields, show: design } = store.state;
     return JSON.stringify([tables[SECTION], heat, fields, design, units.currentSystem()]);
   }
 
   /** @param {import("../fields.js").Change} change */
   function onChange({ path = "", text: typed = "", unit }) {
     if (unit !== undefined) {
-      page.setUnit(path, unit);
+      designs.chooseUnit(path, unit);
       return;
     }
     const found = states.tables({ [SECTION]: {}, ...tables }, { [path]: typed }, schema.fieldOf);
@@ -108,7 +107,7 @@ export function setUp(holder, page) {
     const given = await designs.currentCase();
     if (design !== designs.current()) return; // another one was chosen in the meantime, and is followed on its own
     tables = given;
-    const { heat } = designs.all();
+    const { heat } = store.state;
     const moves = Boolean(tables.motion && tables.axis);
     note.textContent = text(moves ? "warm_up.of_motion" : "warm_up.of_point");
     if (keyOf() !== shown) {
@@ -128,7 +127,7 @@ export function setUp(holder, page) {
 
   /** @param {boolean} isOpen */
   function inputs(isOpen) {
-    const source = { state: designs.all(), tables, onChange };
+    const source = { state: store.state, tables, onChange };
     const names = Object.keys(schema.fieldsOf(SECTION));
     const others = names.filter((name) => !FIRST.includes(name));
     const first = fieldset(SECTION, text("section.surroundings"), FIRST, source);
@@ -141,18 +140,32 @@ export function setUp(holder, page) {
     return [options(), first, more];
   }
 
+  /**
+   * Change what is asked; what was typed stands in its field already.
+   *
+   * @param {Partial<import("../state.js").State["heat"]>} found
+   */
+  function changeHeat(found) {
+    const heat = { ...store.state.heat, ...found };
+    shown = keyOf(heat);
+    store.change(
+      (state) => {
+        state.heat = heat;
+      },
+      { of: "cards" },
+    );
+  }
+
   /** The hours of work and of rest, and the band. */
   function options() {
-    const { heat } = designs.all();
+    const { heat } = store.state;
     /** @param {"hours" | "rest"} name @param {string} option */
     const hours = (name, option) => {
       const id = `warm-${name}`;
       const input = element("input", { type: "text", inputmode: "decimal", id, "aria-describedby": `${id}-fault` });
       input.value = units.inLanguage(heat[name]);
       input.addEventListener("input", () => {
-        designs.all().heat[name] = units.ofLanguage(input.value.trim()); // Undo puts another state in its place
-        shown = keyOf();
-        page.keep();
+        changeHeat({ [name]: units.ofLanguage(input.value.trim()) });
       });
       return element(
         "div",
@@ -165,9 +178,7 @@ export function setUp(holder, page) {
     const band = element("input", { type: "checkbox", id: "warm-band" });
     band.checked = heat.band;
     band.addEventListener("change", () => {
-      designs.all().heat.band = band.checked;
-      shown = keyOf();
-      page.keep();
+      changeHeat({ band: band.checked });
     });
     return element(
       "fieldset",
