@@ -1,0 +1,189 @@
+"""The state of the page is in one place: no module of its JavaScript has variables, and none is handed listeners."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+import ballscrew
+
+#: Objects of modules that change, and why each is there. One more is one more place to look for the state of the page.
+HOLDERS = {
+    "store.js store": "the state of the page: what somebody has",
+    "answers.js answers": "what the server has answered to it, and the requests under way",
+    "cards.js PLACES": "the scripts of the cards that were loaded",
+    "designs.js leads": "leads that the server has computed, by screw: the same for the same screw",
+    "designs.js starts": "cases to start from, as the server has them: the same for the same name",
+    "history.js entries": "the place in the history of the browser",
+    "keeping.js keeping": "the entry of this tab in the storage of the browser",
+    "plot.js charts": "the charts in their places",
+    "results.js announcer": "what screen readers were told last",
+    "schema.js schema": "the schema of a case, filled once before anything is shown",
+    "server.js connection": "whether the server answers",
+    "server.js kept": "answers by what was asked",
+    "vocabulary.js vocabulary": "the words of the server, filled once before anything is shown",
+}
+#: What ``new`` makes that does not change.
+CONSTANT = {"Intl", "Promise", "RegExp"}
+#: What takes a function all the same: to listen as the platform has it, and what calls it before it returns.
+TAKING = {"addEventListener": "an event", "change": "an edit of the state", "fromFragment": "where it looks fields up"}
+
+_DECLARED = re.compile(r"^(?:export )?(let|var|const) (?:\{[^}]*\}|\[[^\]]*\]|(\w+))", re.MULTILINE)
+_MADE = re.compile(r"\bnew (\w+)")
+_IMPORTED = re.compile(r'^import (?:\* as (\w+)|\{ ([^}]+) \}) from "\.', re.MULTILINE)
+
+
+class Statement(NamedTuple):
+    """A declaration of a module by itself: ``let``, ``var`` or ``const``, its name, and its text."""
+
+    keyword: str
+    name: str
+    text: str
+
+
+def declarations(source: str) -> Iterator[Statement]:
+    """The declarations at the top of a module, which biome has formatted: what is in a function is indented."""
+    for head in _DECLARED.finditer(source):
+        end = re.compile(r"^(?:\S.*)?;$", re.MULTILINE).search(source, source.index("\n", head.start()) + 1)
+        line = source[head.start() : source.index("\n", head.start())]
+        yield Statement(head[1], head[2] or line, line if line.endswith(";") else source[head.start() : end.end()])
+
+
+def variables(source: str) -> list[str]:
+    """Names at the top of a module that may be given another value."""
+    return [one.name for one in declarations(source) if one.keyword != "const"]
+
+
+def holders(source: str) -> list[str]:
+    """Constants of a module whose content changes: objects that are made with ``new``, elements, tables written to."""
+
+    def changes(one: Statement) -> bool:
+        made = {kind for kind in _MADE.findall(one.text) if kind not in CONSTANT}
+        element = re.search(r"= (?:element|byId|document\.\w+)\(", one.text)
+        name = rf"(?<![\w.]){one.name}"
+        assigned = rf"{name}(?:\.\w+|\[[^\]]+\])* (?:[-+*/|&?]{{0,2}})= "
+        filled = rf"Object\.assign\({one.name},|{name}\.(?:push|splice|set|add|delete|clear)\("
+        written = rf"^ .*(?:{assigned}|{filled})"
+        return bool(made or element or re.search(written, source, re.MULTILINE))
+
+    return [one.name for one in declarations(source) if one.keyword == "const" and changes(one)]
+
+
+def _end(source: str, place: int) -> int:
+    """The place behind the bracket that closes the one before a place."""
+    depth = 1
+    while depth:
+        depth += {"(": 1, "[": 1, "{": 1, ")": -1, "]": -1, "}": -1}.get(source[place], 0)
+        place += 1
+    return place
+
+
+def _values(arguments: str) -> Iterator[str]:
+    """The arguments of a call one by one; of a table its values."""
+    start = place = 0
+    while place <= len(arguments):
+        if arguments[place : place + 1] in "([{" and place < len(arguments):
+            place = _end(arguments, place + 1)
+        elif place == len(arguments) or arguments[place] == ",":
+            one = arguments[start:place].strip()
+            if one.startswith("{") and one.endswith("}"):
+                yield from (re.sub(r"^\w+: ", "", value) for value in _values(one[1:-1]))
+            elif one:
+                yield one
+            start = place = place + 1
+        else:
+            place += 1
+
+
+def injected(source: str) -> list[str]:
+    """Calls of other modules that hand them a function to be called later."""
+    imports = _IMPORTED.findall(source)
+    names = {name.strip() for one, some in imports for name in (one or some).split(",")}
+    own = "|".join(re.findall(r"^(?:async )?function (\w+)\(", source, re.MULTILINE))
+    others = "|".join(one for one, _ in imports if one)
+    function = re.compile(rf"(?:async )?(?:\w+|\(.*?\)) =>|(?:{own})$|(?:{others})\.[a-z]\w*$", re.DOTALL)
+    return [
+        call[0].rstrip("(")
+        for call in re.finditer(r"(?<![\w.])(\w+)(?:\.(\w+))?\(", source)
+        if call[1] in names
+        and (call[2] or call[1]) not in TAKING
+        and any(function.match(one) for one in _values(source[call.end() : _end(source, call.end()) - 1]))
+    ]
+
+
+def modules() -> dict[str, str]:
+    """The modules of the page by their names, with their text."""
+    (folder,) = ballscrew.__path__
+    page = Path(folder) / "faces" / "web" / "page"
+    return {path.relative_to(page).as_posix(): path.read_text(encoding="utf-8") for path in sorted(page.rglob("*.js"))}
+
+
+@pytest.mark.parametrize(
+    ("source", "expected"),
+    [
+        ("let place = 0;\nexport let other;\nvar third;\n", ["place", "other", "third"]),
+        ("const one = 1;\nfunction f() {\n  let inner = 0;\n  return inner;\n}\n", []),
+        ("const f = () => {\n  let inner = 0;\n};\n", []),
+    ],
+)
+def test_variables_are_those_at_the_top(source, expected):
+    assert variables(source) == expected
+
+
+@pytest.mark.parametrize(
+    ("source", "expected"),
+    [
+        ("const known = new Map();\n", ["known"]),
+        ("const page = new Page();\nconst NARROW = 3;\n", ["page"]),
+        ("const PLACES = Object.entries(SCRIPTS).map(\n  (one) => new Place(one),\n);\n", ["PLACES"]),
+        ("const FORMAT = new Intl.NumberFormat(language);\nconst done = new Promise(() => {});\n", []),
+        ('const place = element("aside", {});\n', ["place"]),
+        ("const words = {};\nfunction fill(more) {\n  Object.assign(words, more);\n}\n", ["words"]),
+        ("const now = {\n  at: 0,\n};\nfunction f() {\n  now.at = 1;\n}\n", ["now"]),
+        ("const all = [];\nfunction f(one) {\n  all.push(one);\n  const same = { all: one.all };\n}\n", ["all"]),
+        ("const all = [];\nfunction f(one) {\n  one.all.push(1);\n  return all.at === one;\n}\n", []),
+    ],
+)
+def test_holders_are_what_changes(source, expected):
+    assert holders(source) == expected
+
+
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
+        ("designs.setUp(follow);", ["designs.setUp"]),
+        ("onReturn(() => {\n    follow();\n  });", ["onReturn"]),
+        ("designs.begin(async (one) => one);", ["designs.begin"]),
+        ("designs.build({ change: 1 }, 2, designs.name());", []),
+        ("designs.build({ first: 1, then: () => follow() });", ["designs.build"]),
+        ("designs.build(designs.current);", ["designs.build"]),
+        ("designs.build(all.map(designs.current).join(), follow());", []),
+        ('designs.addEventListener("change", follow);', []),
+        ("follow(() => {});", []),
+    ],
+)
+def test_injected_listeners_are_functions_that_others_get(body, expected):
+    imports = 'import * as designs from "./designs.js";\nimport { get, onReturn } from "./server.js";\n'
+    assert injected(f"{imports}\nfunction follow() {{}}\nfunction begin() {{\n  {body}\n}}\n") == expected
+
+
+def test_modules_of_the_page_have_no_variables():
+    found = modules()
+    assert {"main.js", "store.js", "cards/duty.js"} <= found.keys()
+    assert {name: variables(source) for name, source in found.items() if variables(source)} == {}
+
+
+def test_what_changes_on_the_page_has_its_reason():
+    found = [f"{name} {holder}" for name, source in modules().items() for holder in holders(source)]
+    assert sorted(found) == sorted(HOLDERS)
+
+
+def test_the_start_of_the_page_hands_no_listeners_around():
+    assert injected(modules()["main.js"]) == []
+
+
+def test_no_module_keeps_listeners_of_its_own():
+    """Who wants to be told listens to events, as of the platform."""
+    assert [name for name, source in modules().items() if re.search(r"Set<\(|[lL]isteners = ", source)] == []
