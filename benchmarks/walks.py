@@ -175,9 +175,10 @@ def walks() -> dict[str, tuple[Callable[[], None], Test]]:
 # -- one key on the page ----------------------------------------------------------------------------
 
 #: Modules of the page that write words, numbers and elements.
-LEAVES = ("dom.js", "faults.js", "plot.js", "schema.js", "symbols.js", "texts.js", "units.js")
-#: The head of a function up to its parameters, and what is put at the beginning of its body.
-FUNCTION, MARK = re.compile(r"^ *(?:export )?(?:async )?function \w+\(", re.MULTILINE), 'globalThis.walk?.push("{}");'
+LEAVES = ("dom.js", "messages.js", "plot.js", "schema.js", "symbols.js", "texts.js", "units.js")
+#: The head of a function or a method up to its parameters, and what is put at the beginning of its body.
+FUNCTION = re.compile(r"^ *(?:(?:export )?(?:async )?function\*? \w+|(?:async |get |set )?#?\w+)\(", re.MULTILINE)
+MARK = 'globalThis.walk?.push("{}");'
 #: Stops of a loop at most.
 LONGEST_LOOP = 8
 DESIGNS = {"one design": "#A=paper&band=0", "two designs": "#A=paper&B=hiwin-40-20k4&band=0"}
@@ -202,7 +203,9 @@ def marked(source: str, module: str) -> str:
         while depth:  # to the end of the parameters
             depth += {"(": 1, ")": -1}.get(source[place], 0)
             place += 1
-        body = source.index("{", place) + 1
+        if not source.startswith(" {", place):
+            continue  # a call
+        body = place + 2
         found += [source[last:body], MARK.format(module)]
         last = body
     return "".join([*found, source[last:]])
