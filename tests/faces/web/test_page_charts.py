@@ -60,6 +60,9 @@ def test_the_torque_over_the_speed_has_its_band(visit, server):
     here.page.wait_for_function(
         "() => !document.querySelector('#torque-chart ul.legend').innerText.includes('the samples')"
     )
+    # a chart that was out of sight is drawn again once it is in sight
+    here.page.locator("#torque-chart").scroll_into_view_if_needed()
+    here.page.wait_for_function("() => !document.querySelector('#torque-chart .plot').data.some(({ fill }) => fill)")
     assert [name for name, _, _ in chart(here, "torque-chart")["lines"]] == ["sum"]
 
 
