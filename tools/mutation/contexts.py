@@ -1,0 +1,94 @@
+"""A plugin of pytest: what is run in each test, its fixtures included, counts for the function of the test.
+
+Lines of Python are counted by coverage, functions of the page's JavaScript by the browser.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import time
+from collections import defaultdict
+from collections.abc import Generator
+from pathlib import Path
+from typing import Any
+
+import coverage
+import pytest
+
+_SECONDS: dict[str, float] = defaultdict(float)
+#: Tests by file below ``src/ballscrew`` and line.
+_SCRIPTS: dict[str, dict[int, set[str]]] = defaultdict(lambda: defaultdict(set))
+#: Counters of the pages that are open.
+_COUNTERS: list[Any] = []
+_ADDRESS = "/page/"
+_ROOM = "faces/web/page"
+_PAGE = Path(__file__).parents[2] / "src" / "ballscrew" / _ROOM
+
+
+def pytest_configure() -> None:
+    """Count in each page that a test opens."""
+    if "SCRIPTS_REACHED" not in os.environ:
+        return
+    from playwright.sync_api import BrowserContext
+
+    opened = BrowserContext.new_page
+
+    def counted(context: BrowserContext) -> Any:
+        page = opened(context)
+        counter = context.new_cdp_session(page)
+        counter.send("Profiler.enable")
+        counter.send("Profiler.startPreciseCoverage", {"callCount": True, "detailed": True})
+        _COUNTERS.append(counter)
+        return page
+
+    BrowserContext.new_page = counted  # type: ignore[method-assign]  (a plugin of measurements)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object]:
+    """Count lines for the test, without the values of its parameters."""
+    test = item.nodeid.partition("[")[0]
+    measured = coverage.Coverage.current()
+    if measured is not None:
+        measured.switch_context(test)
+    started = time.perf_counter()
+    try:
+        return (yield)
+    finally:
+        _SECONDS[test] += time.perf_counter() - started
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_call(item: pytest.Item) -> Generator[None, object, object]:
+    """Count functions of scripts, and the parts of them that were run, while the page is open."""
+    try:
+        return (yield)
+    finally:
+        for counter in _COUNTERS:
+            _add(counter, item.nodeid.partition("[")[0])
+
+
+def _add(counter: Any, test: str) -> None:
+    for script in counter.send("Profiler.takePreciseCoverage")["result"]:
+        name = script["url"].partition(_ADDRESS)[2].partition("?")[0]
+        if not name.endswith(".js"):
+            continue
+        text = (_PAGE / name).read_text(encoding="utf-8")
+        for function in script["functions"]:
+            for part in function["ranges"]:
+                lines = text.count("\n", 0, part["startOffset"]) + 1, text.count("\n", 0, part["endOffset"]) + 1
+                for line in range(lines[0], lines[1] + 1):
+                    place = _SCRIPTS[f"{_ROOM}/{name}"][line]
+                    if part["count"]:
+                        place.add(test)
+                    elif function["isBlockCoverage"]:
+                        place.discard(test)
+
+
+def pytest_sessionfinish() -> None:
+    """Write what each test takes, and which lines of scripts it reaches."""
+    Path(os.environ["SECONDS_OF_TESTS"]).write_text(json.dumps(_SECONDS), encoding="utf-8")
+    if "SCRIPTS_REACHED" in os.environ:
+        found = {name: {line: sorted(tests) for line, tests in each.items()} for name, each in _SCRIPTS.items()}
+        Path(os.environ["SCRIPTS_REACHED"]).write_text(json.dumps(found), encoding="utf-8")

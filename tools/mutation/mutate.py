@@ -1,0 +1,294 @@
+"""A sample of one-line changes, each run against the tests of its room: ``make mutate [SAMPLE=n] [SEED=s]``.
+
+First the tests of each room are run once, to see which lines each of them reaches. Then each change is made in a copy
+of the source, and the tests that reach its line run until one fails. A change that no test notices *survives*: it needs
+a test with a truth of its own, or an entry in ``equivalent.toml`` that says why no result can tell the two apart.
+
+Nothing is written into the working tree: copies and measurements lie in ``out/mutation``.
+"""
+
+from __future__ import annotations
+
+import argparse
+import concurrent.futures
+import hashlib
+import json
+import os
+import queue
+import random
+import shutil
+import subprocess
+import sys
+import time
+import tomllib
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import coverage
+from changes import Change, changes_of
+
+HERE = Path(__file__).parent
+ROOT = HERE.parents[1]
+SOURCE = ROOT / "src" / "ballscrew"
+WORK = ROOT / "out" / "mutation"
+#: Files without results: what is read, drawn, or only described.
+NOT_CHANGED = ("__init__.py", "text.py", "figure.py", "report.py", "response.py", "options.py", "answer.py")
+#: A run of tests that takes so many times as long as they do, and so many seconds more, has noticed the change.
+LONGER, SECONDS_MORE = 4.0, 60.0
+PYTEST = ("-m", "pytest", "-n0", "-q", "-p", "no:randomly")
+
+
+class Room(NamedTuple):
+    """Files that are changed, and the tests that answer for them."""
+
+    source: tuple[str, ...]
+    tests: tuple[str, ...]
+
+
+ROOMS = {
+    "axis": Room(
+        ("axis/duty_cycle", "questions/duty", "questions/axis"),
+        ("axis", "cases/test_duty_case.py", "faces/cli/test_duty.py", "faces/cli/test_axis.py", "golden",
+         "properties/test_duty.py", "questions/duty", "questions/axis"),
+    ),
+    "heat": Room(
+        ("axis/thermal", "questions/warm_up"),
+        ("axis/thermal", "questions/warm_up", "faces/cli/test_warm_up.py", "golden"),
+    ),
+    "supports": Room(("axis/supports",), ("axis/supports", "faces/cli/test_axis.py", "golden")),
+    "motion": Room(("axis/motion",), ("axis/motion", "cases/test_duty_case.py", "cases/test_trajectory_file.py")),
+    "exports": Room(("exports", "questions/hand_over"), ("exports", "golden")),
+    "selection": Room(("questions/select",), ("questions/select", "golden")),
+    "optimisation": Room(("questions/optimise",), ("questions/optimise",)),
+    "service": Room(
+        ("evidence/service", "questions/service", "questions/condition"), ("evidence/service", "questions/service")
+    ),
+    "calibration": Room(("evidence/calibration",), ("evidence/calibration", "golden")),
+    "sizing": Room(("physics/sizing",), ("physics/sizing", "questions/check", "properties/test_life.py")),
+    "cases": Room(("cases",), ("cases",)),
+    "page": Room(("faces/web/page",), ("faces/web",)),
+}  # fmt: skip
+
+
+class Reached(NamedTuple):
+    """The tests that reach each line, and how long each of them takes."""
+
+    #: Tests by file below ``src/ballscrew`` and line.
+    tests: Mapping[str, Mapping[int, Sequence[str]]]
+    seconds: Mapping[str, float]
+
+    def of(self, change: Change) -> list[str]:
+        """The tests that can notice a change, the quickest first; of a line of the import, all of its file."""
+        lines = self.tests.get(change.file, {})
+        found = set(lines.get(change.line, ()))
+        if not found:
+            found = {test for tests in lines.values() for test in tests}
+        return sorted(found, key=lambda test: self.seconds.get(test, 0.0))
+
+
+class Outcome(NamedTuple):
+    """What became of a change: ``killed``, ``survived``, ``equivalent``, or ``not reached`` by any test."""
+
+    room: str
+    change: Change
+    what: str
+    #: The test that noticed it, or why it is equivalent.
+    words: str = ""
+
+
+def main() -> None:
+    """Sample, run, and print what survived."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--sample", type=int, default=400, help="number of changes over all rooms")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--rooms", nargs="*", choices=[*ROOMS], default=[*ROOMS], help="all of them by default")
+    parser.add_argument("--only", help="only changes whose key has this text in it")
+    parser.add_argument("--list", action="store_true", help="list the sample, and run nothing")
+    asked = parser.parse_args()
+    sample = sampled(asked.rooms, asked.sample, asked.seed, asked.only)
+    if asked.list:
+        for room, change in sample:
+            print(f"{room}: {change.key}  (line {change.line})")
+        return
+    outcomes = run(sample)
+    print(table(outcomes))
+    left = [one for one in outcomes if one.what in ("survived", "not reached")]
+    for one in left:
+        print(f"{one.what}, {one.room}: {one.change.key}  (line {one.change.line})")
+    (WORK / "survivors.txt").write_text("".join(f"{one.change.key}\n" for one in left), encoding="utf-8")
+    count = Counter(one.what for one in outcomes)
+    survived = count["survived"] + count["not reached"]
+    print(f"mutants {len(outcomes)}, killed {count['killed']}, survived {survived}, equivalent {count['equivalent']}")
+
+
+def sampled(rooms: Iterable[str], count: int, seed: int, only: str | None = None) -> list[tuple[str, Change]]:
+    """The same changes for the same seed, as many of each room as it has of all, but at least one in thirty-six."""
+    draw = random.Random(seed)
+    found = {room: changes_in(room) for room in rooms}
+    if only is not None:
+        return [(room, change) for room, each in found.items() for change in each if only in change.key]
+    total = sum(map(len, found.values()))
+    chosen = []
+    for room, changes in found.items():
+        share = max(round(count * len(changes) / total), count // (3 * len(found)), 1)
+        chosen += [(room, change) for change in draw.sample(changes, min(share, len(changes)))]
+    draw.shuffle(chosen)
+    return chosen[:count]
+
+
+def changes_in(room: str) -> list[Change]:
+    """All changes of the files of a room."""
+    named = [(file, file.relative_to(SOURCE).as_posix()) for file in files_of(room) if file.name not in NOT_CHANGED]
+    return [change for file, name in named for change in changes_of(file, name)]
+
+
+def files_of(room: str) -> list[Path]:
+    """The files of a room."""
+    kind = "*.js" if room == "page" else "*.py"
+    return [file for folder in ROOMS[room].source for file in sorted((SOURCE / folder).rglob(kind))]
+
+
+# -- running ----------------------------------------------------------------------------------------
+
+
+def run(sample: Sequence[tuple[str, Change]]) -> list[Outcome]:
+    """Run each change: as many at a time as there are processors, each in a copy of its own."""
+    WORK.mkdir(parents=True, exist_ok=True)
+    reached = {room: reached_in(room) for room in sorted({room for room, _ in sample})}
+    equivalent = equivalents()
+    copies: queue.Queue[Path] = queue.Queue()
+    count = os.cpu_count() or 1
+    for number in range(count):
+        copies.put(copied(number))
+    outcomes = []
+
+    def judged(room: str, change: Change) -> Outcome:
+        if change.key in equivalent:
+            return Outcome(room, change, "equivalent", equivalent[change.key])
+        tests = reached[room].of(change)
+        if not tests:
+            return Outcome(room, change, "not reached")
+        copy = copies.get()
+        try:
+            test = noticed(change, tests, copy, sum(reached[room].seconds.get(one, 0.0) for one in tests))
+        finally:
+            copies.put(copy)
+        return Outcome(room, change, "survived" if test is None else "killed", test or "")
+
+    started = time.monotonic()
+    with concurrent.futures.ThreadPoolExecutor(count) as pool:
+        for done in concurrent.futures.as_completed([pool.submit(judged, *one) for one in sample]):
+            outcome = done.result()
+            outcomes.append(outcome)
+            seconds = time.monotonic() - started
+            words = f"{outcome.what}: {outcome.change.key}  {outcome.words}"
+            print(f"[{len(outcomes)}/{len(sample)}, {seconds:.0f} s] {words}", file=sys.stderr, flush=True)
+    return outcomes
+
+
+def copied(number: int) -> Path:
+    """A copy of the source, in which a change is made."""
+    copy = WORK / f"copy{number}"
+    shutil.rmtree(copy, ignore_errors=True)
+    shutil.copytree(ROOT / "src", copy, ignore=shutil.ignore_patterns("__pycache__"))
+    return copy
+
+
+def noticed(change: Change, tests: Sequence[str], copy: Path, seconds: float) -> str | None:
+    """The test that fails with a change; None where all pass."""
+    file = copy / "ballscrew" / change.file
+    original = file.read_text(encoding="utf-8")
+    file.write_text(change.apply(original), encoding="utf-8")
+    stamp = file.stat().st_mtime + random.Random(change.key).randrange(10_000, 1_000_000)
+    os.utime(file, (stamp, stamp))  # a file of the same length and second would be run as it was compiled before
+    # Python finds this copy before the one that is installed, in the processes that tests start, too
+    environment = {**os.environ, "PYTHONPATH": str(copy)}
+    command = [*PYTEST, "-x", "-p", "no:cacheprovider", "--no-header", "--tb=no", "-rfE"]
+    try:
+        ended = subprocess.run(
+            [sys.executable, *command, *tests], cwd=ROOT, env=environment, capture_output=True, text=True,
+            timeout=LONGER * seconds + SECONDS_MORE, check=False,
+        )  # fmt: skip
+    except subprocess.TimeoutExpired:
+        return "takes too long"
+    finally:
+        file.write_text(original, encoding="utf-8")
+        os.utime(file, (stamp + 1, stamp + 1))
+    if ended.returncode == 0:
+        return None
+    lines = [line for line in ended.stdout.splitlines() if line.startswith(("FAILED", "ERROR"))]
+    return lines[0] if lines else "the tests do not start"
+
+
+# -- which test reaches which line ------------------------------------------------------------------
+
+
+def reached_in(room: str) -> Reached:
+    """The tests of each line of a room: measured once for its sources and tests as they are."""
+    paths = [ROOT / "tests" / test for test in ROOMS[room].tests if (ROOT / "tests" / test).exists()]
+    digest = hashlib.sha256()
+    for file in (
+        *files_of(room),
+        *(one for path in paths for one in sorted(path.rglob("*.py") if path.is_dir() else [path])),
+    ):
+        digest.update(file.read_bytes())
+    kept = WORK / f"{room}-{digest.hexdigest()[:16]}.json"
+    if not kept.is_file():
+        kept.write_text(json.dumps(measured(room, paths)), encoding="utf-8")
+    found = json.loads(kept.read_text(encoding="utf-8"))
+    lines = {name: {int(line): tests for line, tests in each.items()} for name, each in found["tests"].items()}
+    return Reached(lines, found["seconds"])
+
+
+def measured(room: str, paths: Sequence[Path]) -> dict[str, object]:
+    """Run the tests of a room, and note the lines that each of them reaches."""
+    print(f"{room}: which test reaches which line", file=sys.stderr, flush=True)
+    data, seconds = WORK / f"{room}.coverage", WORK / f"{room}.seconds"
+    environment = {
+        **os.environ, "COVERAGE_FILE": str(data), "SECONDS_OF_TESTS": str(seconds), "PYTHONPATH": str(HERE),
+    }  # fmt: skip
+    include = ",".join(str(SOURCE / folder / "*") for folder in ROOMS[room].source)
+    if room == "page":  # the browser counts them
+        environment["SCRIPTS_REACHED"], include = str(WORK / "scripts.json"), str(HERE)
+    measure = ["-m", "coverage", "run", f"--rcfile={os.devnull}", f"--include={include}"]
+    ended = subprocess.run(
+        [sys.executable, *measure, *PYTEST, "-p", "contexts", "--tb=short", *map(str, paths)], cwd=ROOT,
+        env=environment, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    if ended.returncode:
+        raise SystemExit(f"The tests of {room} fail without any change:\n{ended.stdout[-3000:]}{ended.stderr[-2000:]}")
+    tests: dict[str, dict[int, list[str]]] = defaultdict(dict)
+    if room == "page":
+        tests.update(json.loads((WORK / "scripts.json").read_text(encoding="utf-8")))
+        return {"tests": tests, "seconds": json.loads(seconds.read_text(encoding="utf-8"))}
+    found = coverage.CoverageData(str(data))
+    found.read()
+    for file in found.measured_files():
+        name = Path(file).relative_to(SOURCE).as_posix()
+        for line, contexts in found.contexts_by_lineno(file).items():
+            tests[name][line] = sorted(filter(None, contexts))
+    return {"tests": tests, "seconds": json.loads(seconds.read_text(encoding="utf-8"))}
+
+
+def equivalents() -> dict[str, str]:
+    """Changes that no result can tell from the original, and why."""
+    return tomllib.loads((HERE / "equivalent.toml").read_text(encoding="utf-8"))
+
+
+def table(outcomes: Sequence[Outcome]) -> str:
+    """The outcomes by room."""
+    count = Counter((one.room, one.what) for one in outcomes)
+    kinds = ("killed", "survived", "not reached", "equivalent")
+    lines = [f"{'room':14}{''.join(f'{kind:>13}' for kind in kinds)}"]
+    lines += [
+        f"{room:14}{''.join(f'{count[room, kind]:13}' for kind in kinds)}"
+        for room in ROOMS
+        if any(k[0] == room for k in count)
+    ]
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    main()
