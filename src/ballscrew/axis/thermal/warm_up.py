@@ -132,17 +132,19 @@ def _integrated(
         return 1.0 if network.inside(state[:n]) else -1.0
 
     leaves.terminal = True  # pyright: ignore[reportFunctionMemberAccess]  (the solver reads it there)
-    found = solve_ivp(
-        rate,
-        (float(instants[0]), float(instants[-1])),
-        first,
-        method="BDF",
-        t_eval=instants,
-        jac=slope,
-        rtol=RTOL,
-        atol=ATOL,
-        events=leaves if works else None,
-    )
+    # the solver subtracts rows of its table that nothing was written to yet, and what lies there may be any number
+    with np.errstate(invalid="ignore", over="ignore"):
+        found = solve_ivp(
+            rate,
+            (float(instants[0]), float(instants[-1])),
+            first,
+            method="BDF",
+            t_eval=instants,
+            jac=slope,
+            rtol=RTOL,
+            atol=ATOL,
+            events=leaves if works else None,
+        )
     if not found.success:
         raise InputError(Fault("warm_up", "could not be integrated", str(found.message), "check the surroundings"))
     if not works or not found.t_events[0].size:
