@@ -1,6 +1,7 @@
 """The frame of exports: targets, requests, ranges, files."""
 
 import dataclasses
+import math
 
 import numpy as np
 import pytest
@@ -155,3 +156,48 @@ def test_faults_of_text_name_the_option(example, asked, expected):
     with pytest.raises(bs.InputError) as fault:
         requests.of_case(case_file.load(example), "fmu", requests.Request(**asked))
     assert str(fault.value).startswith(expected)
+
+
+def test_the_largest_relative_error_has_a_place_of_its_own(handed):
+    """A tenth of the least torque is a smaller error than a hundredth of the largest, and a larger one in relation."""
+
+    def off(points):
+        found = dict(handed.evaluate(points))
+        size = np.abs(found["screw_torque"])
+        least = np.argmin(np.where(size > 0, size, np.inf))
+        found["screw_torque"] = found["screw_torque"] * (1 + 0.001)
+        found["screw_torque"][least] *= 1.01
+        return found
+
+    points = handed.sample()
+    true = np.abs(handed.evaluate(points)["screw_torque"])
+    least = int(np.argmin(np.where(true > 0, true, np.inf)))
+    (error,) = worst_errors(handed, off, points=points, outputs=["screw_torque"])
+    assert true[least] * 0.012 < 0.001 * true.max()
+    assert (error.value, error.largest) == pytest.approx((0.001 * true.max(), true.max()), rel=1e-6)
+    assert error.relative == pytest.approx(1.001 * 1.01 - 1, rel=1e-6)
+    assert error.of_largest == pytest.approx(0.001, rel=1e-6)
+    assert error.at["axial_load"] == points["axial_load"][int(np.argmax(true))]
+    assert error.relative_at["axial_load"] == points["axial_load"][least]
+
+
+def test_an_export_without_a_number_where_the_model_has_one_is_infinitely_off(handed):
+    def broken(points):
+        found = dict(handed.evaluate(points))
+        found["screw_torque"] = np.where(
+            points["axial_load"] == points["axial_load"].max(), np.nan, found["screw_torque"]
+        )
+        return found
+
+    points = handed.sample()
+    (error,) = worst_errors(handed, broken, points=points, outputs=["screw_torque"])
+    assert error.value == error.relative == math.inf
+    assert error.at["axial_load"] == points["axial_load"].max()
+
+
+def test_where_the_model_has_no_number_nothing_is_compared(handed):
+    points = handed.sample()
+    true = dict(handed.evaluate(points))
+    true["screw_torque"] = np.full_like(true["screw_torque"], np.nan)
+    (error,) = worst_errors(handed, handed.evaluate, points=points, exact=true, outputs=["screw_torque"])
+    assert (error.value, error.relative, error.largest) == (0.0, 0.0, 0.0)

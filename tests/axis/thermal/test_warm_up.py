@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+import types
 
 import numpy as np
 import pytest
@@ -229,3 +230,37 @@ def test_bearings_heat_their_own_ends():
     first, last = ends.bearing_temperatures
     assert first[-1] > last[-1]
     assert ends.heat["generated"] == pytest.approx(ends.heat["stored"] + ends.heat["lost"], abs=1e-8 * ends.generated)
+
+
+def test_the_margin_is_that_of_the_linear_network():
+    """By determinants, without an equation for the power: det(K − s ∇Pᵀ) / det K is 1 less the gain of the loop."""
+    end = bs.steady_heat(to_and_fro(1000), COOLED)
+    network, at = end.network, end.temperatures
+    step = 1e-3
+    slopes = [
+        (network.power(at + step * row) - network.power(at - step * row)) / (2 * step) for row in np.eye(network.size)
+    ]
+    loop = network.conductances - np.outer(network.source, slopes)
+    margin = np.linalg.det(loop) / np.linalg.det(network.conductances)
+    assert abs(margin - 1) > 0.01  # so that a gain of the other sign is another margin
+    assert end.margin == pytest.approx(margin, rel=1e-4)
+
+
+def test_the_oil_is_between_nut_and_shaft():
+    """The films of a ball are one on each: their mean temperature, and the excess is that of the shaft."""
+    network = warm_up(to_and_fro(500), PLAIN, time=60.0, outputs=2).network
+    temperatures = np.full(network.size, 340.0)  # of the shaft
+    temperatures[-3] = 300.0  # of the nut
+    assert network.of_oil @ temperatures == pytest.approx(320.0, rel=1e-12)
+    assert network.of_excess @ temperatures == pytest.approx(40.0, rel=1e-12)
+
+
+def test_what_lay_in_the_memory_of_the_solver_is_no_warning(monkeypatch):
+    """Its table of differences is not filled at first: whatever was there before must not show."""
+    plain = warm_up(to_and_fro(500), PLAIN, time=3600.0, outputs=3)
+    filled = types.SimpleNamespace(**vars(np))
+    signalling = np.uint64(0x7FF4000000000001)  # a NaN that complains of each operation
+    filled.empty = lambda shape, dtype=float: np.full(shape, signalling).view(dtype)
+    monkeypatch.setattr("scipy.integrate._ivp.bdf.np", filled)
+    again = warm_up(to_and_fro(500), PLAIN, time=3600.0, outputs=3)
+    assert np.array_equal(plain.states, again.states)

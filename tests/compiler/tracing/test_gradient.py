@@ -98,6 +98,23 @@ def test_the_slope_of_a_root_at_zero_is_infinite():
     assert np.isinf(slope[0])
 
 
+def test_a_branch_does_not_hide_the_slope_beside_it():
+    """The slope of a sum is the sum of the slopes: also where a root is in a branch, and beside it times nothing."""
+    x, y = np.array([0.0, 0.0, 4.0]), np.array([0.0, 1.0, 0.0])
+
+    def branch(x, y):
+        return np.where(x > 0, np.sqrt(x), 0.0)
+
+    def beside(x, y):
+        return y * np.sqrt(x)
+
+    (of_branch, _), (of_other, _) = slopes(branch, x, y), slopes(beside, x, y)
+    assert np.array_equal(of_branch, [0.0, 0.0, 0.25])
+    assert np.array_equal(of_other, [np.nan, np.inf, 0.0], equal_nan=True)  # nothing times infinity is not known
+    for both in (lambda x, y: branch(x, y) + beside(x, y), lambda x, y: beside(x, y) + branch(x, y)):
+        assert np.array_equal(slopes(both, x, y)[0], of_branch + of_other, equal_nan=True)
+
+
 def test_unknown_operation():
     tape = Tape(1)
     with pytest.raises(UnknownDerivativeError, match="sinh"):
