@@ -83,6 +83,20 @@ def test_steps_are_of_second_order(central, monkeypatch):
     assert np.log2(errors[1] / errors[2]) > 1.7
 
 
+def test_the_steps_are_as_short_as_they_are_said_to_be(central, monkeypatch):
+    """From the cold, where friction changes most, against steps of a thirtieth of their length."""
+    slot, start = Slot.of([central.network]), np.full((1, central.network.size), 293.15)
+
+    def nut():
+        states = marched([slot], pieces([0.0, 60.0, 300.0, 1200.0, 7200.0]), start)
+        return np.array([state.temperatures[0, -3] for state in states])
+
+    usual = nut()
+    monkeypatch.setattr("ballscrew.axis.thermal.marching.PER_NUT", 30 * 8.0)
+    monkeypatch.setattr("ballscrew.axis.thermal.marching.PER_TIME", 30 * 30.0)
+    assert np.max(np.abs(usual - nut())) < 5e-4
+
+
 def test_samples_side_by_side_are_transients_of_their_own(duty, central):
     """Others beside it change nothing, and a changed network is that of changed surroundings."""
     values = {
