@@ -283,6 +283,10 @@ def test_warm_up(server, tmp_path):
 def test_axis(server, tmp_path):
     tables = tables_of(next(path for path in EXAMPLES if path.stem == "feed_axis"))
     assert server.post("axis", {"case": tables}).json() == document("axis", written(tables, tmp_path), "--json")
+    places = [word for place in ("300 mm", "0.5 m") for word in ("--at", place)]
+    of_places = document("axis", written(tables, tmp_path), "--json", *places)
+    assert server.post("axis", {"case": tables, "at": places[1::2]}).json() == of_places
+    assert len(of_places["results"]["position"]) == 2
 
 
 def test_catalogue(server):
@@ -371,6 +375,8 @@ def test_report(server, stem, kind, tmp_path):
     printed("report", path, "-o", to, *options, *(text for other in beside for text in ("--beside", other)))
     assert found.content == to.read_bytes()
     assert (b"Project: Axis 2" in found.content) == (b"side by side" in found.content) == bool(said)
+    refused = server.post("report", {"case": tables_of(path), "samples": 2**20})
+    assert refused.json()["lines"][0].startswith("--samples: too many (1,048,576) · ")
     refused = server.post("report", {"case": tables_of(path), "date": "tomorrow"})
     assert (refused.status_code, refused.json()["faults"][0]["where"]) == (422, "--date")
     refused = server.post("report", {"case": tables_of(path), "beside": [tables_of(path)] * 4})

@@ -14,12 +14,16 @@ from typer.testing import CliRunner
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.faces.cli import (
+    axis,
+    check,
+    compensation,
     condition,
     duty,
     fit,
     hand_over,
     main,
     optimise,
+    report,
     run,
     select,
     sensitivity,
@@ -28,10 +32,14 @@ from ballscrew.faces.cli import (
     warm_up,
 )
 from ballscrew.faces.cli.flags import flags_of, with_flags
-from ballscrew.faces.web.bodies import BandBody, NeedBody, SweepBody, WarmUpBody
+from ballscrew.faces.report.options import ReportOptions
+from ballscrew.faces.web.bodies import AxisBody, BandBody, NeedBody, ReportBody, SweepBody, WarmUpBody
 from ballscrew.faces.web.log_bodies import FitBody, HandOverBody, ServiceBody
 from ballscrew.faces.web.vocabulary import OPTIONS, vocabulary
+from ballscrew.questions.axis.options import AxisOptions
 from ballscrew.questions.band.options import BandOptions
+from ballscrew.questions.check.options import CheckOptions
+from ballscrew.questions.compensation.options import CompensationOptions
 from ballscrew.questions.condition.options import ConditionOptions
 from ballscrew.questions.duty.options import DutyOptions
 from ballscrew.questions.fit.options import FitOptions
@@ -48,11 +56,15 @@ from ballscrew.questions.warm_up.options import DriftOptions, WarmUpOptions
 
 #: The classes of options of each command.
 COMMANDS = {
+    axis.axis: (AxisOptions,),
+    check.check: (CheckOptions,),
+    compensation.compensation: (CompensationOptions,),
     condition.condition: (ConditionOptions,),
     duty.duty: (DutyOptions,),
     fit.fit: (FitOptions, FitMotionOptions),
     hand_over.hand_over: (HandOverOptions,),
     optimise.optimise: (OptimiseOptions,),
+    report.report: (ReportOptions,),
     run.run: (BandOptions,),
     select.select: (SelectOptions, ListOptions),
     sensitivity.sensitivity: (SensitivityOptions,),
@@ -62,9 +74,11 @@ COMMANDS = {
 }
 #: The body of the API for the options of a question.
 BODIES = {
+    AxisOptions: AxisBody,
     BandOptions: BandBody,
     FitOptions: FitBody,
     HandOverOptions: HandOverBody,
+    ReportOptions: ReportBody,
     SelectOptions: NeedBody,
     ServiceOptions: ServiceBody,
     SweepOptions: SweepBody,
@@ -135,6 +149,7 @@ class Every:
     choice: Annotated[Literal["a", "b", "none"], Option("Of choices.", noun="letter")] = "none"
     length: Annotated[float | None, Option("Of lengths.", unit="m", above=0, short="-l", flag="long")] = None
     warmer: Annotated[float | None, Option("Of differences.", unit="K", at_least=0, is_difference=True)] = None
+    places: Annotated[Sequence[float], Option("Of places.", unit="m")] = ()
     share: Annotated[float, Option("Of shares.")] = 0.5
     count: Annotated[int | None, Option("Of counts.")] = None
     text: Annotated[str | None, Option("Of text.")] = None
@@ -144,17 +159,18 @@ class Every:
 
 VALUES = Every(
     names=["two", "three"], ranges={"x": (0.001, 0.002)}, texts={"a": "b = c"}, choice="b", length=0.002, warmer=2.0,
-    share=0.25, count=3, text="t", switch=True,
+    places=[0.3, 0.5], share=0.25, count=3, text="t", switch=True,
     table=["x=1:2", "x=3"],
 )  # fmt: skip
 TYPED = [
     "--names", "two, three", "--ranges", "x=1:2 mm", "--texts", "a=b = c", "--choice", "b", "-l", "2 mm",
-    "--warmer", "2 K", "--share", "0.25", "--count", "3", "--text", "t", "--switch",
+    "--warmer", "2 K", "--places", "300 mm", "--places", "0.5 m",
+    "--share", "0.25", "--count", "3", "--text", "t", "--switch",
     "--table", "x=1:2", "--table", "x=3",
 ]  # fmt: skip
 SENT = {
     "names": ["two", "three"], "ranges": {"x": "1:2 mm"}, "texts": {"a": "b = c"}, "choice": "b", "length": "2 mm",
-    "warmer": "2 K", "share": 0.25, "count": 3, "text": "t", "switch": True,
+    "warmer": "2 K", "places": ["300 mm", "0.5 m"], "share": 0.25, "count": 3, "text": "t", "switch": True,
     "table": {"x": "1:2", "y": "3"},
 }  # fmt: skip
 
@@ -179,7 +195,7 @@ def test_every_kind_on_the_command_line():
     assert CliRunner().invoke(app, ["case"]).exit_code == 0
     assert given == [("case", VALUES, True), ("case", Every(), False)]
     shown = CliRunner().invoke(app, ["--help"]).output
-    assert [option.option.meaning in shown for option in options_of(Every).values()] == [True] * 11
+    assert [option.option.meaning in shown for option in options_of(Every).values()] == [True] * 12
     assert "[default: 0.5]" in shown
 
 
@@ -193,7 +209,8 @@ def test_every_kind_in_a_body():
         body(share="0.25")
     assert {one["name"]: one["kind"] for one in vocabulary_of(Every)} == {
         "names": "names", "ranges": "ranges", "texts": "texts", "choice": "choice", "length": "quantity",
-        "warmer": "quantity", "share": "number", "count": "whole", "text": "text", "switch": "switch",
+        "warmer": "quantity", "places": "quantities",
+        "share": "number", "count": "whole", "text": "text", "switch": "switch",
         "table": "texts",
     }  # fmt: skip
 
@@ -205,6 +222,7 @@ FAULTS = {
     "choice": ("c", "--choice: unknown letter (c) · a or b"),
     "length": ("-2 mm", "--long: must be positive (-2 mm)"),
     "warmer": ("2 degC", '--warmer: is a difference of temperatures, in K (2 degC) · write --warmer "2 K"'),
+    "places": (["2 mm", "2 N"], "--places: wrong unit (2 N) · use a unit such as m, mm or um"),
 }
 
 

@@ -2,25 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ballscrew.faces.cli.common_options import AllowCode, CaseFile, ModelName
+from ballscrew.faces.cli.flags import flags_of
+from ballscrew.questions.axis.options import AxisOptions
 
 if TYPE_CHECKING:
     from ballscrew.questions.axis.compute import ChainReport
 
-_TO, _AT = "--to", "--at"
+_TO = "--to"
 
 
+@flags_of(AxisOptions)
 def axis(
     case: CaseFile,
-    at: Annotated[
-        list[str] | None,
-        typer.Option(_AT, metavar="PLACE", help='Place of the nut from the fixed bearing, "300 mm"; repeat.'),
-    ] = None,
+    *,
+    written: Mapping[str, Any],
     model: ModelName = None,
     settings: Annotated[
         list[str] | None,
@@ -40,18 +42,16 @@ def axis(
     Nut, shaft, bearings, mount and the twist of the shaft, one behind the other. The case has an [installation]; with
     [axis] and [motion] the travel, the largest load and the largest speed are theirs, or else of [operation].
     """
-    from ballscrew.basis import units
-    from ballscrew.basis.errors import Fault, raise_if_any
     from ballscrew.basis.output.json_text import as_json as json_text
     from ballscrew.questions.axis import compute, text
     from ballscrew.questions.axis import document as documents
+    from ballscrew.questions.shared.option_values import read
 
-    read = [units.parse(_AT, place, compute.SERIES["position"]) for place in at or []]
-    raise_if_any([place for place in read if isinstance(place, Fault)])
+    options = read(AxisOptions, written)
     loaded = compute.load(case, settings or [], model, allow_code=allow_code)
     for path in to or []:
         _check(path)
-    report = compute.chain_of(loaded, [float(place) for place in read if not isinstance(place, Fault)])
+    report = compute.chain_of(loaded, options.at)
     typer.echo(json_text(documents.document(report)) if as_json else text.text(report))
     for path in to or []:
         _write(path, report)

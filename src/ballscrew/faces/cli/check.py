@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
@@ -16,11 +17,14 @@ from ballscrew.faces.cli.common_options import (
     check_rows,
     say_of_rows,
 )
+from ballscrew.faces.cli.flags import flags_of
+from ballscrew.questions.check.options import CheckOptions, given
 
 if TYPE_CHECKING:
     from ballscrew.questions.check.compute import Options
 
 
+@flags_of(CheckOptions)
 def check(
     name: Annotated[
         str | None, typer.Argument(metavar="[CASE_OR_ROW]", help="Case file (TOML), or name of a catalogue row.")
@@ -35,36 +39,8 @@ def check(
     ] = None,
     row: Row = None,
     every: Annotated[bool, typer.Option("--all", help="All rows, one line each.")] = False,
-    axial_load: Annotated[
-        str | None, typer.Option("--axial-load", metavar="FORCE", help='"5 kN"; a tenth of C_a if left out.')
-    ] = None,
-    speed: Annotated[
-        str | None, typer.Option("--speed", metavar="SPEED", help='"1500 rpm"; 600 rpm if left out.')
-    ] = None,
-    nut: Annotated[
-        str | None, typer.Option("--nut", metavar="TYPE", help="single, oversize-balls, double, offset-lead.")
-    ] = None,
-    preload: Annotated[
-        str | None,
-        typer.Option(
-            "--preload",
-            metavar="FORCE",
-            help='"3 kN", or "7 %" of C_a; if left out, that of the row, or 7 % (oversize balls 5 %).',
-        ),
-    ] = None,
-    length: Annotated[
-        str | None, typer.Option("--length", metavar="LENGTH", help='Longest stretch without support, "1.2 m".')
-    ] = None,
-    ends: Annotated[
-        str | None,
-        typer.Option("--ends", metavar="ENDS", help="fixed-fixed, fixed-supported, supported-supported, fixed-free."),
-    ] = None,
-    grade: Annotated[
-        str | None, typer.Option("--grade", metavar="GRADE", help='Of the oil: "ISO VG 68"; ISO VG 100 if left out.')
-    ] = None,
-    temperature: Annotated[
-        str | None, typer.Option("--temperature", metavar="T", help='Of the oil: "50 degC"; 40 degC if left out.')
-    ] = None,
+    *,
+    written: Mapping[str, Any],
     model: ModelName = None,
     calibration: CalibrationName = None,
     settings: Annotated[
@@ -74,9 +50,6 @@ def check(
         ),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, of many rows a list; SI units.")] = False,
-    keep_going: Annotated[
-        bool, typer.Option("--keep-going", help="Leave faulty rows out, and say which; fails if none is good.")
-    ] = False,
     to: Annotated[
         Path | None, typer.Option("--to", "-o", metavar="FILE", help="Of many rows: also write them, .csv or .xlsx.")
     ] = None,
@@ -93,24 +66,8 @@ def check(
     from ballscrew.questions.check.document import document
     from ballscrew.questions.check.text import text
 
-    given = {
-        "operation.axial_load": axial_load,
-        "operation.screw_speed": speed,
-        "nut.type": nut,
-        "nut.preload": preload,
-        "installation.unsupported_length": length,
-        "installation.ends": ends,
-        "lubricant.grade": grade,
-        "lubricant.temperature": temperature,
-    }
-    options = Options(
-        {key: value for key, value in given.items() if value is not None},
-        settings or [],
-        model,
-        calibration,
-        allow_code,
-        self_heating,
-    )
+    options = Options(given(written), settings or [], model, calibration, allow_code, self_heating)
+    keep_going: bool = written["keep_going"]
     check_rows(rows, row)
     screws = _asked(name, rows, row, every=every, to=to)
     if screws.name is None or screws.case is not None or screws.are_listed:

@@ -2,36 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from ballscrew.faces.cli.common_options import AllowCode, CaseFile, ModelName, Settings
+from ballscrew.faces.cli.flags import flags_of
+from ballscrew.questions.compensation.options import CompensationOptions
 
 
+@flags_of(CompensationOptions)
 def compensation(
     case: CaseFile,
     to: Annotated[str, typer.Option("--to", metavar="CONTROL", help="sinumerik or isg (TwinCAT CNC).")],
     out: Annotated[Path, typer.Option("--out", "-o", metavar="FILE", help="File to write.")],
-    hours: Annotated[float, typer.Option("--hours", metavar="H", help="Hours of work.")] = 4.0,
-    axis: Annotated[str, typer.Option("--axis", metavar="NAME", help="Name of the axis at the control.")] = "X1",
-    zero: Annotated[
-        str, typer.Option("--zero", metavar="LENGTH", help="Place from the fixed bearing where the axis is at zero.")
-    ] = "0 mm",
-    direction: Annotated[
-        str,
-        typer.Option(
-            "--direction",
-            metavar="away|towards",
-            help="Positions of the axis grow away from the fixed bearing, or towards it.",
-        ),
-    ] = "away",
-    step: Annotated[str, typer.Option("--step", metavar="LENGTH", help="Distance of the points.")] = "20 mm",
-    reference: Annotated[
-        str | None,
-        typer.Option("--reference", metavar="LENGTH", help="Position of the axis where nothing is compensated."),
-    ] = None,
+    *,
+    written: Mapping[str, Any],
     model: ModelName = None,
     settings: Settings = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
@@ -46,52 +34,23 @@ def compensation(
     from ballscrew.basis.atomic_files import atomic_write, check_writable
     from ballscrew.basis.errors import Fault, InputError, nearest
     from ballscrew.basis.output.json_text import as_json as json_text
-    from ballscrew.basis.records import Message
     from ballscrew.questions.compensation import compute, text
     from ballscrew.questions.compensation import document as documents
     from ballscrew.questions.compensation import table as compensation_lists
+    from ballscrew.questions.shared.option_values import read
     from ballscrew.questions.warm_up import compute as warm_up
 
     if to not in compensation_lists.LISTS:
         raise InputError(Fault("--to", "unknown control", to, nearest(to, compensation_lists.LISTS)))
-    if not axis.isidentifier():
-        raise InputError(Fault("--axis", "is no name of an axis", axis, "write letters and digits, such as X1"))
-    if direction not in compute.DIRECTIONS:
-        remedy = nearest(direction, compute.DIRECTIONS)
-        raise InputError(Fault("--direction", "unknown direction", direction, remedy))
-    if not 0 < hours <= _LONGEST:
-        raise InputError(
-            Fault(
-                "--hours",
-                Message("must be above 0 and at most {longest}", {"longest": f"{_LONGEST:g}"}),
-                f"{hours:g}",
-                "write --hours 4",
-            )
-        )
-    lengths = {"--zero": zero, "--step": step, **({} if reference is None else {"--reference": reference})}
-    found = {name: _length(name, text) for name, text in lengths.items()}
+    options = read(CompensationOptions, written)
+    compute.check(options)
     check_writable("--out", out)
-    report = warm_up.warmed_up(warm_up.load(case, settings or [], model, allow_code=allow_code), hours)
+    report = warm_up.warmed_up(warm_up.load(case, settings or [], model, allow_code=allow_code), options.hours)
     made = compute.position_compensation(
-        report, hours, zero=found["--zero"], direction=direction, step=found["--step"],
-        reference=found.get("--reference"),
+        report, options.hours, zero=options.zero, direction=options.direction or "away", step=options.step,
+        reference=options.reference,
     )  # fmt: skip
     with atomic_write("--out", out) as path:
-        path.write_text(compensation_lists.LISTS[to](made, axis), encoding="utf-8")
+        path.write_text(compensation_lists.LISTS[to](made, options.axis), encoding="utf-8")
     typer.echo(f"{out}", err=as_json)
     typer.echo(json_text(documents.document(made, report)) if as_json else text.text(made, report))
-
-
-#: The longest time, h: a year.
-_LONGEST = 8766.0
-
-
-def _length(where: str, text: str) -> float:
-    from ballscrew.basis import units
-    from ballscrew.basis.errors import Fault, InputError
-    from ballscrew.basis.quantities import Info, Quantity
-
-    found = units.parse(where, text, Quantity(where, "m", Info("x", "length", "mm")))
-    if isinstance(found, Fault):
-        raise InputError(found)
-    return found

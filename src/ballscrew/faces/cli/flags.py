@@ -17,7 +17,7 @@ WRITTEN = "written"
 #: The attribute of a command with the classes of its options.
 _CLASSES = "options"
 _TYPES: Mapping[str, Any] = {"switch": bool, "whole": int, "number": float}
-_TABLES = ("names", "texts", "ranges")
+_TABLES = ("names", "quantities", "texts", "ranges")
 
 
 def flags_of(*classes: type) -> Callable[[C], C]:

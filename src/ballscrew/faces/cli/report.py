@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-import datetime
 import importlib.util
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import typer
 
 from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName, Settings
+from ballscrew.faces.cli.flags import flags_of
+from ballscrew.faces.report.options import ReportOptions
 
 #: What each kind of file needs beyond the core.
 _NEEDS = {".html": ("jinja2",), ".pdf": ("typst",)}
@@ -19,19 +21,15 @@ _TO = "--to"
 _MOST_BESIDE = 3
 
 
+@flags_of(ReportOptions)
 def report(
     case: CaseFile,
     to: Annotated[Path, typer.Option("--to", "-o", metavar="FILE", help="What to write: .pdf or .html.")],
     model: ModelName = None,
     calibration: CalibrationName = None,
     settings: Settings = None,
-    samples: Annotated[
-        int | None, typer.Option("--samples", metavar="N", help="Of the band: 16384; where balls differ 1024.")
-    ] = None,
-    project: Annotated[str | None, typer.Option("--project", metavar="NAME", help="Stands below the title.")] = None,
-    date: Annotated[
-        str | None, typer.Option("--date", metavar="DATE", help="Such as 2026-11-23, or today; none by itself.")
-    ] = None,
+    *,
+    written: Mapping[str, Any],
     beside: Annotated[
         list[Path] | None, typer.Option("--beside", metavar="CASE", help="Another design, up to three; repeatable.")
     ] = None,
@@ -63,6 +61,7 @@ def report(
     from ballscrew.basis.atomic_files import atomic_write, check_writable
     from ballscrew.cases.case_files import case_file
     from ballscrew.faces.report.heading import Heading
+    from ballscrew.questions.shared.option_values import read
 
     if len(beside or []) > _MOST_BESIDE:
         raise InputError(
@@ -77,13 +76,14 @@ def report(
         case_file.load(path, settings or [], model, calibration=calibration, allow_code=allow_code)
         for path in (case, *(beside or []))
     )
-    heading = Heading.of(project, datetime.date.today().isoformat() if date == "today" else date)
+    options = read(ReportOptions, written)
+    heading = Heading.of(options.project, options.date)
     check_writable(_TO, to)
     from ballscrew.faces.cli.progress import progress
     from ballscrew.faces.report.files import report_bytes
 
     with progress("report") as done:
-        written = report_bytes(loaded, _KINDS[kind], done, samples, heading, others)
+        made = report_bytes(loaded, _KINDS[kind], done, options.samples, heading, others)
     with atomic_write(_TO, to) as path:
-        path.write_bytes(written)
-    typer.echo(f"{to}: report of {case.name}, {len(written) // 1000} kB")
+        path.write_bytes(made)
+    typer.echo(f"{to}: report of {case.name}, {len(made) // 1000} kB")

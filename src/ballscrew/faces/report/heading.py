@@ -20,7 +20,7 @@ class Heading(NamedTuple):
 
     @classmethod
     def of(cls, project: str | None, date: str | None) -> Heading:
-        """The heading of texts that people gave.
+        """The heading of texts that people gave; ``today`` is a date, too.
 
         Raises :class:`~ballscrew.basis.errors.InputError` for a name of several lines or too many letters, and for a
         date that is not one of the calendar, such as 2026-11-23.
@@ -30,6 +30,8 @@ class Heading(NamedTuple):
         if len(name) > LONGEST or not name.isprintable():
             remedy = Message("one line of {longest} letters at most", {"longest": str(LONGEST)})
             faults.append(Fault("--project", "cannot stand on a report", repr(name[:40]), remedy))
+        if day == "today":
+            day = datetime.date.today().isoformat()
         if day and not _is_date(day):
             faults.append(Fault("--date", "is no date", day[:40], "write it as 2026-11-23, or leave it out"))
         raise_if_any(faults)

@@ -17,10 +17,13 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.cases.schema.schema import json_schema
 from ballscrew.cases.screw_tables import catalogue as rows
 from ballscrew.faces.report.heading import Heading
+from ballscrew.faces.report.options import ReportOptions
 from ballscrew.faces.web import answers_api, documents, file_api, job_api, limits, log_api, openapi, vocabulary
 from ballscrew.faces.web.bodies import (
+    AxisBody,
     BandBody,
     CaseBody,
+    CasesBody,
     CycleBody,
     DutyBody,
     NeedBody,
@@ -52,6 +55,7 @@ from ballscrew.physics.sizing.catalogue import catalogue as shipped
 from ballscrew.questions.axis import compute as chains
 from ballscrew.questions.axis import document as chain_documents
 from ballscrew.questions.axis.answer import ChainResults
+from ballscrew.questions.axis.options import AxisOptions
 from ballscrew.questions.band import answer as band_answers
 from ballscrew.questions.band import compute as bands
 from ballscrew.questions.band.options import BandOptions
@@ -288,17 +292,18 @@ async def select_plan(request: Request) -> Response:
 
 @router.post(
     "/axis",
-    openapi_extra=openapi.body(DutyBody),
+    openapi_extra=openapi.body(AxisBody),
     response_model=response(ChainResults, "Chain", beside=answer_parts.Assumed),
     responses=openapi.problems_of(),
 )
 async def axis(request: Request) -> Response:
     """What gives way between motor and table: the document of ``ballscrew axis --json``."""
-    body: DutyBody = await read(request, DutyBody)
+    body: DutyBody = await read(request, AxisBody)
+    options = option_values.read(AxisOptions, dict(body))
 
     def work(_: Deadline) -> Response:
         moves = "motion" in body.case and "axis" in body.case
-        return as_json(chain_documents.document(chains.chain_of(case_of(body.case, moves=moves))))
+        return as_json(chain_documents.document(chains.chain_of(case_of(body.case, moves=moves), options.at)))
 
     return await heavy(request, work)
 
@@ -402,10 +407,11 @@ async def report(
     kind: Annotated[str, Query(json_schema_extra={"enum": [*KINDS]}, description="the kind of file")] = "pdf",
 ) -> Response:
     """The report of a case, as ``ballscrew report`` writes it."""
-    body: ReportBody = await read(request, ReportBody)
+    body: CasesBody = await read(request, ReportBody)
+    options = option_values.read(ReportOptions, dict(body))
     if kind not in KINDS:
         raise InputError(Fault("?kind", "unknown kind of file", kind, nearest(kind, KINDS)))
-    heading = Heading.of(body.project, body.date)
+    heading = Heading.of(options.project, options.date)
 
     def work(done: Deadline) -> Response:
         from ballscrew.faces.report.files import Kind, report_bytes  # slow to import
@@ -413,7 +419,7 @@ async def report(
         case, *beside = map(case_of, (body.case, *body.beside))
         written: Kind = "pdf" if kind == "pdf" else "html"
         # none has more samples than the largest of them may have
-        fewest = [count for each in (case, *beside) if (count := limits.samples_of(each)) is not None]
+        fewest = [count for each in (case, *beside) if (count := limits.samples_of(each, options.samples)) is not None]
         found = report_bytes(case, written, done, min(fewest) if fewest else None, heading, beside)
         return Response(found, media_type=KINDS[kind])
 

@@ -22,9 +22,11 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case_file import Case
 from ballscrew.cases.schema.duty_schema import TRAJECTORY
 from ballscrew.cases.schema.schema import read_table
+from ballscrew.faces.report.options import ReportOptions
 from ballscrew.faces.web.limits import check_motion
 from ballscrew.faces.web.problems import Refused
 from ballscrew.physics.sizing.catalogue import catalogue
+from ballscrew.questions.axis.options import AxisOptions
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.select.options import SelectOptions
 from ballscrew.questions.shared.options import body_fields
@@ -77,6 +79,14 @@ def body_of(name: str, base: type[B], options: type, words: str) -> type[B]:
 
 class DutyBody(CaseBody):
     """A case with an axis and a motion; it needs no operating point."""
+
+
+AxisBody = body_of(
+    "AxisBody",
+    DutyBody,
+    AxisOptions,
+    "A case with an installation, and places of its nut.",
+)
 
 
 class CycleBody(DutyBody):
@@ -135,14 +145,18 @@ class ProjectBody(Body):
     designs: list[Tables]
 
 
-class ReportBody(CaseBody):
-    """A case, other designs beside it, and what may stand below the title: the name of a project, and a date."""
+class CasesBody(CaseBody):
+    """A case, and other designs beside it."""
 
-    project: str = Field(default="", strict=True)
-    date: str = Field(default="", strict=True, description="such as 2026-11-23; none by itself")
     beside: list[Tables] = Field(default_factory=list[Tables], description="other designs, three at most", max_length=3)
 
 
+ReportBody = body_of(
+    "ReportBody",
+    CasesBody,
+    ReportOptions,
+    "A case, other designs beside it, samples of the band, and what may stand below the title: a project, and a date.",
+)
 BandBody = body_of("BandBody", CaseBody, BandOptions, "A case, and the options of its band.")
 SweepBody = body_of(
     "SweepBody",

@@ -14,7 +14,7 @@ from ballscrew.basis.quantities import Angle, Force, Length, Pressure, quantitie
 from ballscrew.basis.records import Message, Record, Severity
 from ballscrew.cases.case_files import case_file, descriptions, nut_tables
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.schema.option_faults import in_options
+from ballscrew.cases.schema.option_faults import OPTIONS, in_options
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
 from ballscrew.physics.components.nut import Nut, OversizeBallNut
@@ -24,6 +24,7 @@ from ballscrew.physics.sizing.checks import Check, all_hold, checks, verdict_of
 from ballscrew.physics.sizing.dn_limits import speed_limit_of
 from ballscrew.physics.sizing.listed_nut import PRELOADED, lists_preload
 from ballscrew.physics.sizing.ratings import Ratings, ratings_of
+from ballscrew.questions.check.options import flags
 from ballscrew.questions.run.compute import Run, with_nut
 from ballscrew.questions.run.nut_state import NutState
 from ballscrew.questions.shared.every_row import Done, OfRows, copied, each, place_of
@@ -237,7 +238,7 @@ def _built(
         )
     except InputError as error:
         model = () if options.model is None else ("model.name",)
-        raise InputError(*in_options(error.faults, (*options.given, *model))) from None
+        raise InputError(*in_options(error.faults, (*options.given, *model), {**flags(), **OPTIONS})) from None
 
 
 def _put(tables: dict[str, Any], options: Options) -> dict[str, Any]:

@@ -12,10 +12,11 @@ from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, InputError, nearest
 from ballscrew.basis.quantities import Duration
 from ballscrew.basis.records import Message
-from ballscrew.questions.warm_up.compute import HOUR, WarmUpReport
+from ballscrew.questions.compensation.options import STEP, CompensationOptions
+from ballscrew.questions.warm_up.compute import HOUR, WarmUpReport, check_hours
 
-#: Distance of the points of a list, m, and the number of points at most (SINUMERIK 808D).
-STEP, MOST = 0.02, 200
+#: The number of points of a list at most (SINUMERIK 808D).
+MOST = 200
 #: Which way the positions of the axis may grow, seen from the fixed bearing, and the sign of that.
 DIRECTIONS = {"away": 1.0, "towards": -1.0}
 _WORDS = {"away": "away from", "towards": "towards"}
@@ -114,6 +115,14 @@ def position_compensation(
     return PositionCompensation(
         positions[onward] + 0.0, moved[onward] + 0.0, missed, shaft.cell, hours, direction
     )  # no -0
+
+
+def check(options: CompensationOptions) -> None:
+    """Raise :class:`~ballscrew.basis.errors.InputError` for hours and for a name of an axis that are none."""
+    if not options.axis.isidentifier():
+        remedy = "write letters and digits, such as X1"
+        raise InputError(Fault("--axis", "is no name of an axis", options.axis, remedy))
+    check_hours(options.hours, 0.0)
 
 
 def _stopped(stopped: Duration, hours: float) -> Fault:

@@ -102,8 +102,13 @@ def _quantity(option: OptionField, text: str, faults: list[Fault]) -> float | No
     return found
 
 
+def _quantities(option: OptionField, given: Sequence[str], faults: list[Fault]) -> list[float]:
+    return [found for text in given if (found := _quantity(option, text, faults)) is not None]
+
+
 _READERS: Mapping[str, Callable[[OptionField, Any, list[Fault]], Any]] = {
     "choice": _choice, "names": _names, "texts": _texts, "quantity": _quantity,
+    "quantities": _quantities,
 }  # fmt: skip
 
 

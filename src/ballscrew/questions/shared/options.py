@@ -22,16 +22,20 @@ Range = tuple[float, float]
 #: - ``switch`` (``bool``): true or false; a flag without a value
 #: - ``whole`` (``int``), ``number`` (``float``): a number
 #: - ``quantity`` (``float`` with a unit): text, ``"35 N/V"``
+#: - ``quantities`` (``Sequence[float]`` with a unit): several such texts
 #: - ``choice`` (``Literal``): one of its texts
 #: - ``text`` (``str``)
 #: - ``names`` (``Sequence[str]``): texts, also several in one with commas
 #: - ``texts`` (``Mapping[str, str]``): a text for each name; a flag ``name=text``, repeated
 #: - ``ranges`` (``Mapping[str, Range]``): ``low:high unit`` for each name
-Kind: TypeAlias = Literal["switch", "whole", "number", "quantity", "choice", "text", "names", "texts", "ranges"]
+Kind: TypeAlias = Literal[
+    "switch", "whole", "number", "quantity", "quantities", "choice", "text", "names", "texts", "ranges"
+]  # fmt: skip
 _SIMPLE: Mapping[Any, Kind] = {bool: "switch", int: "whole", float: "number", str: "text"}
 _WRITTEN: Mapping[Kind, Any] = {
-    "switch": bool, "whole": int, "number": float, "quantity": str, "choice": str, "text": str,
-    "names": list[str], "texts": dict[str, str], "ranges": dict[str, str],
+    "switch": bool, "whole": int, "number": float, "quantity": str, "quantities": list[str], "choice": str, "text": str,
+    "names": list[str],
+    "texts": dict[str, str], "ranges": dict[str, str],
 }  # fmt: skip
 
 
@@ -56,6 +60,8 @@ class Option:
     #: The name of the flag, where it is not that of the field; a short one.
     flag: str = ""
     short: str = ""
+    #: The field of a case that a text gives, section.field.
+    sets: str = ""
     #: True for a sequence of ``name=text`` that the question itself reads.
     is_table: bool = False
     #: Of a choice, for the message on one that is unknown; an example of a table.
@@ -83,6 +89,8 @@ class OptionField:
         bare = get_origin(self.type) or self.type
         if bare is Literal:
             return "choice"
+        if bare is Sequence and self.option.unit:
+            return "quantities"
         if bare is Sequence:
             return "texts" if self.option.is_table else "names"
         if bare is Mapping:
@@ -102,7 +110,7 @@ class OptionField:
     @property
     def written_default(self) -> Any:
         """What stands for the default as it is written: an empty list or table, null, or the number itself."""
-        if self.kind == "names":
+        if self.kind in ("names", "quantities"):
             return []
         if self.kind in ("texts", "ranges"):
             return {}
@@ -144,7 +152,9 @@ def body_fields(cls: type) -> dict[str, Any]:
     for name, one in options_of(cls).items():
         unit: Any = {"x-si-unit": one.option.unit} if one.option.unit else None
         if isinstance(one.written_default, list | dict):
-            field = Field(default_factory=type(one.written_default), description=one.option.meaning)
+            field = Field(
+                default_factory=type(one.written_default), description=one.option.meaning, json_schema_extra=unit
+            )
         else:
             field = Field(
                 default=one.written_default, strict=True, description=one.option.meaning, json_schema_extra=unit
