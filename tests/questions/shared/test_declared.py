@@ -1,15 +1,18 @@
 """Answers declared once: document, units and schema follow from the annotations."""
 
 from collections.abc import Mapping, Sequence
+from types import SimpleNamespace
 from typing import Annotated, NamedTuple
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from ballscrew.basis.quantities import Force, Info, Length, Torque, Unit
+from ballscrew.basis.quantities import Force, Info, Length, Quantity, Torque, Unit
 from ballscrew.questions.shared import declared
-from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, Answer
+from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, Answer, Column
+from ballscrew.questions.shared.row_tables import put_columns
 
 
 class Point(NamedTuple):
@@ -98,6 +101,51 @@ def test_a_schema_describes_each_part():
     assert schema["required"] == list(DOCUMENT)
     assert schema["properties"]["places"]["items"] == {"type": "number"}
     assert {"type": "null"} in torque["anyOf"]
+
+
+class Measured(NamedTuple):
+    """A torque with its error, and what is known of it."""
+
+    torque: Annotated[Torque, Info("M", "measured torque", "N mm"), Column("")]
+    error: Annotated[float | None, Column("error")]
+    told: Annotated[bool, Column("told")]
+    #: Readings.
+    count: int
+    means: Annotated[NDArray[np.float64], Unit("N m"), Info("", "means of readings")]
+
+
+def test_an_answer_has_the_attributes_of_a_value():
+    value = SimpleNamespace(torque=1.5, told=True, count=3, means=np.array([1.0, 2.0]))
+    found = declared.from_attributes(Measured, value, error=None)
+    assert declared.document(found) == {"torque": 1.5, "error": None, "told": True, "count": 3, "means": [1.0, 2.0]}
+    assert declared.units(found) == {"torque": "N m", "means": "N m"}
+    assert declared.schema(Measured).model_json_schema()["properties"]["means"]["x-si-unit"] == "N m"
+    with pytest.raises(AttributeError):
+        declared.from_attributes(Measured, value)
+
+
+def test_parts_with_a_heading_are_columns():
+    cells = {}
+    put_columns(cells, Measured(1.5, 0.25, True, 3, np.zeros(0)), "nut_torque", Quantity("x", "N m", Info("", "")))
+    assert cells == {"nut torque [N mm]": 1500.0, "nut torque error [N m]": 0.25, "nut torque told": 1}
+
+
+def test_a_table_of_quantities():
+    known = {name: Quantity(name, "m", Info("", f"{name} of it")) for name in ("length", "width")}
+
+    class Sizes(declared.table_of(known, at_times=("width",))):
+        """Sizes."""
+
+    class Ends(declared.table_of(known, of=Point)):
+        """Points."""
+
+    assert declared.document(Sizes(length=1.0, width=None)) == {"length": 1.0}
+    assert declared.units(Sizes(length=1.0, width=None)) == {"length": "m"}
+    assert declared.document(Sizes(length=1.0, width=2.0)) == {"length": 1.0, "width": 2.0}
+    schema = declared.schema(Ends).model_json_schema()
+    assert schema["properties"]["width"]["description"] == "width of it, SI"
+    assert declared.units_of(Ends) == {"length": "m", "width": "m"}
+    assert declared.schema(Sizes).model_json_schema()["required"] == ["length"]
 
 
 def test_a_document_is_valid_by_its_schema_and_another_is_not():

@@ -16,7 +16,7 @@ class AtPlace(table_of(SERIES)):
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class ChainResults(table_of(SERIES, lists=True)):
+class ChainResults(table_of(SERIES, of=Sequence[float])):
     """Rigidity, lost motion, critical speed and buckling load over the place of the nut."""
 
     shares: Annotated[Mapping[str, Sequence[float]], Unit("1"), Info("", "share of each spring in what gives way")]

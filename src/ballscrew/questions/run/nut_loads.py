@@ -19,7 +19,7 @@ _ENDS = ("least", "mean", "greatest")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class EachBall(table_of(_OF_BALLS, lists=True)):
+class EachBall(table_of(_OF_BALLS, of=Sequence[float])):
     """Loads and contact angles ball by ball, or of each kind of ball."""
 
     #: Balls that each entry stands for.

@@ -14,13 +14,15 @@ from __future__ import annotations
 import dataclasses
 import functools
 import types
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Annotated, Any, Literal, NamedTuple, Union, get_args, get_origin, get_type_hints
+from collections.abc import Container, Iterator, Mapping, Sequence
+from typing import Annotated, Any, Literal, NamedTuple, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
 from ballscrew.basis.field_docs import comments_of
-from ballscrew.basis.quantities import Quantity, Unit, info_of, unit_of
+from ballscrew.basis.quantities import Info, Quantity, Unit, info_of, unit_of
+
+T = TypeVar("T")
 
 #: A part that is left out where it is None.
 LEFT_OUT = "left out"
@@ -32,6 +34,12 @@ class OneOf(NamedTuple):
     """The words that a text may be, where they are known at run time alone."""
 
     words: tuple[str, ...]
+
+
+class Column(NamedTuple):
+    """Said of a part that is a column of the tables in files: its heading."""
+
+    heading: str
 
 
 class Part(NamedTuple):
@@ -71,8 +79,18 @@ class Part(NamedTuple):
     @property
     def words_allowed(self) -> tuple[str, ...]:
         """The words that a text may be; none where it may be any."""
-        said = get_args(self.annotation)[1:] if get_origin(self.annotation) is Annotated else ()
-        return next((each.words for each in said if isinstance(each, OneOf)), ())
+        return next((each.words for each in _said(self.annotation) if isinstance(each, OneOf)), ())
+
+    @property
+    def column(self) -> Column | None:
+        """Its column in the tables in files; None of a part that has none."""
+        return next((each for each in _said(self.annotation) if isinstance(each, Column)), None)
+
+    @property
+    def quantity(self) -> Quantity | None:
+        """The number with its unit; None of parts whose unit is not declared."""
+        unit = self.unit
+        return None if unit is None else Quantity(self.name, unit, info_of(self.annotation) or Info("", self.meaning))
 
     @property
     def number(self) -> Any:
@@ -80,7 +98,12 @@ class Part(NamedTuple):
         return float if self._is(FINITE) else float | None
 
     def _is(self, what: str) -> bool:
-        return get_origin(self.annotation) is Annotated and what in get_args(self.annotation)[1:]
+        return what in _said(self.annotation)
+
+
+def _said(annotation: Any) -> Sequence[Any]:
+    """Everything that is said of an annotation beside its type."""
+    return get_args(annotation)[1:] if get_origin(annotation) is Annotated else ()
 
 
 def _unwrapped(annotation: Any) -> Any:
@@ -129,11 +152,23 @@ class Answer:
     """An answer whose parts are annotated properties."""
 
 
-def table_of(quantities: Mapping[str, Quantity], *, lists: bool = False) -> type[Any]:
-    """A base of answers: numbers, or lists of numbers, that are declared elsewhere."""
-    kind: Any = Sequence[float] if lists else float
-    fields = [(each, Annotated[kind, Unit(one.unit), one.info]) for each, one in quantities.items()]
+def table_of(quantities: Mapping[str, Quantity], *, of: Any = float, at_times: Container[str] = ()) -> type[Any]:
+    """A base of answers: numbers that are declared elsewhere, or lists or answers ``of`` them.
+
+    Those ``at_times`` are left out where they are None.
+    """
+
+    def annotated(one: Quantity) -> Any:
+        said = (Unit(one.unit), one.info)
+        return Annotated[of | None, *said, LEFT_OUT] if one.name in at_times else Annotated[of, *said]
+
+    fields = [(name, annotated(one)) for name, one in quantities.items()]
     return dataclasses.make_dataclass("Numbers", fields, frozen=True, eq=False)
+
+
+def from_attributes(cls: type[T], value: object, **others: Any) -> T:
+    """An answer whose parts are the attributes of a value by the same names, but for those given."""
+    return cls(**{name: getattr(value, name) for name in parts_of(cls) if name not in others}, **others)
 
 
 # -- document and units ---------------------------------------------------------------------------
@@ -146,7 +181,7 @@ def document(value: Any) -> Any:
     if isinstance(value, Mapping):
         return {str(key): document(each) for key, each in value.items()}
     if isinstance(value, np.ndarray):
-        return document(value.tolist())
+        return value.tolist()
     if isinstance(value, Sequence) and not isinstance(value, str):
         return [document(each) for each in value]
     return value.item() if isinstance(value, np.generic) else value
@@ -270,6 +305,8 @@ def _kind(part: Part) -> Any:
         return Literal[part.words_allowed]
     if kind is Mapping:
         return dict[str, _kind(Part("", inner[1]))]
+    if kind is np.ndarray:
+        return list[part.number]
     if kind is Sequence:
         return list[part.number if unit_of(inner[0]) or inner[0] is float else _kind(Part("", inner[0]))]
     if _is_union(part.bare):

@@ -14,6 +14,7 @@ from ballscrew.basis import units
 from ballscrew.basis.atomic_files import atomic_write, check_writable
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Quantity
+from ballscrew.questions.shared.declared import parts_of
 
 _DIGITS = 12
 #: Endings of files that are written.
@@ -36,6 +37,22 @@ def put(cells: Cells, quantity: Quantity, value: Any, name: str | None = None) -
     number = None if value is None else float(units.from_si(float(value), quantity))
     shown = None if number is None or not math.isfinite(number) else float(f"{number:.{_DIGITS}g}") + 0.0
     cells[units.heading(quantity, name)] = shown
+
+
+def put_columns(cells: Cells, answer: Any, name: str = "", quantity: Quantity | None = None) -> None:
+    """Put the parts of an answer that are declared as columns into theirs, headings after the ``name``.
+
+    Numbers without a unit of their own are of the ``quantity``.
+    """
+    for part in parts_of(type(answer)).values():
+        if part.column is None:
+            continue
+        value, words = getattr(answer, part.name), f"{name} {part.column.heading}".strip()
+        known = part.quantity or quantity
+        if known is None or isinstance(value, bool):
+            cells[words.replace("_", " ")] = int(value)
+        else:
+            put(cells, known, value, words)
 
 
 def of_cells(rows: Sequence[Cells]) -> RowTable:
