@@ -5,12 +5,12 @@ from __future__ import annotations
 import dataclasses
 import functools
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.basis.quantities import Quantity, Torque
+from ballscrew.basis.quantities import Info, Quantity, Torque, Unit
 from ballscrew.basis.records import Record
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.sampling import JointNormal
@@ -90,9 +90,12 @@ class Band(NamedTuple):
 class Trend(NamedTuple):
     """Means of a column and of the residuals of friction over fifths of the rows in its order, with standard errors."""
 
+    #: Means of the column, SI.
     values: NDArray[np.float64]
-    means: NDArray[np.float64]
-    errors: NDArray[np.float64]
+    means: Annotated[
+        NDArray[np.float64], Unit("N m"), Info("", "means of the residuals, positive where predicted too large")
+    ]
+    errors: Annotated[NDArray[np.float64], Unit("N m"), Info("", "standard errors of these means")]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -70,13 +70,13 @@ class IdentifiableDirections:
 
 @dataclasses.dataclass(frozen=True)
 class Combination:
-    """A product of powers of the parameters, ``Π x^power``, near the estimate, and how well the data determine it.
+    """A product of powers of the parameters, ``Π x^power``, near the estimate, and how well the data determine it."""
 
-    ``relative_error`` is the standard error of its logarithm from the data alone.
-    """
-
+    #: By parameter, its power.
     powers: Mapping[str, float]
+    #: Standard error of its logarithm from the data alone.
     relative_error: float
+    #: True where the data determine it.
     identified: bool
 
 

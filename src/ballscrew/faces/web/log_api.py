@@ -21,10 +21,10 @@ from ballscrew.faces.web.endpoint_parts import as_bytes, as_json, heavy, kept
 from ballscrew.faces.web.log_bodies import FitBody, HandOverBody, LogBody, LogsBody, ServiceBody, TargetBody
 from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.files.torque_logs.preview import preview
-from ballscrew.questions.fit import answer as fit_answers
 from ballscrew.questions.fit import compute as fits
 from ballscrew.questions.fit import log_answer
 from ballscrew.questions.fit import log_document as log_documents_of
+from ballscrew.questions.fit import response as fit_answers
 from ballscrew.questions.fit.log import read_options, steady_log
 from ballscrew.questions.fit_motion.log import is_moving
 from ballscrew.questions.hand_over import answer as hand_over_answers

@@ -1,0 +1,46 @@
+"""Response models of the API for a fit."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from ballscrew.questions.fit.answer import FitResults
+from ballscrew.questions.shared.answer_parts import Closed, Record, Tables, Template, field
+from ballscrew.questions.shared.declared import schema
+
+
+class FitWords(Closed):
+    """What a fit says in words."""
+
+    title: str
+    trade_off: str = Field(description="numbers that make up for each other")
+    next_test: list[str]
+
+
+class FitDisplay(Closed):
+    """The same to be shown in any units."""
+
+    next_test: list[Template]
+
+
+class Calibrated(Closed):
+    """The case with the fitted numbers and ``[calibration]``."""
+
+    toml: str
+    case: Tables
+
+
+class Fit(schema(FitResults)):
+    """A case fitted to a log."""
+
+    units: Tables
+    verdicts: list[Record]
+    checks: list[Record]
+    warnings: list[Record] = Field(description="also what cannot be told apart")
+    inputs: Tables
+    provenance: Tables
+    assumed: list[str] = field(optional=True)
+    words: FitWords
+    display: FitDisplay
+    picture: Tables
+    calibrated: Calibrated

@@ -1,0 +1,68 @@
+"""The answer of a fit: declared once, and the same on every face."""
+
+import tomllib
+
+import pytest
+
+from ballscrew.basis.output.json_text import plain
+from ballscrew.cases.case_files import case_file
+from ballscrew.questions.fit import compute, document, table
+from ballscrew.questions.fit.answer import FitResults, FittedNumber
+from ballscrew.questions.fit.log import read_options, steady_log
+from ballscrew.questions.shared import declared
+from support.answers import undescribed, without_unit
+from support.fit_logs import EXAMPLES, FRICTION, OFFSET, PAPER, columns, text_of
+
+#: With and without what the log tells.
+LOGS = {"told": columns(60), "not told": columns(200, speeds=(10, 600))}
+
+
+@pytest.fixture(scope="module", params=LOGS)
+def fitted(request, tmp_path_factory):
+    path = tmp_path_factory.mktemp("log") / "log.csv"
+    path.write_text(text_of(LOGS[request.param]), encoding="utf-8")
+    case = case_file.build(tomllib.loads(PAPER), None, EXAMPLES)
+    options = read_options(case, {"free": [FRICTION, OFFSET]})
+    return case, compute.fit(case, steady_log(case, path, options), options)
+
+
+def test_every_number_is_on_every_face(fitted):
+    case, report = fitted
+    answer, cells = plain(document.document(case, report)), table.of_fits({"log": report})
+    row = dict(zip(cells.headings, cells.rows[0], strict=True))
+    model = declared.schema(FitResults).model_json_schema()
+    numbers = {name: part for name, part in declared.parts_of(FitResults).items() if part.quantity is not None}
+    assert {"temperature_error", "residual_rms", "holdout_rms"} == numbers.keys()
+    for name, part in numbers.items():
+        described = model["properties"][name]
+        assert answer[name] > 0
+        assert answer["units"][name] == part.unit == described["x-si-unit"]
+        assert described["description"].startswith(part.quantity.info.meaning)
+        if part.column is not None:
+            assert row[f"{part.column.heading} [{part.unit}]"] == pytest.approx(answer[name], rel=1e-11)
+    for name, estimate in answer["estimates"].items():
+        for part in declared.parts_of(FittedNumber).values():
+            if part.column is not None:
+                words = f"{name} {part.column.heading}".strip().replace("_", " ")
+                value = estimate[part.name]
+                assert row[words] == (None if value is None else pytest.approx(float(value), rel=1e-11))
+
+
+def test_results_are_valid_by_their_schema(fitted):
+    answer = plain(document.document(*fitted))
+    declared.schema(FitResults).model_validate({name: answer[name] for name in declared.parts_of(FitResults)})
+    for one in answer["estimates"].values():
+        assert one["identified"] == (one["std"] is not None) == (one["low"] is not None)
+
+
+def test_every_number_has_a_unit(fitted):
+    answer = plain(document.document(*fitted))
+    results = {name: answer[name] for name in declared.parts_of(FitResults)}
+    # an estimate says its own unit, a column of the log has that of its name, and ratios have none
+    own = {"estimates", "sensor", "identifiability", "covariance", "next_test"}
+    found = {name for name in without_unit(results, answer["units"]) if name.partition(".")[0] not in own}
+    assert found <= {f"residuals.{name}.values" for name in answer["residuals"]}
+
+
+def test_every_part_is_described():
+    assert list(undescribed(FitResults)) == []
