@@ -54,7 +54,9 @@ SAMPLES, NUT_SAMPLES = 2**14, 2**10
 class Interval(NamedTuple):
     """Two ends with a stated share of the samples between them, and as many below as above."""
 
+    #: Lower end.
     low: float
+    #: Upper end.
     high: float
 
 

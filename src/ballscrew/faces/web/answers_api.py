@@ -20,12 +20,12 @@ from ballscrew.faces.web.request_queue import Deadline, RequestQueue
 from ballscrew.questions.check import answer as check_answers
 from ballscrew.questions.check.compute import with_nut_named
 from ballscrew.questions.curves.compute import Curve, curves
-from ballscrew.questions.run import answer as run_answers
+from ballscrew.questions.run import response as run_answers
 from ballscrew.questions.run.compute import Run
 from ballscrew.questions.shared import answer_parts
-from ballscrew.questions.sweep import answer as sweep_answers
 from ballscrew.questions.sweep import compute as sweeps
 from ballscrew.questions.sweep import document as sweep_documents
+from ballscrew.questions.sweep import answer as sweep_answers
 
 #: Designs beside the case at most.
 MOST_BESIDE = 8

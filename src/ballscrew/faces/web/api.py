@@ -56,8 +56,8 @@ from ballscrew.questions.axis import compute as chains
 from ballscrew.questions.axis import document as chain_documents
 from ballscrew.questions.axis.answer import ChainResults
 from ballscrew.questions.axis.options import AxisOptions
-from ballscrew.questions.band import answer as band_answers
 from ballscrew.questions.band import compute as bands
+from ballscrew.questions.band import response as band_answers
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.catalogue import answer as catalogue_answers
 from ballscrew.questions.check import answer as check_answers
@@ -69,7 +69,7 @@ from ballscrew.questions.duty import compute as duties
 from ballscrew.questions.duty import document as duty_documents
 from ballscrew.questions.duty.answer import DutyResults
 from ballscrew.questions.optimise.need_schema import json_schema as schema_of_needs
-from ballscrew.questions.run import answer as run_answers
+from ballscrew.questions.run import response as run_answers
 from ballscrew.questions.select import document as selection_documents
 from ballscrew.questions.select import response as select_answers
 from ballscrew.questions.select.compute import plan as planned_selection
@@ -78,9 +78,9 @@ from ballscrew.questions.select.need import need_of
 from ballscrew.questions.select.options import SelectOptions
 from ballscrew.questions.shared import answer_parts, option_values, schema_answer
 from ballscrew.questions.shared.declared import response
-from ballscrew.questions.sweep import answer as sweep_answers
 from ballscrew.questions.sweep import compute as sweeps
 from ballscrew.questions.sweep import document as sweep_documents
+from ballscrew.questions.sweep import answer as sweep_answers
 from ballscrew.questions.sweep.band import with_band
 from ballscrew.questions.sweep.options import SweepOptions
 from ballscrew.questions.validate import answer as validate_answers

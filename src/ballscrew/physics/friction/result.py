@@ -54,10 +54,15 @@ QUADRANTS: Mapping[str, tuple[int, int]] = {
 class Quadrant(NamedTuple):
     """One of the four combinations of load and rotation."""
 
+    #: Direction of the load on the nut, 1 or -1.
     load_sign: int
+    #: Direction of the rotation, 1 or -1.
     speed_sign: int
+    #: Torque on the shaft, positive the way that moves the nut against a load of +1.
     shaft_torque: Torque
+    #: Power of that torque.
     shaft_power: Power
+    #: Efficiency of the power that arrives, from the shaft or from the load.
     efficiency: Ratio
 
 

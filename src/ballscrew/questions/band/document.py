@@ -8,16 +8,16 @@ from typing import Any
 from ballscrew.basis import units
 from ballscrew.basis.quantities import Quantity, quantities_of
 from ballscrew.basis.records import Measured, Message, Record, documents
-from ballscrew.cases.case_files import uncertain_inputs
 from ballscrew.cases.case_files.case_file import Case
-from ballscrew.cases.case_files.uncertain_inputs import Uncertain
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.uncertainty.bands import OutputBand
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.friction.validity import NUT_CONDITIONS
+from ballscrew.questions.band.answer import results
 from ballscrew.questions.band.compute import BandReport
 from ballscrew.questions.run.compute import Run
 from ballscrew.questions.run.document import document as run_document
+from ballscrew.questions.shared import declared
 
 _TORQUE = "screw_torque"
 _KNOWN = quantities_of(FrictionResult)[_TORQUE]
@@ -44,24 +44,11 @@ _BELOW = Message(
 
 def document(run: Run, report: BandReport) -> dict[str, Any]:
     """The document of a run with its band."""
-    case, band = run.case, report.band
-    found = run_document(run)
-    found["band"] = {
-        "level": band.level,
-        "samples": band.count,
-        "seed": band.seed,
-        **{name: _output(one) for name, one in band.outputs.items()},
-        "self_locking_share": band.self_locking_share,
-        "invalid_share": band.invalid_share,
-        "reasons": report.reasons_by_share,
-        "laws": {
-            slot: [{"name": law.name, "factor": math.exp(law.shift)} for law in laws]
-            for slot, laws in band.alternatives.items()
-        },
-        "inputs": {name: _input(case, name, one) for name, one in report.inputs.items()},
-    }
+    case, answer, found = run.case, results(run.case, report), run_document(run)
     return {
         **found,
+        "band": declared.document(answer),
+        "units": {**found["units"], "band": declared.units(answer)},
         "verdicts": [*found["verdicts"], *documents(verdicts(case, report))],
         "warnings": [*found["warnings"], *documents(warnings(report))],
     }
@@ -201,21 +188,3 @@ def warnings(report: BandReport) -> list[Record]:
 
 def _share(name: str, subject: str, message: Message, value: float) -> Record:
     return units.record(message, id=name, subject=subject, severity="warning", holds=False, value=value, limit=0.0)
-
-
-def _output(one: OutputBand) -> dict[str, Any]:
-    return {
-        "value": one.value,
-        "median": one.median,
-        **one.both._asdict(),
-        "parameters": one.parameters._asdict(),
-        "model_form": one.model_form._asdict(),
-        "share_of_parameters": one.share_of_parameters,
-        "missing_share": one.missing_share,
-    }
-
-
-def _input(case: Case, name: str, one: Uncertain) -> dict[str, Any]:
-    quantity = uncertain_inputs.quantity_of(case, name)
-    reason = {"reason": one.reason} if one.reason else {}
-    return {"distribution": one.distribution.describe(quantity.unit), "source": one.source, **reason}

@@ -4,27 +4,26 @@ from __future__ import annotations
 
 from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.physics.sizing.catalogue import CatalogueRow
-from ballscrew.questions.shared.answer_parts import Closed, Tables, quantities, with_fields
+from ballscrew.questions.shared.answer_parts import Closed, Tables
+from ballscrew.questions.shared.declared import table_of, with_answers
 
 _LISTED, _ALL_OF_ROW = fields_of(CatalogueRow), quantities_of(CatalogueRow)
 
 
-class ListedRow(with_fields(**quantities(_LISTED))):
+class ListedRow(table_of(_LISTED)):
     """Numbers that the catalogue lists."""
 
 
-class DerivedRow(with_fields(**quantities({name: q for name, q in _ALL_OF_ROW.items() if name not in _LISTED}))):
+class DerivedRow(table_of({name: q for name, q in _ALL_OF_ROW.items() if name not in _LISTED})):
     """Numbers that follow from the listed ones."""
 
 
-class CatalogueEntry(Closed):
+class CatalogueEntry(with_answers(row=ListedRow, derived=DerivedRow)):
     """A row of the catalogue."""
 
     name: str
     nut: str | None
     source: str
-    row: ListedRow
-    derived: DerivedRow
 
 
 class RowUnits(Closed):

@@ -5,16 +5,15 @@ from __future__ import annotations
 from pydantic import Field
 
 from ballscrew.questions.check.compute import BothRatings, Geometry
-from ballscrew.questions.run.answer import Results
+from ballscrew.questions.run.answer import RunResults
 from ballscrew.questions.run.nut_loads import NutLoads
+from ballscrew.questions.run.response import VENDOR_ROWS
 from ballscrew.questions.shared.answer_parts import (
     JudgedCheck,
     Provenance,
     Record,
     Tables,
     Template,
-    VendorRows,
-    field,
 )  # fmt: skip
 from ballscrew.questions.shared.declared import with_answers
 
@@ -27,7 +26,9 @@ class OneCheck(JudgedCheck):
     display: Template
 
 
-class Checks(with_answers(geometry=Geometry, loads=NutLoads, ratings=BothRatings)):
+class Checks(
+    with_answers(geometry=Geometry, results=RunResults, loads=NutLoads, vendor_rows=VENDOR_ROWS, ratings=BothRatings)
+):
     """The checks of a case, with its results."""
 
     checks: list[OneCheck]
@@ -37,8 +38,6 @@ class Checks(with_answers(geometry=Geometry, loads=NutLoads, ratings=BothRatings
     verdicts: list[Record]
     nut: str = Field(description="kind of the nut; a case without one is checked with a single nut")
     inputs: Tables
-    results: Results
-    vendor_rows: VendorRows = field(optional=True)
     assumed: list[str]
     units: Tables
     warnings: list[Record]

@@ -11,7 +11,6 @@ from ballscrew.cases.screw_tables.nut_kinds import kind_of
 from ballscrew.physics.sizing.checks import Check, judged
 from ballscrew.questions.check.compute import Checked
 from ballscrew.questions.run import document as run
-from ballscrew.questions.run.nut_loads import nut_loads
 from ballscrew.questions.shared import declared
 from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
@@ -22,14 +21,13 @@ def document(found: Checked) -> dict[str, Any]:
 
 
 def _document(found: Checked) -> dict[str, Any]:
-    case, own = found.case, {"geometry": found.geometry, "ratings": found.ratings}
+    case, numbers = found.case, run.numbers(found.run)
+    own = {"geometry": found.geometry, "ratings": found.ratings}
     return {
         "name": found.name,
         "nut": kind_of(found.nut.nut),
         "inputs": case_file.inputs(case),
-        "results": run.results(found.run),
-        "loads": declared.document(nut_loads(found.nut)),
-        **run.vendor_rows(found.run),
+        **numbers,
         **declared.document(own),
         "checks": [check_document(check) for check in found.checks],
         "judged": judged(found.checks),
@@ -37,7 +35,7 @@ def _document(found: Checked) -> dict[str, Any]:
         "verdict": found.verdict,
         "verdicts": documents(found.verdicts),
         "assumed": list(found.assumed),
-        "units": {**run.result_units(found.run), **{name: declared.units(each) for name, each in own.items()}},
+        "units": {**numbers["units"], **{name: declared.units(each) for name, each in own.items()}},
         "warnings": documents(found.run.warnings),
         "provenance": provenance.of_case(case),
     }

@@ -1,91 +1,87 @@
-"""Response models of the API for a run, made from the annotations of the parts that it consists of.
-
-They describe the answers in the OpenAPI document. They are not run on each answer: the endpoints return finished
-responses, and the tests validate answers against the description.
-"""
+"""The results of a run, declared once: JSON, its units and its schema follow from the annotations."""
 
 from __future__ import annotations
 
-from pydantic import BaseModel
+import dataclasses
+from collections.abc import Mapping, Sequence
+from typing import Annotated, NamedTuple
 
-from ballscrew.basis.quantities import fields_of, quantities_of
+from ballscrew.basis.quantities import Info, Ratio, Torque, fields_of, quantities_of
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.named_calibration import vendor_rows_like
 from ballscrew.physics.components.contact import RaceState
 from ballscrew.physics.components.operating_state import OperatingState
-from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.questions.run.compute import OF_ONE_BALL
-from ballscrew.questions.run.nut_loads import NutLoads
-from ballscrew.questions.run.text import SHOWN
-from ballscrew.questions.shared.answer_parts import (
-    MASKS,
-    Closed,
-    Number,
-    Numbers,
-    Open,
-    Provenance,
-    Record,
-    Tables,
-    Template,
-    VendorRows,
-    field,
-    quantities,
-    with_fields,
-)
-from ballscrew.questions.shared.declared import with_answers
+from ballscrew.physics.friction.result import FrictionResult, Quadrant
+from ballscrew.questions.run.compute import OF_ONE_BALL, Run
+from ballscrew.questions.shared.declared import LEFT_OUT, table_of
+
+_OF_CONTACT = quantities_of(RaceState)
+#: The numbers and truth values of a result, without the inputs among them.
+_OF_RUN = {name: one for name, one in quantities_of(FrictionResult).items() if name not in fields_of(OperatingState)}
+#: Those that are true or false.
+_MASKS = ("valid", "self_locking")
+_NUMBERS = {name: quantity for name, quantity in _OF_RUN.items() if name not in _MASKS}
 
 
-class Contact(with_fields(BaseModel, **quantities(quantities_of(RaceState), optional=True))):
+class Contact(table_of(_OF_CONTACT, at_times=_OF_CONTACT)):
     """One contact of a ball with its race."""
 
 
-_RESULTS = {n: q for n, q in quantities_of(FrictionResult).items() if n not in fields_of(OperatingState)}
-#: Results of one row of equal balls, and of a whole nut.
-_ALWAYS = {n: q for n, q in _RESULTS.items() if n in (*SHOWN, *MASKS, "holding_torque") and n not in OF_ONE_BALL}
-_AT_TIMES = {name: quantity for name, quantity in _RESULTS.items() if name not in _ALWAYS}
-
-
-class Results(with_fields(Open, **quantities(_ALWAYS), **quantities(_AT_TIMES, optional=True))):
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class RunResults(table_of(_NUMBERS, at_times=OF_ONE_BALL)):
     """Results of one row of equal balls, or of a whole nut."""
 
-    preload_drag: Number = field(
-        "torque of the nut without load, seals and other losses included, SI", "N m", optional=True
-    )
-    contributions: Numbers = field("parts of the friction torque, SI", "N m")
-    validity: dict[str, bool]
+    valid: Annotated[bool, _OF_RUN["valid"].info]
+    self_locking: Annotated[bool, _OF_RUN["self_locking"].info]
+    preload_drag: Annotated[
+        Torque | None, Info("M_0", "torque of the nut without load, seals and other losses included"), LEFT_OUT
+    ]
+    #: Parts of the friction torque.
+    contributions: Mapping[str, Torque]
+    #: The four combinations of load and rotation, by name.
+    quadrants: Mapping[str, Quadrant]
+    #: The conditions of the model by reason, true where they hold.
+    validity: Mapping[str, bool]
+    #: The contact of the most loaded ball with the screw.
     screw: Contact
+    #: The contact of the most loaded ball with the nut.
     nut: Contact
 
 
-class RunWords(Closed):
-    """Sentences beside the numbers, as the command line prints them."""
-
-    title: str
-    verdicts: list[str]
-    assumed: list[str]
-
-
-class RunDisplay(Closed):
-    """The same sentences, with their quantities apart."""
-
-    title: Template
-    verdicts: list[Template]
-    assumed: list[Template]
-
-
-class Document(with_answers(loads=(NutLoads, field("loads of the balls of a nut, SI", optional=True)))):
-    """Inputs, results and units in SI; verdicts, checks and warnings; provenance."""
-
-    inputs: Tables
-    results: Results
-    vendor_rows: VendorRows = field(optional=True)
-    units: Tables
-    verdicts: list[Record]
-    checks: list[Record]
-    warnings: list[Record]
-    provenance: Provenance
+def results(run: Run) -> RunResults:
+    """The results of a run."""
+    found, nut = run.friction, run.nut
+    numbers = {name: getattr(found, name) if name in run.quantities else None for name in _OF_RUN}
+    if nut is not None:
+        numbers |= nut.drag_coefficients
+    contacts = {side: Contact(**(dict.fromkeys(_OF_CONTACT) | dict(own))) for side, own in run.contacts.items()}
+    return RunResults(
+        **numbers,
+        preload_drag=None if nut is None else nut.preload_drag,
+        contributions=found.contributions,
+        quadrants=run.quadrants,
+        validity=found.validity,
+        **contacts,
+    )
 
 
-class Run(Document):
-    """Friction at one operating point."""
+class VendorRows(NamedTuple):
+    """Model over vendor for the rows most like the nut, without load."""
 
-    words: RunWords
-    display: RunDisplay
+    #: The table of the vendor.
+    set: str
+    #: The calibration of the model; null without one.
+    calibration: str | None
+    mean_ratio: Annotated[Ratio, Info("", "mean of model over vendor")]
+    std_ratio: Annotated[Ratio, Info("", "standard deviation of model over vendor")]
+    #: The rows.
+    rows: Sequence[str]
+
+
+def vendor_rows(case: Case) -> VendorRows | None:
+    """The rows of a vendor most like the nut of a case; None where there are none."""
+    near = vendor_rows_like(case)
+    if near is None:
+        return None
+    calibration = None if case.calibration is None else case.calibration.name
+    return VendorRows(near.data, calibration, near.mean, near.scatter, near.rows)

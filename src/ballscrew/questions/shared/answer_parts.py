@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any, Literal, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field, create_model
 
 from ballscrew.basis.errors import LINES_AT_MOST
-from ballscrew.basis.quantities import Quantity
 
 #: A number; null where it is not finite.
 Number: TypeAlias = float | None
 Tables: TypeAlias = dict[str, Any]
 Numbers: TypeAlias = dict[str, Number]
-#: Results that are true or false.
-MASKS = ("valid", "self_locking")
 
 
 class Closed(BaseModel):
@@ -40,14 +36,6 @@ def field(description: str = "", unit: str = "1", *, optional: bool = False) -> 
 
     default: Any = None if optional else ...
     return Field(default, description=description or None, json_schema_extra=complete)
-
-
-def quantities(quantities: Mapping[str, Quantity], *, optional: bool = False) -> dict[str, Any]:
-    """Fields of a model for quantities: meaning, SI unit, and a number or a truth value."""
-    return {
-        name: (bool if name in MASKS else Number, field(f"{q.info.meaning}, SI", q.unit, optional=optional))
-        for name, q in quantities.items()
-    }
 
 
 def model(name: str, meaning: str, base: type[BaseModel] = Closed, /, **fields: Any) -> type[BaseModel]:
@@ -157,16 +145,6 @@ class JudgedCheck(Record):
     name: str
     utilisation: Number = Field(description="share of the limit that is used: above 1 it fails")
     missing: str = Field(description="the input without which it is not judged; empty where it is")
-
-
-class VendorRows(Closed):
-    """Model over vendor for the rows most like the nut, without load."""
-
-    set: str
-    calibration: str | None
-    mean_ratio: Number
-    std_ratio: Number
-    rows: list[str]
 
 
 class Template(Closed):

@@ -1,0 +1,49 @@
+"""Response models of the API for a run, made from the annotations of the parts that it consists of.
+
+They describe the answers in the OpenAPI document. They are not run on each answer: the endpoints return finished
+responses, and the tests validate answers against the description.
+"""
+
+from __future__ import annotations
+
+from ballscrew.questions.run.answer import RunResults, VendorRows
+from ballscrew.questions.run.nut_loads import NutLoads
+from ballscrew.questions.shared.answer_parts import Closed, Provenance, Record, Tables, Template, field
+from ballscrew.questions.shared.declared import with_answers
+
+LOADS = (NutLoads, field("loads of the balls of a nut, SI", optional=True))
+VENDOR_ROWS = (VendorRows, field("model over vendor for the rows most like the nut, without load", optional=True))
+
+
+class RunWords(Closed):
+    """Sentences beside the numbers, as the command line prints them."""
+
+    title: str
+    verdicts: list[str]
+    assumed: list[str]
+
+
+class RunDisplay(Closed):
+    """The same sentences, with their quantities apart."""
+
+    title: Template
+    verdicts: list[Template]
+    assumed: list[Template]
+
+
+class Document(with_answers(results=RunResults, loads=LOADS, vendor_rows=VENDOR_ROWS)):
+    """Inputs, results and units in SI; verdicts, checks and warnings; provenance."""
+
+    inputs: Tables
+    units: Tables
+    verdicts: list[Record]
+    checks: list[Record]
+    warnings: list[Record]
+    provenance: Provenance
+
+
+class Run(Document):
+    """Friction at one operating point."""
+
+    words: RunWords
+    display: RunDisplay
