@@ -25,7 +25,7 @@ from ballscrew.questions.run.compute import Run
 from ballscrew.questions.shared import answer_parts
 from ballscrew.questions.sweep import compute as sweeps
 from ballscrew.questions.sweep import document as sweep_documents
-from ballscrew.questions.sweep import answer as sweep_answers
+from ballscrew.questions.sweep import response as sweep_answers
 
 #: Designs beside the case at most.
 MOST_BESIDE = 8

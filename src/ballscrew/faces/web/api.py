@@ -80,7 +80,7 @@ from ballscrew.questions.shared import answer_parts, option_values, schema_answe
 from ballscrew.questions.shared.declared import response
 from ballscrew.questions.sweep import compute as sweeps
 from ballscrew.questions.sweep import document as sweep_documents
-from ballscrew.questions.sweep import answer as sweep_answers
+from ballscrew.questions.sweep import response as sweep_answers
 from ballscrew.questions.sweep.band import with_band
 from ballscrew.questions.sweep.options import SweepOptions
 from ballscrew.questions.validate import answer as validate_answers

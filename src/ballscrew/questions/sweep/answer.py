@@ -1,48 +1,74 @@
-"""Response models of the API for a sweep."""
+"""The results of a sweep, declared once: JSON and its schema follow from the annotations."""
 
 from __future__ import annotations
 
-from typing import Any
+import dataclasses
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any, NamedTuple
 
-from pydantic import Field
+import xarray as xr
 
-from ballscrew.questions.shared.answer_parts import (
-    Closed,
-    Provenance,
-    Record,
-)
+from ballscrew.engine.uncertainty.bands import ENDS
+from ballscrew.questions.shared.declared import FINITE, LEFT_OUT
+from ballscrew.questions.sweep.compute import Plan
 
 
-class Values(Closed):
+@dataclasses.dataclass(frozen=True, eq=False)
+class Values:
     """Values along the axes of a sweep, in their order, one array in the other."""
 
-    values: list[Any]
-    unit: str = Field(description="SI")
+    #: The values, SI.
+    values: Sequence[Any]
+    #: SI unit.
+    unit: str
+    #: What they are.
     meaning: str
 
 
+@dataclasses.dataclass(frozen=True, eq=False)
 class Swept(Values):
     """Values of an output, with the ends of its band where bands were asked for."""
 
-    low: list[Any] | None = None
-    high: list[Any] | None = None
+    #: Lower ends of its band, SI.
+    low: Annotated[Sequence[Any] | None, LEFT_OUT] = None
+    #: Upper ends of its band, SI.
+    high: Annotated[Sequence[Any] | None, LEFT_OUT] = None
 
 
-class SweepBand(Closed):
+class SweepBand(NamedTuple):
     """What the bands of a sweep are of."""
 
-    level: float
-    samples: int = Field(description="of each point")
+    #: Share of the samples between the ends.
+    level: Annotated[float, FINITE]
+    #: Samples of each point.
+    samples: int
+    #: Seed of the random numbers.
     seed: int
 
 
-class Sweep(Closed):
+class SweepResults(NamedTuple):
     """Results over ranges of the operating point or of other fields."""
 
-    axes: dict[str, Values]
-    outputs: dict[str, Swept]
-    band: SweepBand | None = None
-    verdicts: list[Record]
-    checks: list[Record]
-    warnings: list[Record]
-    provenance: Provenance
+    #: The axes, by name.
+    axes: Mapping[str, Values]
+    #: The outputs, by name.
+    outputs: Mapping[str, Swept]
+    #: What the bands are of, where bands were asked for.
+    band: Annotated[SweepBand | None, LEFT_OUT]
+
+
+def results(plan: Plan, dataset: xr.Dataset) -> SweepResults:
+    """Axes and outputs of a sweep."""
+
+    def said(name: str) -> tuple[str, str]:
+        return plan.quantities[name].unit, plan.quantities[name].info.meaning
+
+    def output(name: str) -> Swept:
+        ends = (dataset[f"{name}_{end}"].to_numpy().tolist() for end in ENDS) if plan.banded else ()
+        return Swept(dataset[name].to_numpy().tolist(), *said(name), *ends)
+
+    return SweepResults(
+        axes={name: Values(values.tolist(), *said(name)) for name, values in plan.axes.items()},
+        outputs={name: output(name) for name in dict.fromkeys((*plan.outputs, "valid"))},
+        band=SweepBand(*(dataset.attrs[f"band_{name}"] for name in SweepBand._fields)) if plan.banded else None,
+    )

@@ -11,26 +11,15 @@ from ballscrew.basis.records import Measured, Message, Record, documents
 from ballscrew.basis.version import __version__
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
-from ballscrew.engine.uncertainty.bands import ENDS
+from ballscrew.questions.shared import declared
+from ballscrew.questions.sweep.answer import results
 from ballscrew.questions.sweep.compute import Plan, implausible, starved
 
 
 def document(case: Case, plan: Plan, dataset: xr.Dataset) -> dict[str, Any]:
     """Axes, outputs with the ends of their bands where there are bands, verdicts, checks and warnings, provenance."""
-
-    def table(name: str, values: Any) -> dict[str, Any]:
-        quantity = plan.quantities[name]
-        return {"values": values, "unit": quantity.unit, "meaning": quantity.info.meaning}
-
-    def output(name: str) -> dict[str, Any]:
-        ends = {end: dataset[f"{name}_{end}"].to_numpy() for end in ENDS} if plan.banded else {}
-        return {**table(name, dataset[name].to_numpy()), **ends}
-
-    band = {name: dataset.attrs[f"band_{name}"] for name in ("level", "samples", "seed")} if plan.banded else None
     return {
-        "axes": {name: table(name, values) for name, values in plan.axes.items()},
-        "outputs": {name: output(name) for name in dict.fromkeys((*plan.outputs, "valid"))},
-        **({} if band is None else {"band": band}),
+        **declared.document(results(plan, dataset)),
         "verdicts": [],
         "checks": [],
         "warnings": documents([*implausible(case, plan), *starved(dataset), *warnings(dataset)]),
