@@ -18,8 +18,8 @@ import ballscrew
 _FUNCTIONS = ast.FunctionDef | ast.AsyncFunctionDef
 PACKAGE = Path(ballscrew.__file__).parent
 _TEXTS = ("where", "problem", "given", "remedy")
-#: Attributes that pass on what another fault, an annotation or an option of an export says: its own source is read.
-_PASSED_ON = ("problem", "remedy", "hint", "meaning", "given")
+#: Attributes that pass on what another fault, record, annotation or option of an export says: its own source is read.
+_PASSED_ON = ("problem", "remedy", "hint", "meaning", "given", "message")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -58,10 +58,18 @@ def _place(node: ast.AST, owner: ast.AST, inside: dict[ast.AST, ast.AST]) -> Non
 
 def calls(*names: str) -> Iterator[tuple[Source, ast.Call]]:
     """All calls of functions or classes by their names."""
+    for name in names:
+        yield from _calls().get(name, ())
+
+
+@functools.cache
+def _calls() -> dict[str, list[tuple[Source, ast.Call]]]:
+    found: dict[str, list[tuple[Source, ast.Call]]] = {}
     for source in sources().values():
         for node in ast.walk(source.tree):
-            if isinstance(node, ast.Call) and called(node) in names:
-                yield source, node
+            if isinstance(node, ast.Call):
+                found.setdefault(called(node), []).append((source, node))
+    return found
 
 
 def called(node: ast.Call) -> str:
@@ -78,7 +86,7 @@ def argument(call: ast.Call, name: str, place: int) -> ast.expr | None:
 
 @dataclasses.dataclass(frozen=True)
 class Said:
-    """The templates of a fault, and the expressions that have none."""
+    """The templates of a fault or a record, and the expressions that have none."""
 
     module: str
     where: str
@@ -97,6 +105,25 @@ def faults() -> tuple[Said, ...]:
             value = argument(call, name, _TEXTS.index(name))
             if value is not None:
                 _follow(source, value, templates, untold, frozenset())
+        place = f"{source.file.relative_to(PACKAGE).as_posix()}:{call.lineno}"
+        found.append(Said(source.name, place, frozenset(templates - {""}), tuple(untold)))
+    return tuple(found)
+
+
+@functools.cache
+def records() -> tuple[Said, ...]:
+    """The messages of all records: verdicts, checks and warnings, which have an id."""
+    found = []
+    for source, call in calls("Record", "record"):
+        if not any(one.arg == "id" for one in call.keywords):
+            continue  # a row of a table, a step of a tape
+        message = argument(call, "message", 0)
+        templates: set[str] = set()
+        untold: list[str] = []
+        if message is None:
+            untold.append(ast.unparse(call))
+        else:
+            _follow(source, message, templates, untold, frozenset())
         place = f"{source.file.relative_to(PACKAGE).as_posix()}:{call.lineno}"
         found.append(Said(source.name, place, frozenset(templates - {""}), tuple(untold)))
     return tuple(found)

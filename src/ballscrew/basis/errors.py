@@ -33,6 +33,13 @@ BOUND = "bound"
 UNKNOWN = "unknown"
 #: The problem of a field that is not given.
 MISSING = "missing"
+#: A fault in one line, by whether there is a value given, and a remedy.
+_FAULTS = {
+    (False, False): Message("{field}: {problem}"),
+    (True, False): Message("{field}: {problem} ({given})"),
+    (False, True): Message("{field}: {problem} · {remedy}"),
+    (True, True): Message("{field}: {problem} ({given}) · {remedy}"),
+}
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -74,6 +81,21 @@ class Fault:
         problem, given, remedy = (message_of(one).filled(shown_in_si) for one in (self.problem, "", self.remedy))
         given = _cut(self.given if isinstance(self.given, str) else self.given.filled(shown_in_si))
         return _one_line(problem), _one_line(given), _one_line(remedy)
+
+    @property
+    def message(self) -> Message:
+        """The field, the problem, the value given and the remedy as one message, with numbers in SI."""
+
+        def in_si_units(value: Value) -> Value:
+            return dataclasses.replace(value, written=shown_in_si(value)) if isinstance(value, Measured) else value
+
+        said = self.changed(in_si_units)
+        given = said.given
+        if isinstance(given, str):
+            given = Message("{value}", {"value": _one_line(_cut(given))})
+        values = {"problem": message_of(said.problem), "given": given, "remedy": message_of(said.remedy)}
+        template = _FAULTS[bool(self.given), bool(message_of(self.remedy).template)]
+        return template.of(field=self.field, **values)
 
     def document(self) -> dict[str, Any]:
         """The fault as it stands in JSON: its texts, and as templates what people read in other languages."""
@@ -148,15 +170,21 @@ def nearest(word: str, known: Iterable[str], most: int | None = None) -> Message
 
 def either(names: Iterable[str], quote: str = '"') -> Message:
     """``"a" or "b" or "c"``."""
-    return _listed(Message("{others} or {last}"), [f"{quote}{name}{quote}" for name in names])
+    return chained(Message("{others} or {last}"), [f"{quote}{name}{quote}" for name in names])
 
 
-def both(names: Iterable[str]) -> Message:
+def both(names: Iterable[Value]) -> Message:
     """``a and b and c``."""
-    return _listed(Message("{others} and {last}"), list(names))
+    return chained(Message("{others} and {last}"), list(names))
 
 
-def _listed(pair: Message, names: Sequence[str]) -> Message:
+def each_of(names: Iterable[Value]) -> list[Message]:
+    """``a, b, c``."""
+    return [Message("{name}", {"name": name}) for name in names]
+
+
+def chained(pair: Message, names: Sequence[Value]) -> Message:
+    """Values with what stands between ``{others}`` and ``{last}`` of a pair."""
     first, *others = names
     found = Message("{name}", {"name": first})
     for name in others:

@@ -1,7 +1,8 @@
 """Records of a result: verdicts, checks and warnings of every document.
 
-Terminal, page, report and API read the fields; the text is for people to read and for no program to parse. A program
-that has words of its own, such as the page in another language, fills the template of :class:`Message`.
+Terminal, page, report and API read the fields; the text is for people to read and for no program to parse. It is that
+of a :class:`Message`, an English template with its values; a program that has words of its own, such as the page in
+another language, fills the template of its language.
 """
 
 from __future__ import annotations
@@ -65,12 +66,24 @@ class UnitName:
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
+class Named:
+    """The name of a field, a law or a result, by its path: ``preload`` in English, its label on the page."""
+
+    path: str
+    #: The name in English texts, where it is another one.
+    written: str = ""
+
+    def __str__(self) -> str:
+        return self.written or self.path.rpartition(".")[2].replace("_", " ")
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
 class Message:
     """A sentence for people, or a part of one: an English template, and what stands in it by name.
 
     The template is the key of its translations, as gettext has it. ``{torque}`` in it is replaced by the value of that
-    name: a number, a text that people gave, a field to set, a unit, another message, or a list of messages with commas
-    between them. ``{nut.preload}`` without a value stands for setting that field.
+    name: a number, a text that people gave, a field to set, a name, a unit, another message, or a list of messages with
+    commas between them. ``{nut.preload}`` without a value stands for setting that field.
     """
 
     template: str
@@ -93,7 +106,7 @@ class Message:
                 return value.filled(shown)
             return (
                 str(value)
-                if isinstance(value, str | Setting | UnitName)
+                if isinstance(value, str | Setting | Named | UnitName)
                 else ", ".join(each.filled(shown) for each in value)
             )
 
@@ -109,7 +122,7 @@ class Message:
         def one(value: Value) -> Value:
             if isinstance(value, Message):
                 return value.changed(change)
-            if isinstance(value, str | Measured | Setting | UnitName):
+            if isinstance(value, str | Measured | Setting | Named | UnitName):
                 return change(value)
             return [each.changed(change) for each in value]
 
@@ -123,6 +136,8 @@ class Message:
                 return value
             if isinstance(value, Setting):
                 return {"field": value.path}
+            if isinstance(value, Named):
+                return {"name": value.path}
             if isinstance(value, UnitName):
                 return {"unit_name": value.name}
             return value.document() if isinstance(value, Measured | Message) else [each.document() for each in value]
@@ -131,7 +146,7 @@ class Message:
 
 
 #: What stands in a message.
-Value = Measured | str | Setting | UnitName | Message | Sequence[Message]
+Value = Measured | str | Setting | Named | UnitName | Message | Sequence[Message]
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
@@ -149,14 +164,14 @@ class Record:
     subject: str
     #: One sentence for people, with its units.
     text: str
+    #: The text as a template with its values, to be shown in any unit and language.
+    #: The rooms that face people make the text from it in display units.
+    message: Message
     severity: Severity = "info"
     holds: bool | None = None
     value: float | None = None
     limit: float | None = None
     unit: str = "1"
-    #: The text as a template with its values, to be shown in any unit and language; None where there is none yet.
-    #: The rooms that face people make the text from it in display units.
-    message: Message | None = None
 
     @property
     def name(self) -> str:
@@ -166,8 +181,7 @@ class Record:
     def document(self) -> dict[str, Any]:
         """The record as it stands in JSON."""
         names = ("id", "subject", "value", "unit", "limit", "holds", "severity", "text")
-        message = None if self.message is None else self.message.document()
-        return {**{name: getattr(self, name) for name in names}, "message": message}
+        return {**{name: getattr(self, name) for name in names}, "message": self.message.document()}
 
 
 def documents(records: Iterable[Record]) -> list[dict[str, Any]]:

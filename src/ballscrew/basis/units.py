@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ballscrew.basis import pint_plugins as _pint_plugins
 from ballscrew.basis.errors import Fault, as_float, message_of
-from ballscrew.basis.quantities import Quantity
+from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.basis.records import Measured, Message, Record, UnitName, Value
 
 if TYPE_CHECKING:
@@ -266,10 +266,7 @@ def measured(value: Any, quantity: Quantity, digits: int = DIGITS, toward: int =
 
 def in_display_units_of(records: Sequence[Record]) -> list[Record]:
     """Records with the quantities of their texts in display units."""
-    return [
-        dataclasses.replace(record, text=filled(record.message)) if record.message is not None else record
-        for record in records
-    ]
+    return [dataclasses.replace(record, text=filled(record.message)) for record in records]
 
 
 def heading(quantity: Quantity, name: str | None = None) -> str:
@@ -352,6 +349,41 @@ def unit_in(text: str) -> str:
 def as_written(number: str) -> Measured:
     """A number to write, with the digits that it has."""
     return Measured(as_float(number), digits=12, written=number)
+
+
+def fixed(value: Any, decimals: int = 0) -> Measured:
+    """A plain number with so many decimals; pages leave out the zeros at its end."""
+    return as_written(f"{float(value):.{decimals}f}")
+
+
+def to_significant(value: Any, digits: int) -> Measured:
+    """A plain number to so many digits."""
+    return as_written(f"{float(value):.{digits}g}")
+
+
+def percent(share: Any, decimals: int = 0) -> Message:
+    """A share in per cent: ``12%``."""
+    return Message("{percent}%", {"percent": _of_hundred(share, decimals)})
+
+
+def change(share: Any, decimals: int = 0) -> Message:
+    """A change in per cent, with its sign: ``+12%``."""
+    number = _of_hundred(share, decimals)
+    return (Message("+{percent}%") if f"{float(share):+}".startswith("+") else Message("{percent}%")).of(percent=number)
+
+
+def signed(number: Measured) -> Message:
+    """A number with its sign: ``+0.2 N m``."""
+    return Message("+{number}" if f"{number.value:+}".startswith("+") else "{number}", {"number": number})
+
+
+def _of_hundred(share: Any, decimals: int) -> Measured:
+    return as_written(f"{float(share):.{decimals}%}".removesuffix("%"))
+
+
+def in_unit(value: Any, unit: str, digits: int = DIGITS) -> Measured:
+    """A number of a message in an SI unit, where no quantity is at hand."""
+    return measured(value, Quantity("", unit, Info("", "")), digits)
 
 
 def _written_like(quantity: Quantity, number: str) -> Message:

@@ -16,6 +16,7 @@ from tests.support.message_templates import (
     is_left_out,
     messages,
     placeholders,
+    records,
     shown_by_page,
     sources,
 )
@@ -93,7 +94,10 @@ NAMES = {
     "computed from the geometry (ISO 3408-5)", "installation", "limits.running_time",
     "static_load_rating", "dynamic_load_rating", "maximum_pressure",
     *SPRINGS,
+    "Stribeck, viscous and load", "efficiency pair", "10 tests", "a year", "1000 h",
 }  # fmt: skip
+#: Fields of a record that are no text.
+OF_RECORDS = ("id", "subject")
 
 
 def id_of(call):
@@ -116,7 +120,7 @@ def test_a_translation_is_whole(name):
 
 def of_page():
     """The templates that the page can show."""
-    found = {one for fault in faults() if fault.module in shown_by_page() for one in fault.templates}
+    found = {one for said in (*faults(), *records()) if said.module in shown_by_page() for one in said.templates}
     return found | {one for module, one in messages() if module in shown_by_page()}
 
 
@@ -137,7 +141,7 @@ def test_every_message_is_translated(name):
 @pytest.mark.parametrize("name", list(languages.texts()))
 def test_no_message_is_stale(name):
     """A text has the template of a message that there is; it may leave values out, and has no others."""
-    known = {one for fault in faults() for one in fault.templates} | {one for _, one in messages()}
+    known = {one for said in (*faults(), *records()) for one in said.templates} | {one for _, one in messages()}
     found = said(name)
     assert found.keys() - known - NAMES == set()
     assert {key for key, text in found.items() if not set(placeholders(text)) <= set(placeholders(key))} == set()
@@ -151,6 +155,28 @@ def test_faults_are_templates():
     """Problem and remedy of every fault are literals, or messages: none is a text that was put together."""
     assert len(faults()) > 750
     assert {fault.where: fault.untold for fault in faults() if fault.untold} == {}
+
+
+def test_records_are_templates():
+    """Every verdict, check and warning is a message: none is a text that was put together."""
+    assert len(records()) > 85
+    assert {record.where: record.untold for record in records() if record.untold} == {}
+
+
+def test_no_template_is_put_together():
+    """Neither a template nor what stands in one is an f-string with words of its own, which nothing could translate."""
+    found = [
+        f"{source.name}:{node.lineno}: {ast.unparse(node)}"
+        for source, call in calls("Message", "of", "record")
+        for one in (*call.args, *(keyword.value for keyword in call.keywords if keyword.arg not in OF_RECORDS))
+        for node in ast.walk(one)
+        if isinstance(node, ast.JoinedStr) and any(_WORDS.search(part.value) for part in node.values if is_text(part))
+    ]
+    assert found == []
+
+
+def is_text(part):
+    return isinstance(part, ast.Constant)
 
 
 def test_what_the_page_never_shows():

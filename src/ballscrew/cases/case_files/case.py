@@ -27,6 +27,7 @@ from ballscrew.physics.friction.plausibility import IMPLAUSIBLE, implausible, na
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.installation import Installation, Limits
 
+_CALIBRATED = Message("calibrated, and {verdict}")
 _TOO_MANY = Message("{balls} loaded balls, and the {turns} turns of {row} hold {most}: check the number")
 #: The limits of the checks where a case gives none.
 USUAL_LIMITS = Limits()
@@ -129,8 +130,8 @@ class Case(Displayed):
 def _of_fit(table: Mapping[str, Any]) -> list[Record]:
     """What the fit that a case is from said of its own numbers: which of them no screw has."""
     return [
-        Record(
-            id="calibration.implausible", subject=f"calibration.{place}", text=f"calibrated, and {text}",
+        units.record(
+            _CALIBRATED.of(verdict=text), id="calibration.implausible", subject=f"calibration.{place}",
             severity="warning", holds=False,
         )
         for place, text in enumerate(table.get("verdicts", ()))

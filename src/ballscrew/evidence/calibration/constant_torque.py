@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+from ballscrew.basis import units
 from ballscrew.basis.errors import InputError
-from ballscrew.basis.records import Record
+from ballscrew.basis.records import Message, Record
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
 
@@ -13,6 +14,10 @@ from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
 _SIGNS = ("fit.baseline_better", "fit.trend")
 #: A number that brings the residuals below this share of what they were is worth a word.
 _WORTH = 0.7
+_FREE_MORE = Message(
+    "with the constant torque free, too, the rows miss by {after} instead of {before}: "
+    "the log has friction of seals or bearings, which the model of the balls does not; free it"
+)
 
 
 def constant_torque_missed(model: CalibratedModel, refit: Callable[[Sequence[str]], CalibratedModel]) -> list[Record]:
@@ -30,13 +35,10 @@ def constant_torque_missed(model: CalibratedModel, refit: Callable[[Sequence[str
     before, after = model.residual_rms, more.residual_rms
     if not more.estimates[CONSTANT_TORQUE.name].identified or after > _WORTH * before:
         return []
-    text = (
-        f"with the constant torque free, too, the rows miss by {after:.2g} N m instead of {before:.2g} N m: "
-        "the log has friction of seals or bearings, which the model of the balls does not; free it"
-    )
+    message = _FREE_MORE.of(after=units.in_unit(after, "N m", 2), before=units.in_unit(before, "N m", 2))
     return [
-        Record(
-            id="fit.free_more", subject=CONSTANT_TORQUE.name, text=text, severity="warning", holds=False,
+        units.record(
+            message, id="fit.free_more", subject=CONSTANT_TORQUE.name, severity="warning", holds=False,
             value=after, limit=_WORTH * before, unit="N m",
         )
     ]  # fmt: skip

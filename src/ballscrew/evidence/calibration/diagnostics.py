@@ -6,15 +6,61 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ballscrew.basis.records import Message, Record
+from ballscrew.basis import units
+from ballscrew.basis.errors import both, chained, message_of
+from ballscrew.basis.records import Measured, Message, Named, Record
 from ballscrew.engine.evaluation.outputs import OPERATION
-from ballscrew.evidence.calibration.fit_result import AS_GIVEN, CALIBRATED, MINIMUM_DEGREES_OF_FREEDOM, FitResult
+from ballscrew.evidence.calibration.fit_result import (
+    AS_GIVEN,
+    CALIBRATED,
+    MINIMUM_DEGREES_OF_FREEDOM,
+    Estimate,
+    FitResult,
+)
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
 from ballscrew.evidence.calibration.robust import autocorrelation_lag, minimum_scatter
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.solvers.load_distribution import ball_loads
 
 _OF_LOG = Message("so in the row that starves the most, by the numbers of the fit")
+_FLAT = Message("{name} is not identified: near {value} the torques of this log hardly depend on it")
+_BY_PRIORS = Message(
+    "{names} cannot be told apart by this log alone: the error of {with_prior} stands on the prior, what was known "
+    "before"
+)
+_CONFOUNDED = Message(
+    "{names} cannot be told apart by this log: it says nothing of {product}; fix one of them, give one a prior, "
+    "or measure elsewhere"
+)
+_PRODUCT, _POWER = Message("{others} · {last}"), Message("{name}^{power}")
+_ONE_DIRECTION = Message(
+    "{name} is not identified: friction of one sign cannot be told from a zero error of the sensor; "
+    "measure in both directions"
+)
+_IMPRECISE = Message("{name} is not identified: it is known to less than half of its size")
+_ONE_SIDED = Message("{name} is bounded on one side only: beyond {value} the torques hardly change")
+_AT_BOUND = Message("{name} came to rest at its bound ({value}): the model cannot follow the log any further")
+_PRIOR = Message("{name} is known by its prior, too: the log leaves {share} of the prior's variance")
+_LIFT_OFF = Message(
+    "at {lifted} of {rows} rows the load lifts the relieved balls off (from {load} on): "
+    "those rows tell nothing of the preload"
+)
+_SCATTER = Message("rows miss by {scatter}, where friction is {friction}: look at their signs, units and conditions")
+_OUTLIERS = Message("{share} of the rows lie far from any fit: look at their signs, units and conditions")
+_BASELINE = Message(
+    "the description without physics ({baseline}) is {times} nearer to the log: look at units, kind of torque, and "
+    "whether this is the screw"
+)
+_OVER = Message(
+    "friction is overestimated by {share} at the {fifth} of the {name}: the model misses something that depends on it"
+)
+_UNDER = Message(
+    "friction is underestimated by {share} at the {fifth} of the {name}: the model misses something that depends on it"
+)
+_FIFTHS = (
+    Message("lowest fifth"), Message("lower fifth"), Message("middle fifth"), Message("higher fifth"),
+    Message("highest fifth"),
+)  # fmt: skip
 #: What each row of a log has of its own.
 _OF_ROWS = (*OPERATION, TEMPERATURE.name)
 #: A share of outliers beyond which they are no longer a few.
@@ -55,24 +101,38 @@ def _starved(found: FitResult) -> list[Record]:
 
 
 def _warning(
-    name: str, subject: str, text: str, value: float | None = None, limit: float | None = None, unit: str = "1"
+    name: str,
+    subject: str,
+    text: str | Message,
+    value: float | None = None,
+    limit: float | None = None,
+    unit: str = "1",
 ) -> Record:
-    return Record(
-        id=f"fit.{name}",
-        subject=subject,
-        text=text,
-        severity="warning",
-        holds=False,
-        value=value,
-        limit=limit,
+    return units.record(
+        message_of(text), id=f"fit.{name}", subject=subject, severity="warning", holds=False, value=value, limit=limit,
         unit=unit,
-    )
+    )  # fmt: skip
+
+
+def powers_of(powers: Mapping[str, float]) -> Message:
+    """A product of powers, the largest first: ``boundary_friction_coefficient^0.98 · decay^-0.20``."""
+    largest = sorted(powers.items(), key=lambda item: -abs(item[1]))
+    parts = [
+        Named(name, name) if power == 1 else _POWER.of(name=Named(name, name), power=units.fixed(power, 2))
+        for name, power in largest
+        if abs(power) >= 0.005
+    ]
+    return chained(_PRODUCT, parts) if parts else Message("")
 
 
 def product_of_powers(powers: Mapping[str, float]) -> str:
-    """A product of powers, the largest first: ``boundary_friction_coefficient^0.98 · decay^-0.20``."""
-    largest = sorted(powers.items(), key=lambda item: -abs(item[1]))
-    return " · ".join(name if power == 1 else f"{name}^{power:.2f}" for name, power in largest if abs(power) >= 0.005)
+    """:func:`powers_of` as text."""
+    return units.filled(powers_of(powers))
+
+
+def _value(estimate: Estimate) -> Measured:
+    """The value of an estimate, which the text has in SI."""
+    return Measured(estimate.value, estimate.quantity, written=f"{estimate.value:.4g}")
 
 
 def _not_identified(found: FitResult) -> list[Record]:
@@ -85,33 +145,21 @@ def _not_identified(found: FitResult) -> list[Record]:
         names = [name for name, power in combination.powers.items() if abs(power) >= 0.05]
         without = [name for name in without if name not in names]
         with_prior = [name for name in names if found.estimates[name].identified]
+        inputs = both(Named(name, name) for name in names)
         if len(names) == 1:
-            near = f"near {found.estimates[names[0]].value:.4g}"
-            text = f"{names[0]} is not identified: {near} the torques of this log hardly depend on it"
-            records.append(_warning("not_identified", names[0], text))
+            message = _FLAT.of(name=Named(names[0], names[0]), value=_value(found.estimates[names[0]]))
+            records.append(_warning("not_identified", names[0], message))
         elif with_prior:
-            text = (
-                f"{' and '.join(names)} cannot be told apart by this log alone: the error of "
-                f"{' and '.join(with_prior)} stands on the prior, what was known before"
-            )
-            records.append(_warning("confounded", ",".join(names), text))
+            message = _BY_PRIORS.of(names=inputs, with_prior=both(Named(name, name) for name in with_prior))
+            records.append(_warning("confounded", ",".join(names), message))
         else:
-            text = (
-                f"{' and '.join(names)} cannot be told apart by this log: it says nothing of "
-                f"{product_of_powers(combination.powers)}; fix one of them, give one a prior, or measure elsewhere"
-            )
-            records.append(_warning("confounded", ",".join(names), text))
+            message = _CONFOUNDED.of(names=inputs, product=powers_of(combination.powers))
+            records.append(_warning("confounded", ",".join(names), message))
     if CONSTANT_TORQUE.name in without and not found.problem.has_torque_offset:
         without.remove(CONSTANT_TORQUE.name)
-        text = (
-            "constant_torque is not identified: friction of one sign cannot be told from a zero error of the sensor; "
-            "measure in both directions"
-        )
-        records.append(_warning("one_direction", CONSTANT_TORQUE.name, text))
-    return records + [
-        _warning("imprecise", name, f"{name} is not identified: it is known to less than half of its size")
-        for name in without
-    ]
+        message = _ONE_DIRECTION.of(name=Named(CONSTANT_TORQUE.name, CONSTANT_TORQUE.name))
+        records.append(_warning("one_direction", CONSTANT_TORQUE.name, message))
+    return records + [_warning("imprecise", name, _IMPRECISE.of(name=Named(name, name))) for name in without]
 
 
 def _of_bounds(found: FitResult) -> list[Record]:
@@ -120,16 +168,14 @@ def _of_bounds(found: FitResult) -> list[Record]:
     return [
         *(
             _warning(
-                "one_sided", e.name,
-                f"{e.name} is bounded on one side only: beyond {e.value:.4g} the torques hardly change",
+                "one_sided", e.name, _ONE_SIDED.of(name=Named(e.name, e.name), value=_value(e)),
                 e.value, unit=e.quantity.unit,
             )
             for e in one_sided
         ),
         *(
             _warning(
-                "at_bound", e.name,
-                f"{e.name} came to rest at its bound ({e.value:.4g}): the model cannot follow the log any further",
+                "at_bound", e.name, _AT_BOUND.of(name=Named(e.name, e.name), value=_value(e)),
                 e.value, e.value, e.quantity.unit,
             )
             for e in at_bound
@@ -140,8 +186,7 @@ def _of_bounds(found: FitResult) -> list[Record]:
 def _of_priors(found: FitResult) -> list[Record]:
     return [
         _warning(
-            "prior", e.name,
-            f"{e.name} is known by its prior, too: the log leaves {e.prior_share:.0%} of the prior's variance",
+            "prior", e.name, _PRIOR.of(name=Named(e.name, e.name), share=units.percent(e.prior_share)),
             e.prior_share, PRIOR_SHARE,
         )
         for e in found.estimates.values()
@@ -158,62 +203,80 @@ def _of_preload(found: FitResult) -> list[Record]:
     lifted = int(np.count_nonzero(np.abs(found.rows.log.axial_load) >= most))
     if not lifted:
         return []
-    text = (
-        f"at {lifted} of {len(found.rows.log)} rows the load lifts the relieved balls off (from {most:.4g} N on): "
-        "those rows tell nothing of the preload"
+    message = _LIFT_OFF.of(
+        lifted=units.fixed(lifted), rows=units.fixed(len(found.rows.log)), load=units.in_unit(most, "N")
     )
-    return [_warning("lift_off", "axial_load", text, most, unit="N")]
+    return [_warning("lift_off", "axial_load", message, most, unit="N")]
 
 
 def _of_rows(found: FitResult) -> list[Record]:
+    return [*_of_scatter(found), *_of_number(found), *_of_baselines(found), *_of_oil(found)]
+
+
+def _of_scatter(found: FitResult) -> list[Record]:
+    """A fit that did not end, or that misses the rows by much."""
     records: list[Record] = []
-
-    def warn(
-        name: str, subject: str, text: str, value: float | None = None, limit: float | None = None, unit: str = "1"
-    ) -> None:
-        records.append(_warning(name, subject, text, value, limit, unit))
-
     if not found.solution.converged:
-        warn("not_converged", "estimates", "the fit did not come to rest: its numbers are not to be used")
+        text = "the fit did not come to rest: its numbers are not to be used"
+        records.append(_warning("not_converged", "estimates", text))
     typical = float(np.median(np.abs(found.rows.friction)))
     scatter = float(np.median(found.rows.scatter))
     if scatter > typical or found.solution.noise.share > MAXIMUM_NOISE_SHARE:
-        text = f"rows miss by {scatter:.2g} N m, where friction is {typical:.2g} N m: "
-        warn("scatter", "torque", f"{text}look at their signs, units and conditions", scatter, typical, "N m")
+        message = _SCATTER.of(scatter=units.in_unit(scatter, "N m", 2), friction=units.in_unit(typical, "N m", 2))
+        records.append(_warning("scatter", "torque", message, scatter, typical, "N m"))
     outlying = float(np.mean(found.rows.outlying))
     if outlying > MANY_OUTLIERS:
-        text = f"{outlying:.0%} of the rows lie far from any fit: look at their signs, units and conditions"
-        warn("outliers", "rows", text, outlying, MANY_OUTLIERS)
+        message = _OUTLIERS.of(share=units.percent(outlying))
+        records.append(_warning("outliers", "rows", message, outlying, MANY_OUTLIERS))
+    return records
+
+
+def _of_number(found: FitResult) -> list[Record]:
+    """Too few rows, or rows that are not independent."""
+    records: list[Record] = []
     freedom = min(estimate.degrees_of_freedom for estimate in found.estimates.values())
     if freedom < MINIMUM_DEGREES_OF_FREEDOM:
         text = "too few operating points for so many numbers: no estimate has an error; measure at more, or free fewer"
-        warn("too_few", "rows", text, float(len(found.rows.log)))
+        records.append(_warning("too_few", "rows", text, float(len(found.rows.log))))
     if autocorrelation_lag(found.solution.influence):
         text = "residuals that follow each other are alike: the errors are larger for it"
-        warn("autocorrelated", "residuals", text)
+        records.append(_warning("autocorrelated", "residuals", text))
     if not found.rows.held_out.any():
         text = "too few rows to hold any out: how well the model predicts is not known"
-        warn("no_holdout", "holdout_rms", text, float(len(found.rows.log)))
+        records.append(_warning("no_holdout", "holdout_rms", text, float(len(found.rows.log))))
+    return records
+
+
+def _of_baselines(found: FitResult) -> list[Record]:
+    """A description without physics that is nearer to the log than the model."""
     rms = {score.description: score.fitted for score in found.scores}
     own = rms.pop(CALIBRATED)
     rms.pop(AS_GIVEN)
     best = min(rms, key=lambda description: rms[description])
-    if rms[best] < BASELINE_RATIO * own and own > minimum_scatter(found.rows.log.torque):
-        ratio = own / rms[best] if rms[best] * MAXIMUM_RATIO > own else MAXIMUM_RATIO
-        times = f"{ratio:.1f} times" if ratio < MAXIMUM_RATIO else f"more than {MAXIMUM_RATIO:.0f} times"
-        text = (
-            f"the description without physics ({best}) is {times} nearer to the log: look at "
-            "units, kind of torque, and whether this is the screw"
-        )
-        warn("baseline_better", "residual_rms", text, own, rms[best], "N m")
-    if "viscosity" in found.response.names and found.rows.log.temperature is not None:
+    if not (rms[best] < BASELINE_RATIO * own and own > minimum_scatter(found.rows.log.torque)):
+        return []
+    ratio = own / rms[best] if rms[best] * MAXIMUM_RATIO > own else MAXIMUM_RATIO
+    if ratio < MAXIMUM_RATIO:
+        times = Message("{ratio} times", {"ratio": units.fixed(ratio, 1)})
+    else:
+        times = Message("more than {ratio} times", {"ratio": units.fixed(MAXIMUM_RATIO)})
+    message = _BASELINE.of(baseline=Message(best), times=times)
+    return [_warning("baseline_better", "residual_rms", message, own, rms[best], "N m")]
+
+
+def _of_oil(found: FitResult) -> list[Record]:
+    """A viscosity that is fitted to a log with temperatures, and temperatures that change nothing."""
+    if found.rows.log.temperature is None:
+        return []
+    records: list[Record] = []
+    if "viscosity" in found.response.names:
         text = "viscosity is free: it counts for the whole log, whatever the temperatures"
-        warn("viscosity_free", "viscosity", text)
-    if found.rows.log.temperature is not None and not found.lubricant.follows_temperature:
+        records.append(_warning("viscosity_free", "viscosity", text))
+    if not found.lubricant.follows_temperature:
         text = (
             "the temperatures of the log are not used: the oil has a viscosity, and no sheet or grade that changes it"
         )
-        warn("temperature_unused", "temperature", text)
+        records.append(_warning("temperature_unused", "temperature", text))
     return records
 
 
@@ -225,10 +288,11 @@ def _trends(found: FitResult) -> list[Record]:
         worst = int(np.argmax(np.abs(trend.means)))
         off = float(trend.means[worst])
         if abs(off) > max(TREND_ERRORS * trend.errors[worst], TREND_SHARE * friction):
-            which = ("lowest", "lower", "middle", "higher", "highest")[worst]
-            text = (
-                f"friction is {'over' if off > 0 else 'under'}estimated by {abs(off) / friction:.0%} at the {which} "
-                f"fifth of the {name.replace('_', ' ')}: the model misses something that depends on it"
+            column = Message("time") if name == "time" else Named(name)
+            message = (_OVER if off > 0 else _UNDER).of(
+                share=units.percent(abs(off) / friction),
+                fifth=_FIFTHS[worst],
+                name=column,
             )
-            records.append(_warning("trend", name, text, off, TREND_SHARE * friction, "N m"))
+            records.append(_warning("trend", name, message, off, TREND_SHARE * friction, "N m"))
     return records

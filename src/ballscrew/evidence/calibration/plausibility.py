@@ -15,7 +15,7 @@ import numpy as np
 
 from ballscrew.basis.errors import shown_in_si
 from ballscrew.basis.quantities import Force
-from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.records import Measured, Message, Named, Record
 from ballscrew.evidence.calibration.fit_result import Estimate, FitResult
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
 
@@ -103,7 +103,7 @@ def _record(estimate: Estimate, limit: _Range) -> Record:
     if ends is not None:
         said = _WITH_INTERVAL.of(value=said, least=measured(ends[0]), most=measured(ends[1]))
     message = _OUTSIDE.of(
-        name=estimate.name.rpartition(".")[2].replace("_", " "),
+        name=Named(estimate.name),
         value=said,
         low=measured(limit.low),
         high=measured(limit.high),

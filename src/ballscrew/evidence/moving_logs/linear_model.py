@@ -6,8 +6,9 @@ import dataclasses
 
 import numpy as np
 
-from ballscrew.basis.errors import Fault
-from ballscrew.basis.records import Record
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, both
+from ballscrew.basis.records import Message, Named, Record
 from ballscrew.evidence.moving_logs.equation import Equation
 from ballscrew.evidence.moving_logs.regression import LARGEST_ERROR, LeastSquares, relative_error
 from ballscrew.files.torque_logs.motion import Floats
@@ -25,14 +26,19 @@ _OTHER_UNIT, _BETTER = 4.0, 0.5
 _WITHIN = 0.03
 
 _REMEDIES = {
-    frozenset({"offset", "coulomb_force"}): "record strokes in both directions",
-    frozenset(
-        {"coulomb_force", "viscous_coefficient"}
-    ): "record strokes at several speeds, the slowest a tenth of the fastest",
-    frozenset({"mass", "viscous_coefficient"}): "record ramps of several accelerations and strokes at steady speed",
-    frozenset({"mass", "coulomb_force"}): "record ramps in both directions that speed up and that slow down",
+    frozenset({"offset", "coulomb_force"}): Message("record strokes in both directions"),
+    frozenset({"coulomb_force", "viscous_coefficient"}): Message(
+        "record strokes at several speeds, the slowest a tenth of the fastest"
+    ),
+    frozenset({"mass", "viscous_coefficient"}): Message(
+        "record ramps of several accelerations and strokes at steady speed"
+    ),
+    frozenset({"mass", "coulomb_force"}): Message("record ramps in both directions that speed up and that slow down"),
 }
-_SLOW = "record faster ramps: the force of the acceleration must be clear of the noise"
+_SLOW = Message("record faster ramps: the force of the acceleration must be clear of the noise")
+_FEW_SPEEDS = Message("record strokes at several speeds in both directions")
+_CONFOUNDED = Message("the log cannot tell {names} apart · {remedy}")
+_NOT_TOLD = Message("the log does not tell the {name} · {remedy}")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -90,13 +96,16 @@ def linear_model(equation: Equation) -> LinearModel:
 
 def _not_told(names: list[str]) -> Record:
     """The warning about numbers that a log does not tell, or not apart."""
-    spoken = " and ".join(name.replace("_", " ") for name in names)
-    told = f"the log cannot tell {spoken} apart" if len(names) > 1 else f"the log does not tell the {spoken}"
-    remedy = next((text for pair, text in _REMEDIES.items() if pair <= {*names}), _SLOW if "mass" in names else "")
-    remedy = remedy or "record strokes at several speeds in both directions"
-    return Record(
-        id="fit.not_identified", subject=",".join(names), text=f"{told} · {remedy}", severity="warning", holds=False
+    remedy = next(
+        (text for pair, text in _REMEDIES.items() if pair <= {*names}), _SLOW if "mass" in names else _FEW_SPEEDS
     )
+    spoken = [Named(name) for name in names]
+    message = (
+        _CONFOUNDED.of(names=both(spoken), remedy=remedy)
+        if len(names) > 1
+        else _NOT_TOLD.of(name=spoken[0], remedy=remedy)
+    )
+    return units.record(message, id="fit.not_identified", subject=",".join(names), severity="warning", holds=False)
 
 
 def unit_change(equation: Equation, name: str) -> Fault | None:

@@ -8,9 +8,10 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.basis.errors import Fault, InputError, accepts_units, raise_if_any
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError, accepts_units, each_of, raise_if_any
 from ballscrew.basis.quantities import Force, Info, Quantity, Ratio, Unit, quantities_of
-from ballscrew.basis.records import Record
+from ballscrew.basis.records import Message, Named, Record
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.evidence.moving_logs.equation import DeadTime, Equation, dead_time
 from ballscrew.evidence.moving_logs.linear_model import NAMES, LinearModel, linear_model, unit_change
@@ -39,6 +40,26 @@ WORSE = 1.02
 _TABLE_ERROR = 0.02
 #: The axial load of the table of friction, as a share of the force of the largest acceleration.
 _LOAD_ROOM = 1.1
+_GRAVITY = Message(
+    "the offset is gravity and the zero error of the force together · to tell them apart, record it once more "
+    "with another mass, or read the force with the motor off"
+)
+_NO_EXPONENT = Message("the speeds of the log do not tell an exponent of the speed · record strokes from slow to fast")
+_PRELOAD_FREED = Message(
+    "with the preload of the case the screw has more friction than the whole axis: the preload is fitted as well · "
+    "check the preload and the size in the case, or give --free viscosity to hold it"
+)
+_NO_FRICTION = Message("the model of the screw is not fitted: the model has no friction at some speeds of the log")
+_NO_MASS = Message(
+    "the model of the screw is not fitted: the log does not tell the mass or the friction that it would be fitted to"
+)
+_MODEL_OFF = Message(
+    "the screw's model does not fit: it is off by {off}, the linear one by {linear} · the screw of the case has more "
+    "friction than the whole axis: try {remedy}"
+)
+_OTHER_SIZE = Message("another size or oil")
+_TABLE_OFF = Message("the table of the screw's friction is off by up to {error} of the largest friction")
+_UNTOLD = Message("the log does not tell by itself: {names} · free fewer numbers, or give what is known")
 
 Mass = Annotated[Any, Unit("kg")]
 Drag = Annotated[Any, Unit("N s/m")]
@@ -206,12 +227,12 @@ def fit_motion(
             asked = (*asked, PRELOAD)
             friction = _screw_friction(subject, asked, equation, linear, carried_mass)
             found_screw = fit_screw_model(equation, friction, linear.solution, carried_mass)
-            warnings.append(_preload_freed())
+            warnings.append(_warning("preload_freed", PRELOAD, _PRELOAD_FREED))
         if found_screw is None:
-            warnings.append(_no_screw("the model has no friction at some speeds of the log"))
+            warnings.append(_warning("no_screw_model", "screw", _NO_FRICTION))
     else:
         _screw_friction(subject, asked, equation, linear, carried_mass)  # names that are wrong are faults in any case
-        warnings.append(_no_screw("the log does not tell the mass or the friction that it would be fitted to"))
+        warnings.append(_warning("no_screw_model", "screw", _NO_MASS))
     errors = {LINEAR: linear.relative_error}
     if power is not None:
         errors[POWER] = power.relative_error
@@ -333,14 +354,9 @@ def _estimates(
 
 
 def _remarks(power: PowerLaw | None) -> list[Record]:
-    gravity = (
-        "the offset is gravity and the zero error of the force together · to tell them apart, record it once more "
-        "with another mass, or read the force with the motor off"
-    )
-    found = [Record(id="fit.gravity_or_offset", subject="offset", text=gravity, holds=False)]
+    found = [units.record(_GRAVITY, id="fit.gravity_or_offset", subject="offset", holds=False)]
     if power is None:
-        text = "the speeds of the log do not tell an exponent of the speed · record strokes from slow to fast"
-        found.append(Record(id="fit.no_exponent", subject="speed_exponent", text=text, severity="warning", holds=False))
+        found.append(_warning("no_exponent", "speed_exponent", _NO_EXPONENT))
     return found
 
 
@@ -349,12 +365,8 @@ def _is_off(screw: ScrewModelFit | None, linear: LinearModel) -> bool:
     return screw is not None and screw.relative_error > WORSE * linear.relative_error
 
 
-def _preload_freed() -> Record:
-    text = (
-        "with the preload of the case the screw has more friction than the whole axis: the preload is fitted as well · "
-        "check the preload and the size in the case, or give --free viscosity to hold it"
-    )
-    return Record(id="fit.preload_freed", subject=PRELOAD, text=text, severity="warning", holds=False)
+def _warning(name: str, subject: str, message: Message) -> Record:
+    return units.record(message, id=f"fit.{name}", subject=subject, severity="warning", holds=False)
 
 
 def _of_screw(screw: ScrewModelFit, linear: LinearModel, free: Sequence[str]) -> list[Record]:
@@ -362,21 +374,14 @@ def _of_screw(screw: ScrewModelFit, linear: LinearModel, free: Sequence[str]) ->
     found: list[Record] = []
     if _is_off(screw, linear):
         preload = PRELOAD in screw.friction.subject.inputs and PRELOAD not in screw.friction.names
-        remedy = f"--free {','.join([*free, PRELOAD])}" if preload else "another size or oil"
-        text = (
-            f"the screw's model does not fit: it is off by {screw.relative_error:.1%}, the linear one by "
-            f"{linear.relative_error:.1%} · the screw of the case has more friction than the whole axis: try {remedy}"
+        remedy = Message("--free {names}", {"names": ",".join([*free, PRELOAD])}) if preload else _OTHER_SIZE
+        message = _MODEL_OFF.of(
+            off=units.percent(screw.relative_error, 1), linear=units.percent(linear.relative_error, 1), remedy=remedy
         )
-        found.append(Record(id="fit.screw_model_off", subject="screw", text=text, severity="warning", holds=False))
+        found.append(_warning("screw_model_off", "screw", message))
     if screw.table_error > _TABLE_ERROR:
-        text = f"the table of the screw's friction is off by up to {screw.table_error:.1%} of the largest friction"
-        found.append(Record(id="fit.table_error", subject="screw", text=text, severity="warning", holds=False))
+        found.append(_warning("table_error", "screw", _TABLE_OFF.of(error=units.percent(screw.table_error, 1))))
     return found
-
-
-def _no_screw(reason: str) -> Record:
-    text = f"the model of the screw is not fitted: {reason}"
-    return Record(id="fit.no_screw_model", subject="screw", text=text, severity="warning", holds=False)
 
 
 def _unidentified(estimates: Mapping[str, MotionEstimate]) -> list[Record]:
@@ -384,6 +389,5 @@ def _unidentified(estimates: Mapping[str, MotionEstimate]) -> list[Record]:
     names = [e.name for e in estimates.values() if e.model == SCREW and not (e.identified or e.at_bound or e.given)]
     if not names:
         return []
-    spoken = ", ".join(name.rpartition(".")[2].replace("_", " ") for name in names)
-    text = f"the log does not tell by itself: {spoken} · free fewer numbers, or give what is known"
-    return [Record(id="fit.not_identified", subject=",".join(names), text=text, severity="warning", holds=False)]
+    spoken = each_of(Named(name) for name in names)
+    return [_warning("not_identified", ",".join(names), _UNTOLD.of(names=spoken))]

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.basis.records import Message, Record
 from ballscrew.engine.evaluation.plan import Configuration
@@ -31,6 +32,7 @@ ONE_SPEED = 1.1
 LOAD_SHARE = 0.2
 #: The standard deviation of a median over that of a mean.
 _OF_MEDIAN = 1.2533
+_ONE_DIRECTION = Message("{log}: one direction only: a zero error of the sensor counts as friction; measure in both")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -136,8 +138,12 @@ def of_logs(subject: Configuration, logs: Sequence[Any], kind: Kind, inertia: fl
         parts += [(number, one) for one in found]
         notes += [f"{name}: {line}" for line in (clean.usage, *clean.notes)]
         if not (np.any(clean.forward) and np.any(clean.backward)):
-            text = f"{name}: one direction only: a zero error of the sensor counts as friction; measure in both"
-            warnings.append(_warning("one_direction", name, text))
+            warnings.append(
+                units.record(
+                    _ONE_DIRECTION.of(log=name), id="condition.one_direction", subject=name, severity="warning",
+                    holds=False,
+                )
+            )  # fmt: skip
     raise_if_any(faults)
     raise_if_any(_faults_of_jumps(parts, labels))
     columns = [np.array([getattr(one, name) for _, one in parts]) for name in _Mean.__annotations__]
@@ -267,10 +273,6 @@ def _of_one_speed(speed: Vector) -> list[NDArray[np.int64]]:
         return np.array_split(order, MOST_SPEEDS)
     wide = any(speed[part].max() > 2 * ONE_SPEED * speed[part].min() for part in parts)
     return np.array_split(order, max(1, min(MOST_SPEEDS, speed.size // (4 * LEAST_ROWS)))) if wide else parts
-
-
-def _warning(name: str, subject: str, text: str) -> Record:
-    return Record(id=f"condition.{name}", subject=subject, text=text, severity="warning", holds=False)
 
 
 def points_of(means: Means, subject: Configuration) -> dict[str, Vector]:

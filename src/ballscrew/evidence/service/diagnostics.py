@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
+from typing import Any
 
 import numpy as np
 
+from ballscrew.basis import units
+from ballscrew.basis.errors import message_of
 from ballscrew.basis.quantities import Force, Quantity
-from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.records import Measured, Message, Named, Record
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.evidence.calibration.fit import points_of
 from ballscrew.evidence.calibration.fit_result import Rows
@@ -22,6 +25,48 @@ from ballscrew.physics.friction.starvation import STARVED
 #: A difference between the temperatures of two logs that is said, K.
 TEMPERATURE_DIFFERENCE = 5.0
 _OF_LOG = Message("{log} log: {message}")
+_MISFIT = Message(
+    "with no preload does the model follow the torques, by more than the {share} that it is taken to be off: "
+    "is this the screw, and is the kind of torque right?"
+)
+#: By whether it is above.
+_BEYOND = {
+    True: Message(
+        "the logs ask for a {name} {score} standard deviations above what is known of it: is this the screw, or does "
+        "the model miss something?"
+    ),
+    False: Message(
+        "the logs ask for a {name} {score} standard deviations below what is known of it: is this the screw, or does "
+        "the model miss something?"
+    ),
+}
+_ABOVE_RATING = Message(
+    "{log} preload {preload} is more than {percent}% of the dynamic load rating, {limit}: "
+    "it costs life; look at the nut and the units of the log"
+)
+_LIFT_OFF = Message(
+    "the load takes the preload off one side in {beyond} of {rows} rows, which tell nothing of it: {left} rows do"
+)
+_NO_TEMPERATURE = Message(
+    "no temperature: it is found from how the torque goes with the speed, 10 K either way; "
+    "log the temperature of the nut"
+)
+_TEMPERATURE_UNUSED = Message(
+    "its temperatures are not used, as the oil has a viscosity and no sheet or grade that changes with it: "
+    "give [lubricant] a data sheet or a grade"
+)
+#: By whether the worn nut was hotter.
+_DIFFERENCE = {
+    True: Message("the worn log is {difference} K hotter than the new one: {graded}"),
+    False: Message("the worn log is {difference} K colder than the new one: {graded}"),
+}
+_BY_GRADE = Message("the oil's grade accounts for it")
+_WITHOUT_GRADE = Message("give [lubricant] a grade to account for it")
+_TREND = Message(
+    "the torque over that of the model {trend}; a preload by logs of other temperatures is off by as much: "
+    "compare logs of one temperature"
+)
+_ONE_DIRECTION = Message("one direction only: a zero error of the sensor counts as friction; measure in both")
 #: A misfit of a log that is seldom chance, and a number so many standard deviations from what is known of it, are said.
 MISFIT_SHARE, LARGEST_SCORE = 1e-3, 2.0
 #: Warnings of the fit of the preload alone that hold whatever the other numbers are.
@@ -56,9 +101,15 @@ def warning_records(
     ]
 
 
-def _record(name: str, subject: str, text: str, **more: object) -> Record:
-    fields: dict[str, object] = {"severity": "warning", "holds": False, **more}
-    return Record(id=f"service.{name}", subject=subject, text=text, **fields)  # pyright: ignore[reportArgumentType]  (of mixed types)
+def _record(name: str, subject: str, text: str | Message, **more: Any) -> Record:
+    fields: dict[str, Any] = {"severity": "warning", "holds": False, **more}
+    return units.record(message_of(text), id=f"service.{name}", subject=subject, **fields)
+
+
+def _log_record(name: str, label: str, subject: str, text: str | Message, **more: Any) -> Record:
+    """A record of what is said of one of the logs."""
+    message = _OF_LOG.of(log=Message(label), message=message_of(text))
+    return _record(name, f"{label}.{subject}", message, **more)
 
 
 def _rows(one: PreloadEstimate) -> Rows:
@@ -73,8 +124,8 @@ def _of_fit(label: str, one: PreloadEstimate) -> list[Record]:
         dataclasses.replace(
             record,
             subject=f"{label}.{record.subject}",
-            text=f"{label} log: {record.text}",
-            message=None if record.message is None else _OF_LOG.of(log=Message(label), message=record.message),
+            text=_OF_LOG.of(log=label, message=record.text).filled(Measured.plain),
+            message=_OF_LOG.of(log=Message(label), message=record.message),
         )
         for record in said
     ]
@@ -93,19 +144,12 @@ def _of_numbers(found: Posterior, labels: list[str]) -> list[Record]:
     for label, one in zip(labels, found.preloads, strict=True):
         misfit = float(one.misfit[found.best])
         if misfit > limit:
-            text = (
-                f"{label} log: with no preload does the model follow the torques, by more than the {MODEL_ERROR:.0%} "
-                "that it is taken to be off: is this the screw, and is the kind of torque right?"
-            )
-            records.append(_record("misfit", f"{label}.torque", text, value=misfit, limit=limit))
+            message = _MISFIT.of(share=units.percent(MODEL_ERROR))
+            records.append(_log_record("misfit", label, "torque", message, value=misfit, limit=limit))
     for name, score in found.mean_scores().items():
         if abs(score) > LARGEST_SCORE:
-            where = "above" if score > 0 else "below"
-            text = (
-                f"the logs ask for a {name.rpartition('.')[2].replace('_', ' ')} {abs(score):.1f} standard deviations "
-                f"{where} what is known of it: is this the screw, or does the model miss something?"
-            )
-            records.append(_record("beyond_known", name, text, value=score, limit=LARGEST_SCORE))
+            message = _BEYOND[score > 0].of(name=Named(name), score=units.fixed(abs(score), 1))
+            records.append(_record("beyond_known", name, message, value=score, limit=LARGEST_SCORE))
     return records
 
 
@@ -120,21 +164,15 @@ def _of_ratings(
     for label, one in both.items():
         if one.preload <= limit:
             continue
-        message = Message(
-            "{log} preload {preload} is more than {percent}% of the dynamic load rating, {limit}: "
-            "it costs life; look at the nut and the units of the log",
-            {
-                "log": Message(label), "preload": Measured(one.preload, quantity), "limit": Measured(limit, quantity),
-                "percent": Measured(100 * HIGHEST_PRELOAD),
-            },
-        )  # fmt: skip
-        text = message.filled(lambda number: number.plain() if number.is_plain else f"{number.value:.4g} N")
+        message = _ABOVE_RATING.of(
+            log=Message(label),
+            preload=units.measured(one.preload, quantity),
+            limit=units.measured(limit, quantity),
+            percent=Measured(100 * HIGHEST_PRELOAD),
+        )
         found.append(
-            _record(
-                "preload_above_rating", f"{label}.preload", text,
-                value=one.preload, limit=limit, unit="N", message=message,
-            )
-        )  # fmt: skip
+            _record("preload_above_rating", f"{label}.preload", message, value=one.preload, limit=limit, unit="N")
+        )
     return found
 
 
@@ -142,11 +180,8 @@ def _of_lift_off(label: str, one: PreloadEstimate) -> list[Record]:
     beyond, rows = one.rows_beyond_lift_off, len(_rows(one).log)
     if not beyond:
         return []
-    text = (
-        f"{label} log: the load takes the preload off one side in {beyond} of {rows} rows, which tell nothing of it: "
-        f"{rows - beyond} rows do"
-    )
-    return [_record("lift_off", f"{label}.axial_load", text, value=float(beyond), limit=0.0)]
+    message = _LIFT_OFF.of(beyond=units.fixed(beyond), rows=units.fixed(rows), left=units.fixed(rows - beyond))
+    return [_log_record("lift_off", label, "axial_load", message, value=float(beyond), limit=0.0)]
 
 
 def _of_temperatures(logs: dict[str, PreloadEstimate], subject: Configuration) -> list[Record]:
@@ -155,26 +190,19 @@ def _of_temperatures(logs: dict[str, PreloadEstimate], subject: Configuration) -
     known = {label: one.temperature for label, one in logs.items() if one.temperature is not None}
     for label in logs:
         if label not in known:
-            text = (
-                f"{label} log: no temperature: it is found from how the torque goes with the speed, 10 K either way; "
-                "log the temperature of the nut"
-            )
-            records.append(_record("no_temperature", f"{label}.temperature", text))
+            records.append(_log_record("no_temperature", label, "temperature", _NO_TEMPERATURE))
         elif not graded:
-            text = (
-                f"{label} log: its temperatures are not used, as the oil has a viscosity and no sheet or grade that "
-                "changes with it: give [lubricant] a data sheet or a grade"
-            )
-            records.append(_record("temperature_unused", f"{label}.temperature", text))
+            records.append(_log_record("temperature_unused", label, "temperature", _TEMPERATURE_UNUSED))
     if len(known) == 2:
         warmer = known["worn"] - known["new"]
         if abs(warmer) > TEMPERATURE_DIFFERENCE:
-            how = f"the worn log is {abs(warmer):.0f} K {'hotter' if warmer > 0 else 'colder'} than the new one"
-            end = "the oil's grade accounts for it" if graded else "give [lubricant] a grade to account for it"
+            message = _DIFFERENCE[warmer > 0].of(
+                difference=units.fixed(abs(warmer)), graded=_BY_GRADE if graded else _WITHOUT_GRADE
+            )
             severity = "info" if graded else "warning"
             records.append(
                 _record(
-                    "temperatures_differ", "temperature", f"{how}: {end}", severity=severity, value=warmer,
+                    "temperatures_differ", "temperature", message, severity=severity, value=warmer,
                     limit=TEMPERATURE_DIFFERENCE, unit="K",
                 )
             )  # fmt: skip
@@ -200,16 +228,13 @@ def _of_trend(label: str, one: PreloadEstimate) -> list[Record]:
     if trend is None or not trend.told or abs(trend.slope) * trend.temperature_range < MODEL_ERROR:
         return []
     warmer = torque_of_model(subject, points, FRICTION, one.warmer + 1.0)
-    text = (
-        f"{label} log: the torque over that of the model {trend.words(float(np.mean(np.log(warmer / model))))}; "
-        "a preload by logs of other temperatures is off by as much: compare logs of one temperature"
-    )
-    return [_record("temperature_trend", f"{label}.temperature", text, value=trend.slope, limit=0.0, unit="1/K")]
+    message = _TREND.of(trend=trend.message(float(np.mean(np.log(warmer / model)))))
+    fields = {"value": trend.slope, "limit": 0.0, "unit": "1/K"}
+    return [_log_record("temperature_trend", label, "temperature", message, **fields)]
 
 
 def _of_directions(label: str, one: PreloadEstimate) -> list[Record]:
     log = _rows(one).log
     if np.any(log.forward) and np.any(log.backward):
         return []
-    text = f"{label} log: one direction only: a zero error of the sensor counts as friction; measure in both"
-    return [_record("one_direction", f"{label}.screw_speed", text)]
+    return [_log_record("one_direction", label, "screw_speed", _ONE_DIRECTION)]

@@ -39,6 +39,12 @@ CERTAIN = 0.95
 ONE_DEVIATION = 0.8413447460685429
 #: What a service may fit to each log.
 FREE = PRELOAD, CONSTANT_TORQUE.name
+#: What became of the preload, by the verdict.
+VERDICTS = {
+    "lost": Message("preload lost"),
+    "kept": Message("preload kept"),
+    "open": Message("lost or kept cannot be told"),
+}
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)

@@ -10,6 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ballscrew.basis import units
+from ballscrew.basis.records import Message
 from ballscrew.evidence.calibration.identifiability import long_run_covariance
 from ballscrew.evidence.calibration.oil_temperature import LOGGED_TEMPERATURE
 from ballscrew.evidence.calibration.robust import Vector, autocorrelation_lag
@@ -20,6 +22,25 @@ CHANCE = 0.01
 LEAST_RANGE = LOGGED_TEMPERATURE
 #: Half of the values beyond the interval of 95 %.
 _LEVEL = 0.95
+#: By whether the torque rises, and whether the model over-corrects.
+_WORDS = {
+    (True, True): Message(
+        "still rises by {slope} a kelvin ({low} to {high} %, 95 %): the model over-corrects, it accounts for too much "
+        "of the temperature"
+    ),
+    (True, False): Message(
+        "still rises by {slope} a kelvin ({low} to {high} %, 95 %): the model under-corrects, it accounts for too "
+        "little of the temperature"
+    ),
+    (False, True): Message(
+        "still falls by {slope} a kelvin ({low} to {high} %, 95 %): the model over-corrects, it accounts for too much "
+        "of the temperature"
+    ),
+    (False, False): Message(
+        "still falls by {slope} a kelvin ({low} to {high} %, 95 %): the model under-corrects, it accounts for too "
+        "little of the temperature"
+    ),
+}
 
 
 class TemperatureTrend(NamedTuple):
@@ -38,15 +59,12 @@ class TemperatureTrend(NamedTuple):
         """Whether it is clear, by :data:`CHANCE`."""
         return self.chance < CHANCE
 
-    def words(self, per_kelvin: float) -> str:
+    def message(self, per_kelvin: float) -> Message:
         """The trend and what it says of a model whose torque has this derivative of its logarithm, 1/K."""
-        kind = "too much" if self.slope * per_kelvin < 0 else "too little"
-        name = "over-corrects" if self.slope * per_kelvin < 0 else "under-corrects"
-        way = "rises" if self.slope > 0 else "falls"
+        rises, over = self.slope > 0, self.slope * per_kelvin < 0
         ends = sorted(abs(100 * end) for end in (self.low, self.high))
-        return (
-            f"still {way} by {abs(self.slope):.2%} a kelvin ({ends[0]:.2f} to {ends[1]:.2f} %, 95 %): the model "
-            f"{name}, it accounts for {kind} of the temperature"
+        return _WORDS[rises, over].of(
+            slope=units.percent(abs(self.slope), 2), low=units.fixed(ends[0], 2), high=units.fixed(ends[1], 2)
         )
 
 

@@ -19,8 +19,9 @@ from xml.etree import ElementTree as xml
 import numpy as np
 from numpy.typing import NDArray
 
+from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.records import Record
+from ballscrew.basis.records import Message
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.exports.export import Export
 from ballscrew.exports.programs import interpreter
@@ -34,6 +35,11 @@ from ballscrew.exports.worst_error import Values, WorstError, worst_errors
 REGULARISATION_SPEED = 0.01
 #: From so many times that speed on the tanh is 1 to the last digit.
 _MOVING = 20.0
+_AT_REST = Message(
+    "friction passes through zero over {slow} (parameter regularisation_speed), so that below {moving} drive_torque "
+    "lacks a part of it, next to rest all, and a load at rest creeps: where holding matters, brake where "
+    "holding_torque says so"
+)
 #: The name of the model in an FMU, of its library and of its file.
 IDENTIFIER = "ballscrew"
 OPTIONS: Mapping[str, Option] = {"version": Option(2, "version of the standard, 2 or 3")}
@@ -104,12 +110,13 @@ def export(handed: HandOver) -> Export:
     }
     if version == 3:
         content["sources/buildDescription.xml"] = _document(_build_description())
-    text = (
-        f"friction passes through zero over {REGULARISATION_SPEED:g} rad/s (parameter regularisation_speed), so that "
-        f"below {_MOVING * REGULARISATION_SPEED:g} rad/s drive_torque lacks a part of it, next to rest all, and a "
-        "load at rest creeps: where holding matters, brake where holding_torque says so"
+    slow, moving = (
+        units.in_unit(speed, "rad/s", 6) for speed in (REGULARISATION_SPEED, _MOVING * REGULARISATION_SPEED)
     )
-    warning = Record(id="hand_over.rest", subject="regularisation_speed", text=text, severity="warning", holds=False)
+    warning = units.record(
+        _AT_REST.of(slow=slow, moving=moving), id="hand_over.rest", subject="regularisation_speed",
+        severity="warning", holds=False,
+    )  # fmt: skip
     return Export.of(
         handed,
         "fmu",

@@ -17,7 +17,7 @@ from ballscrew.axis.duty_cycle.axis import GRAVITY
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.basis.records import Record
+from ballscrew.basis.records import Measured, Message, Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.exports.programs import c99
@@ -56,6 +56,29 @@ MEASURED, FEWER, FEWER_LOADS = 499, 49, 300
 BEYOND = 1e4
 #: Loads of the table of errors, as shares of the load of the fit.
 SHARES = (0.0, 0.5, 1.0, 1.5, 2.0)
+_NO_MASS_BUT_LOAD = Message(
+    "no mass is given ([axis] mass): the axis of the files is vertical and has {mass}, whose weight is the load of the "
+    "fit"
+)
+_NO_MASS = Message(
+    "no mass is given ([axis] mass): the axis of the files is vertical and has {mass}, of no meaning, as there is no "
+    "load either"
+)
+_COUNTERFORCE = Message(
+    "a force of {force} along positive motion balances the weight, and the files have no place for it: "
+    "add it in the simulation"
+)
+_ERRORS = Message(
+    "The friction of the joint knows no load: over the speeds of the fit it is at most {percent} % off the model at "
+    "{load}, and over its whole range {worst} off at {at_load} and {at_speed}"
+)
+_ERRORS_AROUND = Message(
+    "The friction of the joint knows no load: over the speeds of the fit it is at most {percent} % off the model at "
+    "{load}, {near} % from {half} to {twice}, and over its whole range {worst} off at {at_load} and {at_speed}"
+)
+_ALSO_AT_REST = Message("{errors}; at rest it is {percent} % off at {load}")
+_BEYOND_RANGE = Message("{errors}; beyond its range, and below the lowest speed of the fit, it goes on as fitted")
+_FEW_VALID = Message("at {load} the model itself holds at {percent} % of the speeds of the fit; ballscrew run says why")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -159,17 +182,11 @@ class JointFriction:
         """A sentence where the mass is none of the case, and where a file does not have what balances the weight."""
         found = list[Record]()
         if math.isnan(self.given_mass):
-            said = "whose weight is the load of the fit" if self.load else "of no meaning, as there is no load either"
-            text = (
-                f"no mass is given ([axis] mass): the axis of the files is vertical and has {self.mass:.4g} kg, {said}"
-            )
-            found.append(_assumed("hand_over.mass", "mass", text))
+            message = (_NO_MASS_BUT_LOAD if self.load else _NO_MASS).of(mass=units.in_unit(self.mass, "kg"))
+            found.append(_assumed("hand_over.mass", "mass", message))
         if self.counterforce and not balances:
-            text = (
-                f"a force of {self.counterforce:.4g} N along positive motion balances the weight, and the files have "
-                "no place for it: add it in the simulation"
-            )
-            found.append(_assumed("hand_over.counterforce", "counterforce", text))
+            message = _COUNTERFORCE.of(force=units.in_unit(self.counterforce, "N"))
+            found.append(_assumed("hand_over.counterforce", "counterforce", message))
         return found
 
     def at_points(self, points: Values) -> dict[str, NDArray[np.float64]]:
@@ -177,8 +194,8 @@ class JointFriction:
         return {"screw_torque": self.torque(points[OPERATION[1]])}
 
 
-def _assumed(name: str, subject: str, text: str) -> Record:
-    return Record(id=name, subject=subject, text=text, severity="warning", holds=False)
+def _assumed(name: str, subject: str, message: Message) -> Record:
+    return units.record(message, id=name, subject=subject, severity="warning", holds=False)
 
 
 def joint_friction(handed: HandOver, degree: int) -> JointFriction:
@@ -301,25 +318,35 @@ class JointErrors(NamedTuple):
     @property
     def text(self) -> str:
         """The errors in words."""
-        load, half, twice = (units.shown(one.at[OPERATION[0]], LOAD) for one in (self.at_load, *self.by_load[1::3]))
+        return units.filled(self.message)
+
+    @property
+    def message(self) -> Message:
+        """The errors in words, as a template with its numbers."""
+        load, half, twice = (Measured(one.at[OPERATION[0]], LOAD) for one in (self.at_load, *self.by_load[1::3]))
         near = max(one.relative for one in self.by_load[1:])
-        around = f"{_percent(near)} from {half} to {twice}, " if half != twice else ""
-        worst = units.shown(self.over_loads.at[OPERATION[0]], LOAD)
-        speed = units.shown(self.over_loads.at[OPERATION[1]], LOWEST_SPEED)
-        rest = "" if self.at_rest is None else f"; at rest it is {_percent(self.at_rest.relative)} off at {load}"
-        return (
-            f"The friction of the joint knows no load: over the speeds of the fit it is at most "
-            f"{_percent(self.at_load.relative)} off the model at {load}, {around}and over its whole range "
-            f"{self.over_loads.value:.2g} N m off at {worst} and {speed}{rest}"
-        )
+        values = {
+            "percent": _percent(self.at_load.relative),
+            "load": load,
+            "worst": units.in_unit(self.over_loads.value, "N m", 2),
+            "at_load": Measured(self.over_loads.at[OPERATION[0]], LOAD),
+            "at_speed": Measured(self.over_loads.at[OPERATION[1]], LOWEST_SPEED),
+        }
+        if units.shown(half.value, LOAD) != units.shown(twice.value, LOAD):
+            message = _ERRORS_AROUND.of(**values, near=_percent(near), half=half, twice=twice)
+        else:
+            message = _ERRORS.of(**values)
+        if self.at_rest is None:
+            return message
+        return _ALSO_AT_REST.of(errors=message, percent=_percent(self.at_rest.relative), load=load)
 
     def warnings(self, joint: JointFriction) -> list[Record]:
         """The errors as a warning, and one where the model itself does not hold at all speeds of the fit."""
         found = [
-            Record(
+            units.record(
+                _BEYOND_RANGE.of(errors=self.message),
                 id="hand_over.no_load",
                 subject="screw_torque",
-                text=f"{self.text}; beyond its range, and below the lowest speed of the fit, it goes on as fitted",
                 severity="warning",
                 holds=False,
                 value=self.over_loads.value,
@@ -327,13 +354,12 @@ class JointErrors(NamedTuple):
             )
         ]
         if joint.share_valid < 1:
-            load, share = units.shown(joint.load, LOAD), 100 * joint.share_valid
-            text = f"at {load} the model itself holds at {share:.0f} % of the speeds of the fit; ballscrew run says why"
+            message = _FEW_VALID.of(load=Measured(joint.load, LOAD), percent=units.fixed(100 * joint.share_valid))
             found.append(
-                Record(
+                units.record(
+                    message,
                     id="hand_over.fit_validity",
                     subject="screw_speed",
-                    text=text,
                     severity="warning",
                     holds=False,
                     value=joint.share_valid,
@@ -343,8 +369,8 @@ class JointErrors(NamedTuple):
         return found
 
 
-def _percent(share: float) -> str:
-    return f"{100 * share:.2g} %" if share < 1 else f"{100 * share:.0f} %"
+def _percent(share: float) -> Measured:
+    return units.to_significant(100 * share, 2) if share < 1 else units.fixed(100 * share)
 
 
 def joint_errors(handed: HandOver, joint: JointFriction) -> JointErrors:

@@ -13,8 +13,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.records import Record
+from ballscrew.basis.records import Message, Record
 from ballscrew.exports.export import Export
 from ballscrew.exports.subject import HandOver
 from ballscrew.exports.tables.friction_curve import OPTIONS as OF_CURVES
@@ -45,9 +46,12 @@ def export(handed: HandOver) -> Export:
     found = curve.export(handed, "beckhoff", _files(handed, curve, scale))
     rounding = 0.5 / scale
     share = rounding / float(curve.torques.min())
-    text = f"torques are whole numbers of the drive: rounding adds up to {100 * share:.2g} % of the friction"
-    record = Record(
-        id="hand_over.rounding", subject="screw_torque", text=text, severity="warning" if share > 0.01 else "info",
+    message = Message(
+        "torques are whole numbers of the drive: rounding adds up to {percent} % of the friction",
+        {"percent": units.to_significant(100 * share, 2)},
+    )
+    record = units.record(
+        message, id="hand_over.rounding", subject="screw_torque", severity="warning" if share > 0.01 else "info",
         holds=share <= 0.01, value=share, limit=0.01,
     )  # fmt: skip
     return found if share <= 1e-3 else _with(found, record)

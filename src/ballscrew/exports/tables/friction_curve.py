@@ -10,7 +10,7 @@ import numpy as np
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Force, Info, Quantity, unit_of
-from ballscrew.basis.records import Message, Record
+from ballscrew.basis.records import Measured, Message, Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.exports.export import Export
@@ -128,9 +128,14 @@ def _widened(handed: HandOver, ends: tuple[float, float]) -> list[Record]:
     if asked == ends:
         return []
     quantity = next(one.quantity for one in handed.inputs if one.name == OPERATION[1])
-    least, greatest, slow, fast = (units.shown(end, quantity) for end in (*asked, *ends))
-    text = f"the curve is of both directions from rest: {slow} to {fast}, not {least} to {greatest} only"
-    return [Record(id="hand_over.both_directions", subject=OPERATION[1], text=text, severity="warning", holds=False)]
+    least, greatest, slow, fast = (Measured(float(end), quantity) for end in (*asked, *ends))
+    message = Message(
+        "the curve is of both directions from rest: {slow} to {fast}, not {least} to {greatest} only",
+        {"slow": slow, "fast": fast, "least": least, "greatest": greatest},
+    )
+    return [
+        units.record(message, id="hand_over.both_directions", subject=OPERATION[1], severity="warning", holds=False)
+    ]
 
 
 def _points(handed: HandOver, fixed: Mapping[str, float], first: float, fastest: float) -> dict[str, Floats]:
@@ -143,12 +148,13 @@ def _points(handed: HandOver, fixed: Mapping[str, float], first: float, fastest:
 
 def _one_load(curve: FrictionCurve) -> Record:
     load = curve.fixed[OPERATION[0]]
-    text = (
-        f"the curve knows one load, {load:g} N, and one temperature; at another load of the range the friction differs "
-        f"by up to {curve.at_other_loads:.2g} N m"
+    message = Message(
+        "the curve knows one load, {load}, and one temperature; at another load of the range the friction differs by "
+        "up to {difference}",
+        {"load": units.in_unit(load, "N", 6), "difference": units.in_unit(curve.at_other_loads, "N m", 2)},
     )
-    return Record(
-        id="hand_over.one_load", subject=INTERPOLATED[0], text=text, severity="warning", holds=False,
+    return units.record(
+        message, id="hand_over.one_load", subject=INTERPOLATED[0], severity="warning", holds=False,
         value=curve.at_other_loads, unit="N m",
     )  # fmt: skip
 

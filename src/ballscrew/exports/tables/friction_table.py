@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import RegularGridInterpolator
 
+from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.records import Message, Record
 from ballscrew.engine.evaluation.evaluator import evaluator
@@ -110,11 +111,17 @@ class FrictionTable:
         tolerance = handed.options["tolerance"]
         if self.error <= tolerance:
             return []
-        text = f"the friction between the nodes is off by up to {100 * self.error:.2g} %, not {100 * tolerance:.2g} %"
-        text += '; a smaller range makes it finer: --range axial_load="-5:5 kN"'
+        message = Message(
+            "the friction between the nodes is off by up to {error} %, not {tolerance} %; a smaller range makes it "
+            'finer: --range axial_load="-5:5 kN"',
+            {
+                "error": units.to_significant(100 * self.error, 2),
+                "tolerance": units.to_significant(100 * tolerance, 2),
+            },
+        )
         return [
-            Record(
-                id="hand_over.tolerance", subject="screw_torque", text=text, severity="warning", holds=False,
+            units.record(
+                message, id="hand_over.tolerance", subject="screw_torque", severity="warning", holds=False,
                 value=self.error, limit=tolerance,
             )
         ]  # fmt: skip

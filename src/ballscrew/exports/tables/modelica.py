@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import AngularSpeed, Info, Quantity, unit_of
-from ballscrew.basis.records import Record
+from ballscrew.basis.records import Message, Record
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.exports.export import Export
 from ballscrew.exports.subject import HandOver
@@ -35,6 +36,10 @@ OPTIONS: Mapping[str, Option] = {
 }
 #: Inertia of the motor of the example, kg m².
 _ROTOR = 1e-3
+_OFF = Message("the table of a LossyGear is off by up to {error}, {percent} % of the largest friction")
+_OFF_BY_MUCH = Message(
+    "the table of a LossyGear is off by up to {error}, {percent} % of the largest friction; take the component instead"
+)
 
 _README = """\
 BallScrewFriction.mo has the component BallScrew with an example; it needs the Modelica Standard Library, version 4.
@@ -206,22 +211,22 @@ def _lossy_gear(handed: HandOver, gear: LossTable) -> str:
 
 
 def _creeps(at_rest: float) -> Record:
-    text = (
-        f"friction is a slope through zero up to about {at_rest:g} rad/s: a load that friction holds creeps there; "
-        "do not read holding from this component"
+    message = Message(
+        "friction is a slope through zero up to about {speed}: a load that friction holds creeps there; "
+        "do not read holding from this component",
+        {"speed": units.in_unit(at_rest, "rad/s", 6)},
     )
-    return Record(id="hand_over.at_rest", subject=DRIVE, text=text, severity="warning", holds=False, value=at_rest)
+    return units.record(message, id="hand_over.at_rest", subject=DRIVE, severity="warning", holds=False, value=at_rest)
 
 
 def _gear_is_off(gear: LossTable) -> list[Record]:
-    text = (
-        f"the table of a LossyGear is off by up to {gear.error:.2g} N m, {100 * gear.of_largest:.2g} % of the largest "
-        f"friction{'; take the component instead' if gear.of_largest > LARGE else ''}"
-    )
     severe = gear.of_largest > LARGE
+    message = (_OFF_BY_MUCH if severe else _OFF).of(
+        error=units.in_unit(gear.error, "N m", 2), percent=units.to_significant(100 * gear.of_largest, 2)
+    )
     return [
-        Record(
-            id="hand_over.lossy_gear", subject=INTERPOLATED[0], text=text, severity="warning" if severe else "info",
+        units.record(
+            message, id="hand_over.lossy_gear", subject=INTERPOLATED[0], severity="warning" if severe else "info",
             holds=not severe, value=gear.of_largest, limit=LARGE,
         )
     ]  # fmt: skip

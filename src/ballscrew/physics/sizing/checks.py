@@ -62,10 +62,10 @@ class Check(NamedTuple):
     utilisation: float | None
     holds: bool | None
     text: str
+    #: The text as a template with its values.
+    message: Message
     #: The input without which it is not judged; empty where it is.
     missing: str = ""
-    #: The text as a template with its values.
-    message: Message | None = None
 
     @classmethod
     def saying(
@@ -80,7 +80,7 @@ class Check(NamedTuple):
         missing: str = "",
     ) -> Check:
         """A check whose text is a message."""
-        return cls(name, value, limit, unit, utilisation, holds, units.filled(message), missing, message)
+        return cls(name, value, limit, unit, utilisation, holds, units.filled(message), message, missing)
 
     @classmethod
     def at_most(cls, message: Message, name: str, value: Any, limit: Any, unit: str) -> Check:

@@ -23,6 +23,10 @@ _TORQUE = "screw_torque"
 _KNOWN = quantities_of(FrictionResult)[_TORQUE]
 #: The numbers of the sentences that are ends of bands, which are rounded outward.
 _LOW_ENDS, _HIGH_ENDS = ("low", "inputs_low", "laws_low"), ("high", "inputs_high", "laws_high", "greatest")
+_CALIBRATED = Message(
+    "calibrated to {log}: what the fit held counts as known, no law is exchanged; "
+    "on rows held out the model was off by {off}"
+)
 #: The sentences where the other laws pull the band to one side of the model's own.
 _LOWERED = Message(
     "inputs and laws together end at {high}, below the {inputs_high} of the inputs alone: most other laws give less "
@@ -82,11 +86,11 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
     records += beside_laws(torque, quantity)
     records += _full_bath(torque.both.high, report.flooded_torque)
     if case.fit:
-        text = (
-            f"calibrated to {case.fit.get('log') or 'a log'}: what the fit held counts as known, no law is exchanged; "
-            f"on rows held out the model was off by {case.fit.get('holdout_rms', 'an unknown torque')}"
+        log, off = case.fit.get("log"), case.fit.get("holdout_rms")
+        message = _CALIBRATED.of(
+            log=str(log) if log else Message("a log"), off=Message("an unknown torque") if off is None else str(off)
         )
-        records.append(Record(id="band.calibrated", subject="model", text=text))
+        records.append(units.record(message, id="band.calibrated", subject="model"))
     if float(case.operation.axial_load) != 0:
         share = band.self_locking_share
         message = (
@@ -141,7 +145,7 @@ def beside_laws(torque: OutputBand, quantity: Quantity) -> list[Record]:
     def differ(one: str, other: str) -> bool:
         return len({units.rounded(numbers[name], quantity, toward=outward.get(name, 0)) for name in (one, other)}) > 1
 
-    def record(name: str, template: Message, used: str) -> Record:
+    def _of_laws(name: str, template: Message, used: str) -> Record:
         message = template.of(
             **{key: Measured(value, quantity, toward=outward.get(key, 0)) for key, value in numbers.items()}
         )
@@ -149,13 +153,13 @@ def beside_laws(torque: OutputBand, quantity: Quantity) -> list[Record]:
 
     found: list[Record] = []
     if both.high < inputs.high and differ("high", "inputs_high"):
-        found.append(record("laws_lower_it", _LOWERED, "inputs_high"))
+        found.append(_of_laws("laws_lower_it", _LOWERED, "inputs_high"))
     if both.low > inputs.low and differ("low", "inputs_low"):
-        found.append(record("laws_raise_it", _RAISED, "inputs_low"))
+        found.append(_of_laws("laws_raise_it", _RAISED, "inputs_low"))
     if torque.value > laws.high and differ("value", "laws_high"):
-        found.append(record("above_laws", _ABOVE, "median"))
+        found.append(_of_laws("above_laws", _ABOVE, "median"))
     if torque.value < laws.low and differ("value", "laws_low"):
-        found.append(record("below_laws", _BELOW, "median"))
+        found.append(_of_laws("below_laws", _BELOW, "median"))
     return found
 
 

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from ballscrew.basis import units
-from ballscrew.basis.records import Record, documents
+from ballscrew.basis.errors import each_of
+from ballscrew.basis.records import Message, Named, Record, documents
 from ballscrew.basis.version import __version__
 from ballscrew.cases.case_files import case_file
 from ballscrew.engine.evaluation.comparison import ComparedRule, Comparison, OfBalls, Row, Spread
@@ -16,6 +17,10 @@ from ballscrew.questions.compare.answer import ComparedLaw, by_rules, compared
 from ballscrew.questions.shared import declared
 
 _TORQUE = "screw_torque"
+_SPREAD = Message("{low} to {high}")
+_SPREAD_WITH_EFFICIENCY = Message("{low} to {high}; efficiency {least} to {greatest}")
+_INVALID = Message("{spread}; not valid here: {names}")
+_EFFECT = Message("{slot} ({span})")
 #: The units of the numbers by their names, which are the same in all rows.
 _UNITS = {name: unit for cls in (ComparedLaw, ComparedRule, OfBalls) for name, unit in declared.units_of(cls).items()}
 #: Components named in the verdict on what changes the torque most, and the least change that is shown.
@@ -48,49 +53,72 @@ def verdicts(found: Comparison) -> list[Record]:
     records: list[Record] = []
     if found.spread_of_models is not None:
         outside = [row.candidate.name for row in found.models if row.outside]
-        invalid = f"; not valid here: {', '.join(outside)}" if outside else ""
-        text = _describe_spread(found.spread_of_models, found.models) + invalid
-        records.append(_spread_record("compare.models", text, found.spread_of_models))
+        message = _spread(found.spread_of_models, found.models)
+        if outside:
+            message = _INVALID.of(spread=message, names=each_of(outside))
+        records.append(_spread_record("compare.models", message, found.spread_of_models))
     if found.spread_of_laws is None:
-        records.append(Record(id="compare.laws", subject=_TORQUE, text="none is valid here", holds=False))
+        records.append(units.record(Message("none is valid here"), id="compare.laws", subject=_TORQUE, holds=False))
     else:
         valid = [row for row in (found.case, *found.laws) if row.candidate.counts and not row.outside]
-        text = _describe_spread(found.spread_of_laws, valid)
-        records.append(_spread_record("compare.laws", text, found.spread_of_laws, holds=True))
+        message = _spread(found.spread_of_laws, valid)
+        records.append(_spread_record("compare.laws", message, found.spread_of_laws, holds=True))
     spans = {slot: span for slot, span in found.spans.items() if max(map(abs, span)) >= LEAST_SHOWN}
     if spans:
         most = list(spans.items())[:_MOST_SHOWN]
-        text = ", ".join(f"{slot.replace('_', ' ')} ({_describe_span(span)})" for slot, span in most)
+        effects = [_EFFECT.of(slot=_slot(slot), span=_span(span)) for slot, span in most]
         slot, span = most[0]
-        records.append(Record(id="compare.largest_effect", subject=slot, text=text, value=max(span, key=abs)))
+        records.append(
+            units.record(
+                Message("{effects}", {"effects": effects}), id="compare.largest_effect", subject=slot,
+                value=max(span, key=abs),
+            )
+        )  # fmt: skip
     return records
 
 
-def _spread_record(name: str, text: str, spread: Spread, holds: bool | None = None) -> Record:
+def _spread_record(name: str, message: Message, spread: Spread, holds: bool | None = None) -> Record:
     least, greatest = (row.torque for row in spread)
-    return Record(id=name, subject=_TORQUE, text=text, value=greatest - least, unit="N m", holds=holds)
+    return units.record(message, id=name, subject=_TORQUE, value=greatest - least, unit="N m", holds=holds)
 
 
-def _describe_spread(spread: Spread, rows: Sequence[Row]) -> str:
+def _spread(spread: Spread, rows: Sequence[Row]) -> Message:
     """``0.15 N m (one) to 0.23 N m (other); efficiency 0.934 to 0.952``."""
-    least, greatest = (f"{row.torque:.4g} N m ({_full_name(row)})" for row in spread)
+    low, high = (
+        Message("{torque} ({name})", {"torque": units.in_unit(row.torque, "N m"), "name": _full_name(row)})
+        for row in spread
+    )
     efficiencies = [float(row.result.efficiency) for row in rows if math.isfinite(float(row.result.efficiency))]
-    ends = f"; efficiency {min(efficiencies):.3f} to {max(efficiencies):.3f}" if efficiencies else ""
-    return f"{least} to {greatest}{ends}"
+    if not efficiencies:
+        return _SPREAD.of(low=low, high=high)
+    ends = {"least": units.fixed(min(efficiencies), 3), "greatest": units.fixed(max(efficiencies), 3)}
+    return _SPREAD_WITH_EFFICIENCY.of(low=low, high=high, **ends)
 
 
-def _full_name(row: Row) -> str:
-    slot = row.candidate.slot
-    return f"{slot.replace('_', ' ')} {row.candidate.name}" if slot else row.candidate.name
+def _full_name(row: Row) -> Message:
+    if row.candidate.slot:
+        return Message("{slot} {name}", {"slot": _slot(row.candidate.slot), "name": row.candidate.name})
+    return Message("{name}", {"name": row.candidate.name})
 
 
-def _describe_span(span: tuple[float, float]) -> str:
-    return " to ".join(percent(end) for end in span if end)
+def _slot(name: str) -> Named:
+    """A component of the model."""
+    return Named(f"model.{name}")
 
 
-def percent(change: float) -> str:
+def _span(span: tuple[float, float]) -> Message:
+    low, *high = [change(end) for end in span if end]
+    return Message("{low} to {high}", {"low": low, "high": high[0]}) if high else low
+
+
+def percent(of: float) -> str:
     """``+12.3%``; no sign before zero, a dash for what is not finite."""
-    if not math.isfinite(change):
-        return "–"
-    text = f"{change:+.1%}"
-    return "0.0%" if text in ("+0.0%", "-0.0%") else text
+    return units.filled(change(of))
+
+
+def change(of: float) -> Message:
+    """A change in per cent to a tenth; no sign before zero, a dash for what is not finite."""
+    if not math.isfinite(of):
+        return Message("–")
+    text = f"{of:+.1%}"
+    return units.percent(0.0, 1) if text in ("+0.0%", "-0.0%") else units.change(of, 1)

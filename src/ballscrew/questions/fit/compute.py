@@ -12,7 +12,7 @@ import numpy as np
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Quantity
-from ballscrew.basis.records import Record
+from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.nut_tables import dynamic_rating
 from ballscrew.engine.evaluation.plan import Configuration
@@ -77,16 +77,16 @@ def fit(case: Case, log: TorqueLog, options: FitOptions, done: Callable[[int, in
     of_model = units.in_display_units_of(model.warning_records)
     warnings = [*constant_torque_missed(model, refit), *of_model, *case.doubts]
     if again:
-        text = "the case was fitted to this very log before: its errors are not taken as priors"
-        warnings.append(Record(id="fit.same_log", subject="priors", text=text, severity="warning", holds=False))
+        message = Message("the case was fitted to this very log before: its errors are not taken as priors")
+        warnings.append(units.record(message, id="fit.same_log", subject="priors", severity="warning", holds=False))
     test: NextTest | None = None
     try:
         test = model.next_test({**_limits_of_log(model), **options.limits})
     except InputError as error:  # the fit is valid without a next test
         warnings += [
-            Record(
-                id="fit.no_next_test", subject="next_test", text=f"no next test: {_with_option(fault)}",
-                severity="warning", holds=False,
+            units.record(
+                Message("no next test: {fault}", {"fault": _with_option(fault).message}),
+                id="fit.no_next_test", subject="next_test", severity="warning", holds=False,
             )
             for fault in error.faults
         ]  # fmt: skip

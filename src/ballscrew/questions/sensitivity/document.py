@@ -5,7 +5,9 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
-from ballscrew.basis.records import Record, documents
+from ballscrew.basis import units
+from ballscrew.basis.errors import each_of
+from ballscrew.basis.records import Message, Named, Record, documents
 from ballscrew.basis.version import __version__
 from ballscrew.cases.case_files import case_file
 from ballscrew.engine.uncertainty.sensitivity import HALF
@@ -64,27 +66,34 @@ def _row(report: SensitivityReport, name: str) -> dict[str, Any]:
 
 def verdicts(report: SensitivityReport) -> list[Record]:
     """The inputs to measure next in order to halve the band."""
-    result, meaning = report.result, report.result.quantity.info.meaning
+    result, meaning = report.result, Message(report.result.quantity.info.meaning)
 
-    def verdict(name: str, subject: str, text: str, value: float | None = None, holds: bool | None = None) -> Record:
+    def verdict(
+        name: str, subject: str, message: Message, value: float | None = None, holds: bool | None = None
+    ) -> Record:
         limit = None if value is None else HALF
-        return Record(id=f"sensitivity.{name}", subject=subject, text=text, value=value, limit=limit, holds=holds)
+        return units.record(message, id=f"sensitivity.{name}", subject=subject, value=value, limit=limit, holds=holds)
 
     if result.is_constant:
-        return [verdict("constant", result.output, f"the {meaning} does not depend on any of these inputs")]
+        message = Message("the {meaning} does not depend on any of these inputs", {"meaning": meaning})
+        return [verdict("constant", result.output, message)]
     if result.method == "morris":
-        text = "screening ranks the inputs; what to find out next: --method sobol"
-        return [verdict("screening", result.output, text)]
+        message = Message("screening ranks the inputs; what to find out next: --method sobol")
+        return [verdict("screening", result.output, message)]
     if result.to_halve is None:
-        text = f"to know all of these inputs would not halve the band of the {meaning}"
-        return [verdict("not_halved", result.output, text, holds=False)]
+        message = Message("to know all of these inputs would not halve the band of the {meaning}", {"meaning": meaning})
+        return [verdict("not_halved", result.output, message, holds=False)]
     inputs, left = result.to_halve
-    names = [report.describe(name) for name in inputs]
-    text = f"to halve the band of the {meaning}, find out: {', '.join(names)} (leaves {left:.0%})"
-    records = [verdict("to_halve", ",".join(inputs), text, left, True)]
+    names = [Named(name, report.describe(name)) for name in inputs]
+    message = Message(
+        "to halve the band of the {meaning}, find out: {names} (leaves {left})",
+        {"meaning": meaning, "names": each_of(names), "left": units.percent(left)},
+    )
+    records = [verdict("to_halve", ",".join(inputs), message, left, True)]
     if len(names) > 1:
         alone = result.explained_variance[0].remaining
-        records.append(verdict("first_input", inputs[0], f"{names[0]} alone leaves {alone:.0%}", alone, False))
+        message = Message("{name} alone leaves {left}", {"name": names[0], "left": units.percent(alone)})
+        records.append(verdict("first_input", inputs[0], message, alone, False))
     return records
 
 
@@ -93,13 +102,18 @@ def warnings(case: case_file.Case, report: SensitivityReport) -> list[Record]:
     records = case.implausible()
     result = report.result
     if result.left_out:
-        text = f"{result.left_out} samples or trajectories are left out as they have no number"
+        message = Message(
+            "{samples} samples or trajectories are left out as they have no number",
+            {"samples": units.fixed(result.left_out)},
+        )
         records.append(
-            Record(
-                id="sensitivity.left_out", subject=result.output, text=text, severity="warning", holds=False,
+            units.record(
+                message, id="sensitivity.left_out", subject=result.output, severity="warning", holds=False,
                 value=float(result.left_out), limit=0.0,
             )
         )  # fmt: skip
     if case.calibration is not None:
-        records.append(Record(id="sensitivity.correlated", subject="calibration", text=CORRELATED, severity="warning"))
+        records.append(
+            units.record(Message(CORRELATED), id="sensitivity.correlated", subject="calibration", severity="warning")
+        )
     return records

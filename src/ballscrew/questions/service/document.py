@@ -6,20 +6,47 @@ from typing import Any
 
 from ballscrew.basis import units
 from ballscrew.basis.quantities import Quantity
-from ballscrew.basis.records import Record, documents
+from ballscrew.basis.records import Measured, Message, Named, Record, documents
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.provenance import of_case
 from ballscrew.engine.evaluation.outputs import inputs_of
 from ballscrew.evidence.service.alternatives import Alternative
 from ballscrew.evidence.service.posterior import PRELOAD
+from ballscrew.evidence.service.preload_change import VERDICTS
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.questions.service.answer import results
 from ballscrew.questions.service.compute import TORQUE, ServiceReport
 from ballscrew.questions.shared import declared
 
-#: Three words for what became of the preload.
-VERDICTS = {"lost": "preload lost", "kept": "preload kept", "open": "lost or kept cannot be told"}
+_LEFT = Message(
+    "{verdict}: {share} of the preload is left ({low} to {high}), less than {least} of it with a probability of "
+    "{probability}"
+)
+_LEFT_OF_NOMINAL = Message(
+    "{verdict}: {share} of the nominal preload is left ({low} to {high}), less than {least} of it with a probability "
+    "of {probability}"
+)
+_EXPLAINS = Message(
+    "{name} {value} instead of {instead} explains it as well (off by {off}, with another preload {off_of_preload}); "
+    "{known}"
+)
+#: By whether the value is within what is known of the number.
+_KNOWN = {
+    True: Message("within what is known of it"),
+    False: Message("beyond what is known of it"),
+    None: Message("nothing is known of it"),
+}
+_DOES_NOT_EXPLAIN = Message(
+    "{name} {value} instead of {instead} does not explain it (off by {off}, with another preload {off_of_preload})"
+)
+_READING = Message("preload {preload} ({low} to {high})")
+_SHARE_OF_NOMINAL = Message(
+    "preload {preload} ({low} to {high}), {share} of the {nominal} of the case ({least} to {most})"
+)
+_AT_SPEED = Message("{preload}; taken at {speed}")
+_AT_SPEED_AND_TEMPERATURE = Message("{preload}; taken at {speed} and {temperature}")
+_AT_SPEED_AND_OIL = Message("{preload}; taken at {speed} and {temperature}, the oil of the case")
 
 
 def document(case: Case, report: ServiceReport) -> dict[str, Any]:
@@ -46,46 +73,50 @@ def verdicts(case: Case, report: ServiceReport) -> list[Record]:
     if report.change is None:
         return [_of_reading(case, report)]
     change = report.change
-    before = "the nominal preload" if change.new.fit is None else "the preload"
     if not change.logarithm.told:
-        text = "the preload cannot be told from this: see the warnings"
-        return [Record(id="service.preload_left", subject=PRELOAD, text=text, severity="warning")]
+        message = Message("the preload cannot be told from this: see the warnings")
+        return [units.record(message, id="service.preload_left", subject=PRELOAD, severity="warning")]
     low, high = change.ratio_interval()
     limit = 1 - change.tolerance
-    text = (
-        f"{VERDICTS[change.verdict]}: {change.ratio:.0%} of {before} is left ({low:.0%} to {high:.0%}), less than "
-        f"{limit:.4g} of it with a probability of {probability(change.probability_of_loss)}"
-    ).replace(f"{limit:.4g} of it", f"{limit:.0%} of it")
+    message = (_LEFT_OF_NOMINAL if change.new.fit is None else _LEFT).of(
+        verdict=VERDICTS[change.verdict],
+        share=units.percent(change.ratio),
+        low=units.percent(low),
+        high=units.percent(high),
+        least=units.percent(limit),
+        probability=probability(change.probability_of_loss),
+    )
     holds = {"lost": False, "kept": True, "open": None}[change.verdict]
     severity = "warning" if change.verdict == "lost" else "info"
     records = [
-        Record(
-            id="service.preload_left", subject=PRELOAD, text=text, severity=severity, holds=holds,
-            value=change.ratio, limit=limit,
+        units.record(
+            message, id="service.preload_left", subject=PRELOAD, severity=severity, holds=holds, value=change.ratio,
+            limit=limit,
         )
     ]  # fmt: skip
     return [*records, *(_of_alternative(one) for one in change.alternatives)]
 
 
-def probability(share: float) -> str:
-    """``12 %``; of what is nearly certain or nearly impossible only that."""
+def probability(share: float) -> Message:
+    """``12%``; of what is nearly certain or nearly impossible only that."""
     if share > 0.999:
-        return "more than 99.9%"
+        return Message("more than 99.9%")
     if share < 0.001:
-        return "less than 0.1%"
-    return f"{share:.1%}" if share > 0.99 or share < 0.01 else f"{share:.0%}"
+        return Message("less than 0.1%")
+    return units.percent(share, 1 if share > 0.99 or share < 0.01 else 0)
 
 
 def _of_alternative(one: Alternative) -> Record:
-    name = one.name.replace("_", " ")
-    value, instead = (units.shown(x, one.quantity, 3) for x in (one.value, one.instead_of))
-    fits = "explains it as well" if one.explains else "does not explain it"
-    off = f"off by {units.shown(one.rms, TORQUE, 3)}, with another preload {units.shown(one.rms_of_preload, TORQUE, 3)}"
-    within = {True: "within", False: "beyond", None: ""}[one.plausible]
-    known = f"; {within} what is known of it" if within else "; nothing is known of it"
-    text = f"{name} {value} instead of {instead} {fits} ({off}){known if one.explains else ''}"
-    return Record(
-        id="service.alternative", subject=one.name, text=text, value=one.value, limit=one.instead_of,
+    message = (_EXPLAINS if one.explains else _DOES_NOT_EXPLAIN).of(
+        name=Named(one.name),
+        value=Measured(one.value, one.quantity, 3),
+        instead=Measured(one.instead_of, one.quantity, 3),
+        off=Measured(one.rms, TORQUE, 3),
+        off_of_preload=Measured(one.rms_of_preload, TORQUE, 3),
+        known=_KNOWN[one.plausible],
+    )
+    return units.record(
+        message, id="service.alternative", subject=one.name, value=one.value, limit=one.instead_of,
         unit=one.quantity.unit, holds=one.explains,
     )  # fmt: skip
 
@@ -94,29 +125,31 @@ def _of_reading(case: Case, report: ServiceReport) -> Record:
     assert report.preload is not None
     quantity = preload_quantity(case)
     found = (report.preload.preload, *report.preload.interval())
-    value, low, high = (units.shown(x, quantity) for x in found)
-    text = f"preload {value} ({low} to {high})"
+    ends = {name: Measured(x, quantity) for name, x in zip(("preload", "low", "high"), found, strict=True)}
     nominal = getattr(case.screw.nut, "preload", None)
     if nominal:
-        share, least, most = (f"{x / nominal:.0%}" for x in found)
-        text += f", {share} of the {units.shown(nominal, quantity)} of the case ({least} to {most})"
-    return Record(
-        id="service.preload", subject=PRELOAD, text=f"{text}{_taken_at(case, report)}",
-        value=report.preload.preload, unit="N",
-    )  # fmt: skip
+        share, least, most = (units.percent(x / nominal) for x in found)
+        message = _SHARE_OF_NOMINAL.of(
+            **ends, share=share, nominal=Measured(float(nominal), quantity), least=least, most=most
+        )
+    else:
+        message = _READING.of(**ends)
+    message = _taken_at(case, report, message)
+    return units.record(message, id="service.preload", subject=PRELOAD, value=report.preload.preload, unit="N")
 
 
-def _taken_at(case: Case, report: ServiceReport) -> str:
-    """The speed and the temperature that a reading is taken at, and whose they are."""
+def _taken_at(case: Case, report: ServiceReport, message: Message) -> Message:
+    """A reading with the speed and the temperature that it is taken at, and whose they are."""
     if report.reading is None:
-        return ""
-    speed = units.shown(report.reading.screw_speed, inputs_of(case.model, case.screw, case.lubricant)["screw_speed"][1])
+        return message
+    of_speed = inputs_of(case.model, case.screw, case.lubricant)["screw_speed"][1]
+    speed = Measured(report.reading.screw_speed, of_speed)
     given = report.reading.temperature
     warm = case.lubricant.temperature if given is None else given
     if warm is None:
-        return f"; taken at {speed}"
-    whose = "" if given is not None else ", the oil of the case"
-    return f"; taken at {speed} and {units.shown(warm, TEMPERATURE, 3)}{whose}"
+        return _AT_SPEED.of(preload=message, speed=speed)
+    template = _AT_SPEED_AND_OIL if given is None else _AT_SPEED_AND_TEMPERATURE
+    return template.of(preload=message, speed=speed, temperature=Measured(float(warm), TEMPERATURE, 3))
 
 
 def _logs(report: ServiceReport) -> list[dict[str, Any]]:

@@ -65,6 +65,12 @@ class SettingOfField(Closed):
     field: str = Field(description="section.field")
 
 
+class NameOfField(Closed):
+    """The name of a field, a law or a result."""
+
+    name: str = Field(description="section.field, or the last part of it")
+
+
 class UnitToWrite(Closed):
     """A unit, as files have it."""
 
@@ -75,8 +81,8 @@ class Message(Closed):
     """A sentence, or a part of one: its English template, which is the key of translations, and what stands in it."""
 
     template: str = Field(description="``{name}`` stands for the value of that name")
-    values: dict[str, Shown | str | SettingOfField | UnitToWrite | Message | list[Message]] = Field(
-        description="numbers, texts, fields to set, units, other messages, and lists with commas between them"
+    values: dict[str, Shown | str | SettingOfField | NameOfField | UnitToWrite | Message | list[Message]] = Field(
+        description="numbers, texts, fields to set, names, units, other messages, and lists with commas between them"
     )
 
 
@@ -136,7 +142,7 @@ class Record(Closed):
     holds: bool | None
     severity: Literal["info", "warning", "error"]
     text: str = Field(description="a sentence for people")
-    message: Message | None = Field(description="the sentence as a template with its values, where it has one")
+    message: Message = Field(description="the sentence as a template with its values")
 
 
 class JudgedCheck(Record):

@@ -7,7 +7,8 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
-from ballscrew.basis.records import Record
+from ballscrew.basis import units
+from ballscrew.basis.records import Message, Record
 from ballscrew.basis.records import documents as documents_of
 from ballscrew.evidence.validation.entries import Entry, Point
 
@@ -64,10 +65,10 @@ def checks(entry: Entry) -> list[Record]:
     share = entry.share_in_band
     if share is None:
         return []
-    text = f"{share:.0%} of the rows lie in their band"
+    message = Message("{share} of the rows lie in their band", {"share": units.percent(share)})
     return [
-        Record(
-            id="validation.share_in_band", subject=entry.data.name, text=text,
+        units.record(
+            message, id="validation.share_in_band", subject=entry.data.name,
             severity="info" if share == 1 else "warning", holds=share == 1, value=share, limit=1.0,
         )
     ]  # fmt: skip
@@ -79,16 +80,16 @@ def warnings(entry: Entry) -> list[Record]:
     rows = Counter(record.id for record in every)
     first = {record.id: record for record in reversed(every)}
     records = [
-        _rows_record(first[name].name, first[name].subject, first[name].text, count) for name, count in rows.items()
+        _rows_record(first[name].name, first[name].subject, first[name].message, count) for name, count in rows.items()
     ]
     missing = len(entry.points) - len(entry.counted)
     if missing:
-        records.append(_rows_record("no_number", entry.data.name, "the model gives no number", missing))
+        records.append(_rows_record("no_number", entry.data.name, Message("the model gives no number"), missing))
     return records
 
 
-def _rows_record(name: str, subject: str, text: str, rows: int) -> Record:
-    return Record(
-        id=f"validation.{name}", subject=subject, text=f"{rows} rows: {text}", severity="warning", holds=False,
-        value=float(rows), limit=0.0,
+def _rows_record(name: str, subject: str, message: Message, rows: int) -> Record:
+    return units.record(
+        Message("{rows} rows: {message}", {"rows": units.fixed(rows), "message": message}),
+        id=f"validation.{name}", subject=subject, severity="warning", holds=False, value=float(rows), limit=0.0,
     )  # fmt: skip

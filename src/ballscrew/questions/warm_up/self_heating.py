@@ -16,7 +16,7 @@ from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Force, Info, Length, Quantity, Ratio, Temperature, Torque, quantities_of
-from ballscrew.basis.records import Record
+from ballscrew.basis.records import Measured, Message, Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.friction import starvation
@@ -36,6 +36,14 @@ if TYPE_CHECKING:
 
 OPTION = "--self-heating"
 _TORQUE = quantities_of(FrictionResult)["screw_torque"]
+_HEATED = Message(
+    "self-heating: oil at {oil} in place of {given} (nut {nut}); friction torque {warm}, not {cold}; "
+    "gain of the thermal loop {gain}, thermal runaway at 1"
+)
+_HEATED_WITH_PRELOAD = Message(
+    "self-heating: oil at {oil} in place of {given} (nut {nut}), preload {preload} in place of {before}; "
+    "friction torque {warm}, not {cold}; gain of the thermal loop {gain}, thermal runaway at 1"
+)
 #: The friction torques that a starved one has beside it, warm and as given.
 WARM, GIVEN = (
     Quantity(f"self_heating.{name}", "N m", Info("M_S", meaning))
@@ -136,21 +144,24 @@ class SelfHeating:
     @property
     def _record(self) -> Record:
         end, found = self.equilibrium, self.numbers
-        oil, given = (units.shown(value, TEMPERATURE) for value in (found.oil_temperature, found.oil_temperature_given))
-        nut = units.shown(end.nut_temperature, TEMPERATURE)
-        warm, cold = (units.shown(value, _TORQUE) for value in (self.torque, self.torque_given))
-        preload = ""
+        numbers = {
+            "oil": Measured(found.oil_temperature, TEMPERATURE),
+            "given": Measured(found.oil_temperature_given, TEMPERATURE),
+            "nut": Measured(end.nut_temperature, TEMPERATURE),
+            "warm": Measured(self.torque, _TORQUE),
+            "cold": Measured(self.torque_given, _TORQUE),
+        }
+        gain = units.as_written(f"{1 - end.margin:z.2f}")
         if end.network.preload_set:
-            there, before = (
-                units.shown(value, EQUILIBRIUM["preload"]) for value in (end.preload, end.network.preload_set)
-            )
-            preload = f", preload {there} in place of {before}"
-        text = (
-            f"self-heating: oil at {oil} in place of {given} (nut {nut}){preload}; friction torque {warm}, not {cold}; "
-            f"gain of the thermal loop {1 - end.margin:z.2f}, thermal runaway at 1"
-        )
-        return Record(
-            id="verdict.self_heating", subject="lubricant.temperature", text=text, severity="info", holds=True,
+            quantity = EQUILIBRIUM["preload"]
+            message = _HEATED_WITH_PRELOAD.of(
+                **numbers, gain=gain, preload=Measured(float(end.preload), quantity),
+                before=Measured(float(end.network.preload_set), quantity),
+            )  # fmt: skip
+        else:
+            message = _HEATED.of(**numbers, gain=gain)
+        return units.record(
+            message, id="verdict.self_heating", subject="lubricant.temperature", severity="info", holds=True,
             value=end.oil_temperature, unit="K",
         )  # fmt: skip
 

@@ -2,7 +2,7 @@
 
 import { labelIn, words } from "./fields.js";
 import { OF_CARDS, SECTIONS } from "./schema.js";
-import { filledIn, hasText, language, languageOf, ofServer, sentence, textOr } from "./texts.js";
+import { filledIn, hasText, language, ofServer, textOr } from "./texts.js";
 import { formattedIn, inLanguage, inSystem, symbol } from "./units.js";
 
 /**
@@ -14,6 +14,18 @@ export function labelOf(path) {
   const parts = path.split(".");
   const name = labelIn(path);
   return parts.length > 1 ? `${name} (${SECTIONS[parts[0]] ?? OF_CARDS[parts[0]] ?? words(parts[0])})` : name;
+}
+
+/**
+ * The name of a field, a law or a number of a fit; a bare name is that of the first section that has such a field.
+ *
+ * @param {string} path
+ */
+function nameOf(path) {
+  const name = path.slice(path.lastIndexOf(".") + 1);
+  const sections = [...Object.keys(SECTIONS), ...Object.keys(OF_CARDS)];
+  const keys = [path, name, ...sections.map((section) => `${section}.${name}`)].map((one) => `field.${one}.label`);
+  return [...keys, `fit.number.${name}`].reduceRight((other, key) => textOr(key, other), words(name));
 }
 
 /**
@@ -48,6 +60,7 @@ function partOf(value) {
   if (Array.isArray(value)) return value.map(said).join(", ");
   if ("template" in value) return said(value);
   if ("field" in value) return setting(value.field);
+  if ("name" in value) return nameOf(value.name);
   if ("unit_name" in value) return symbol(inSystem(value.unit_name));
   return formattedIn(value.value, value.shown_in, value.unit, value.digits, value.toward);
 }
@@ -62,9 +75,7 @@ function setting(path) {
  *
  * @param {VerdictRecord} record
  */
-export function ofRecord({ message, subject, text: english }) {
-  if (!message) return sentence(english);
-  const { template, values } = message;
+export function ofRecord({ message: { template, values }, subject }) {
   // a message about a field has its meaning as the form has it
   const meaning = "meaning" in values ? textOr(`field.${subject}.help`, "") : "";
   return said({ template, values: meaning ? { ...values, meaning } : values });
@@ -75,8 +86,7 @@ export function ofRecord({ message, subject, text: english }) {
  *
  * @param {VerdictRecord} record
  */
-export function languageOfRecord({ message, text: english }) {
-  if (!message) return languageOf(english);
+export function languageOfRecord({ message }) {
   return language === "en" || hasText(`message.${message.template}`) ? {} : ofServer;
 }
 
