@@ -38,7 +38,7 @@ from ballscrew.faces.web.bodies import (
 from ballscrew.faces.web.endpoint_parts import (
     as_bytes,
     as_json,
-    cancellable,
+    computed_once,
     heavy,
     kept,
     known_query,
@@ -154,7 +154,7 @@ async def sweep(request: Request) -> Response:
         return as_json(sweep_documents.document(case, plan, found))
 
     if limits.is_short(case, plan):
-        return await cancellable(request, queue.short(work))
+        return await computed_once(request, lambda: queue.short(work))
     return await heavy(request, work)
 
 

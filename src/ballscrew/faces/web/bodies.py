@@ -6,6 +6,7 @@ as for a file.
 
 from __future__ import annotations
 
+import hashlib
 import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
@@ -168,7 +169,9 @@ SweepBody = body_of(
 
 async def read(request: Request, kind: type[Body]) -> Any:
     """The body of a request as one of the kinds above. Raises :class:`~ballscrew.faces.web.problems.Refused`."""
-    value = _json(await content_of(request, kind.most_bytes))
+    content = await content_of(request, kind.most_bytes)
+    request.state.digest = hashlib.sha256(content).digest()
+    value = _json(content)
     _count(_without_contents(value, kind.files), kind.most_values)
     faults: list[Fault] = []
     table = read_table("request", kind, value, faults)

@@ -19,11 +19,13 @@ from ballscrew.basis.output.json_text import plain
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.web import documents, limits, memory
 from ballscrew.faces.web.bodies import CaseBody, case_of, read
+from ballscrew.faces.web.kept_answers import KeptAnswers, Question
 from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import Deadline, RequestQueue
 from ballscrew.questions.run import compute as runs
 
 Answer = TypeVar("Answer")
+_JSON = "application/json"
 
 
 def own_site(request: Request) -> None:
@@ -66,7 +68,7 @@ def as_json(document: Any) -> Response:
 
 def sent(document: bytes) -> Response:
     """An answer with a document that is JSON already."""
-    return Response(document, media_type="application/json")
+    return Response(document, media_type=_JSON)
 
 
 def kept(request: Request, document: bytes) -> Response:
@@ -97,8 +99,24 @@ def queue_of(request: Request) -> RequestQueue:
 
 
 async def heavy(request: Request, work: Callable[[Deadline], Any]) -> Any:
-    """Heavy work, cancelled when the client disconnects; its memory is given back."""
-    return await cancellable(request, queue_of(request).heavy(memory.releasing(work)))
+    """Heavy work, cancelled when the client disconnects; its memory is given back, and its answer is kept."""
+    return await computed_once(request, lambda: queue_of(request).heavy(memory.releasing(work)))
+
+
+async def computed_once(request: Request, work: Callable[[], Coroutine[Any, Any, Any]]) -> Any:
+    """The answer to a body, cancelled when the client disconnects; where it was asked for before, the one kept."""
+    digest: bytes | None = getattr(request.state, "digest", None)
+    if digest is None:
+        return await cancellable(request, work())
+    answers: KeptAnswers = request.app.state.answers
+    question = Question(f"{request.url.path}?{request.url.query}", digest)
+    known = answers.find(question)
+    if known is not None:
+        return sent(known)
+    found: Response = await cancellable(request, work())
+    if found.media_type == _JSON:
+        answers.keep(question, bytes(found.body))
+    return found
 
 
 async def cancellable(request: Request, work: Coroutine[Any, Any, Any]) -> Any:

@@ -19,6 +19,7 @@ from ballscrew.faces.web import api, files, memory, openapi, plotly_js, problems
 from ballscrew.faces.web.bodies import case_of
 from ballscrew.faces.web.guard import HEADERS, LOOPBACK, Guard
 from ballscrew.faces.web.jobs import Jobs
+from ballscrew.faces.web.kept_answers import KeptAnswers
 from ballscrew.faces.web.policy import policy
 from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import RequestQueue
@@ -46,6 +47,7 @@ def application(
     app.hosts = hosts
     app.state.headers = {**HEADERS, "Content-Security-Policy": policy(plotly_js.script())}
     app.state.requests = requests or RequestQueue()
+    app.state.answers = KeptAnswers()
     app.state.jobs = jobs or Jobs(app.state.requests.time_limit)
     app.include_router(api.router)
     description = functools.cache(lambda: json.dumps(openapi.document(app)).encode())
