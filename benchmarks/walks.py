@@ -177,7 +177,7 @@ def walks() -> dict[str, tuple[Callable[[], None], Test]]:
 #: Modules of the page that write words, numbers and elements.
 LEAVES = ("dom.js", "messages.js", "plot.js", "schema.js", "symbols.js", "texts.js", "units.js")
 #: The head of a function or a method up to its parameters, and what is put at the beginning of its body.
-FUNCTION = re.compile(r"^ *(?:(?:export )?(?:async )?function\*? \w+|(?:async |get |set )?#?\w+)\(", re.MULTILINE)
+FUNCTION = re.compile(r"^ *(?:(?:export )?(?:async )?function\*? \w+|(?:async )?#?\w+)\(", re.MULTILINE)
 MARK = 'globalThis.walk?.push("{}");'
 #: Stops of a loop at most.
 LONGEST_LOOP = 8
