@@ -24,8 +24,8 @@ from ballscrew.faces.web.bodies import (
     BandBody,
     CaseBody,
     CasesBody,
-    CycleBody,
     DutyBody,
+    MovingBody,
     NeedBody,
     NeedOfTable,
     ReportBody,
@@ -194,13 +194,13 @@ async def band(request: Request) -> Response:
 
 @router.post(
     "/duty",
-    openapi_extra=openapi.body(CycleBody),
+    openapi_extra=openapi.body(DutyBody),
     response_model=response(DutyResults, "Duty", judged=True),
     responses=openapi.problems_of(),
 )
 async def duty(request: Request) -> Response:
     """A cycle of the axis of a case: the document of ``ballscrew duty --json``."""
-    body: CycleBody = await read(request, CycleBody)
+    body: DutyBody = await read(request, DutyBody)
 
     def work(_: Deadline) -> Response:
         with written({} if body.trace is None else {"trace": body.trace}) as paths:
@@ -298,7 +298,7 @@ async def select_plan(request: Request) -> Response:
 )
 async def axis(request: Request) -> Response:
     """What gives way between motor and table: the document of ``ballscrew axis --json``."""
-    body: DutyBody = await read(request, AxisBody)
+    body: MovingBody = await read(request, AxisBody)
     options = option_values.read(AxisOptions, dict(body))
 
     def work(_: Deadline) -> Response:

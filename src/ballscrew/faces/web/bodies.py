@@ -78,20 +78,20 @@ def body_of(name: str, base: type[B], options: type, words: str) -> type[B]:
     return create_model(name, __base__=base, __doc__=words, **body_fields(options))
 
 
-class DutyBody(CaseBody):
-    """A case with an axis and a motion; it needs no operating point."""
+class MovingBody(CaseBody):
+    """A case of an axis; one with a motion needs no operating point."""
 
 
 AxisBody = body_of(
     "AxisBody",
-    DutyBody,
+    MovingBody,
     AxisOptions,
     "A case with an installation, and places of its nut.",
 )
 
 
-class CycleBody(DutyBody):
-    """A case with an axis, and its motion; in place of that perhaps the ``trace`` of one that was recorded."""
+class DutyBody(MovingBody):
+    """A case with an axis and its motion; in place of that perhaps the ``trace`` of one that was recorded."""
 
     most_bytes: ClassVar[int] = MOST_FILE_BYTES
     files: ClassVar[tuple[str, ...]] = ("trace",)

@@ -13,7 +13,7 @@ from ballscrew.faces.web import problems
 from ballscrew.faces.web.bodies import (
     BandBody,
     CaseBody,
-    DutyBody,
+    MovingBody,
     NeedBody,
     OpenBody,
     ProjectBody,
@@ -61,7 +61,7 @@ def _bodies(kind: type[BaseModel]) -> dict[str, Any]:
         return {"case": {"file": {"name": "case.toml", "text": text}}}
     if kind is ProjectBody:
         return {"two": {"designs": [{"name": name, "case": case} for name, case in (("paper", paper), ("nut", nut))]}}
-    if issubclass(kind, DutyBody):
+    if issubclass(kind, MovingBody):
         moving: dict[str, Any] = {
             "axis": {"mass": "400 kg", "inclination": "90 deg"},
             "motion": {"kind": "trapezoid", "stroke": "0.5 m", "speed": "10 m/min", "acceleration": "0.5 g"},
