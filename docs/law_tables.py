@@ -8,7 +8,7 @@ from typing import Any
 
 from ballscrew.basis.quantities import fields_of
 from ballscrew.basis.units import shown
-from ballscrew.cases.schema.schema import LAWS, MODELS, coefficients_of, name_of_law
+from ballscrew.cases.schema.case_schema import LAWS, MODELS, coefficients_of, name_of_law
 
 #: Purpose of each slot.
 SLOTS = {

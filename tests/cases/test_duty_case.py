@@ -9,7 +9,7 @@ from ballscrew.axis.duty_cycle.motor import Motor
 from ballscrew.axis.motion.profiles import SCurve, Segments, Sine, Trapezoid
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.schema import schema
+from ballscrew.cases.schema import case_schema as schema
 from ballscrew.physics.solvers import load_distribution
 from ballscrew.questions.duty.compute import duty
 from support.commands import ROOT

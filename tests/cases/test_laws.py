@@ -12,7 +12,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.schema import schema
+from ballscrew.cases.schema import case_schema as schema
 from ballscrew.engine.evaluation.comparison import same_law
 from ballscrew.physics.components import laws, mixed_friction, rolling_laws
 from ballscrew.physics.friction.model import presets

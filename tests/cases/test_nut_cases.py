@@ -14,7 +14,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.schema.schema import NUT_TABLES, json_schema, validated
+from ballscrew.cases.schema.case_schema import NUT_TABLES, json_schema, validated
 from ballscrew.cases.screw_tables.nut_kinds import NUTS, kind_of
 from ballscrew.physics.components.nut import Bodies, Deviations
 from ballscrew.physics.components.nut_losses import LipSeals, Seals

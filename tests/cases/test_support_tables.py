@@ -10,7 +10,7 @@ from ballscrew.axis.supports.catalogue_rows import guide_rows, support_units
 from ballscrew.axis.supports.makers_bearing import KnownBearing, SKFBearing
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.schema import schema
+from ballscrew.cases.schema import case_schema as schema
 from ballscrew.faces.web.bodies import case_of
 
 CASE = """

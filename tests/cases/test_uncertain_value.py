@@ -10,7 +10,7 @@ import ballscrew as bs
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.case_files import case_file, uncertain_inputs
-from ballscrew.cases.schema import schema
+from ballscrew.cases.schema import case_schema as schema
 from ballscrew.engine.uncertainty.distributions import LogNormal, Normal, Triangular, Uniform
 from ballscrew.engine.uncertainty.uncertain_value import UncertainValue, describe_distribution, parse_uncertain
 from ballscrew.physics.components.materials import TEMPERATURE

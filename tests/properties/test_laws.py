@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.cases.schema.schema import LAWS
+from ballscrew.cases.schema.case_schema import LAWS
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 from ballscrew.physics.components import film_laws, laws, mixed_friction, rolling_laws
 from ballscrew.physics.components.conditions import Motion

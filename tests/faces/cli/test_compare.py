@@ -12,7 +12,7 @@ from matplotlib.text import Text
 
 import ballscrew as bs
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.schema import schema
+from ballscrew.cases.schema import case_schema as schema
 from ballscrew.engine.evaluation.comparison import same_law
 from ballscrew.physics.friction.model import presets
 from ballscrew.physics.friction.result import MECHANISMS

@@ -7,7 +7,7 @@ from typer.testing import CliRunner
 
 import ballscrew as bs
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.schema.schema import LAWS, MODELS
+from ballscrew.cases.schema.case_schema import LAWS, MODELS
 from ballscrew.faces.cli import main
 from ballscrew.questions.names.compute import KINDS, names
 from ballscrew.questions.names.text import text

@@ -53,7 +53,7 @@ def test_every_example_of_the_schema_parses():
     from ballscrew.basis import units
     from ballscrew.basis.errors import Fault, fault_of
     from ballscrew.basis.quantities import fields_of
-    from ballscrew.cases.schema import schema
+    from ballscrew.cases.schema import case_schema as schema
 
     drive = tomllib.loads((ROOT / "examples" / "feed_drive.toml").read_text(encoding="utf-8"))
     written = {name: value for section in ("screw", "lubricant", "operation") for name, value in drive[section].items()}

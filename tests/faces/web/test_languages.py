@@ -22,7 +22,7 @@ from tests.support.message_templates import (
 )
 
 from ballscrew.axis.duty_cycle.drive import AS_GIVEN, FULL_BATH
-from ballscrew.cases.schema.schema import json_schema
+from ballscrew.cases.schema.case_schema import json_schema
 from ballscrew.faces.web import languages
 from ballscrew.faces.web.vocabulary import OPTIONS
 from ballscrew.physics.friction.result import QUADRANTS

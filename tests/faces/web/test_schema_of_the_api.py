@@ -13,7 +13,7 @@ from schemathesis import GenerationMode
 from schemathesis.specs.openapi.checks import positive_data_acceptance
 from schemathesis.specs.openapi.definitions import OPENAPI_31
 
-from ballscrew.cases.schema.schema import json_schema
+from ballscrew.cases.schema.case_schema import json_schema
 from ballscrew.faces.web import api, memory, problems
 from ballscrew.faces.web.files import plotly_address
 from ballscrew.faces.web.request_queue import RequestQueue

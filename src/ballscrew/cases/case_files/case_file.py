@@ -27,10 +27,7 @@ from ballscrew.cases.case_files.lubricants import lubricant_of
 from ballscrew.cases.case_files.named_calibration import calibrated_by_table, with_calibration
 from ballscrew.cases.case_files.provenance import references as references
 from ballscrew.cases.case_files.spelling import doubtful
-from ballscrew.cases.schema.duty_schema import DUTY_TABLES
-from ballscrew.cases.schema.fields import NutSpeed, is_nut_speed
-from ballscrew.cases.schema.option_faults import in_options
-from ballscrew.cases.schema.schema import (
+from ballscrew.cases.schema.case_schema import (
     DEFAULT_MODEL,
     LAWS,
     MODELS,
@@ -39,6 +36,9 @@ from ballscrew.cases.schema.schema import (
     name_of_law,
     places_of,
 )
+from ballscrew.cases.schema.duty_schema import DUTY_TABLES
+from ballscrew.cases.schema.fields import NutSpeed, is_nut_speed
+from ballscrew.cases.schema.option_faults import in_options
 from ballscrew.cases.schema.sections import Sections, validated_sections
 from ballscrew.cases.schema.support_schema import SUPPORT_TABLES
 from ballscrew.cases.screw_tables.nut_kinds import LISTED, LOSSES

@@ -9,7 +9,7 @@ from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.lubricants import described, shown_temperature
 from ballscrew.cases.case_files.named_calibration import vendor_rows_like
-from ballscrew.cases.schema.schema import LAWS, MODELS, name_of_law
+from ballscrew.cases.schema.case_schema import LAWS, MODELS, name_of_law
 from ballscrew.cases.screw_tables.nut_kinds import kind_of
 from ballscrew.physics.components.contact import RaceState
 from ballscrew.physics.components.materials import Lubricant

@@ -22,6 +22,7 @@ from ballscrew.basis.errors import MISSING, Fault, InputError, either, nearest
 from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import fields_of
 from ballscrew.basis.records import Message, Setting, UnitName
+from ballscrew.cases.schema.case_schema import MODELS, read_table
 from ballscrew.cases.schema.duty_schema import (
     CONSTANT_EFFICIENCY,
     KEYS,
@@ -32,7 +33,6 @@ from ballscrew.cases.schema.duty_schema import (
     duty_sections,
     fields_of_motion,
 )
-from ballscrew.cases.schema.schema import MODELS, read_table
 from ballscrew.cases.schema.sections import Sections
 from ballscrew.physics.components.operating_state import OperatingState
 

@@ -8,8 +8,8 @@ from typing import Any
 from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.case_files import duty_tables, support_tables
 from ballscrew.cases.case_files.case import USUAL_LIMITS, Case
+from ballscrew.cases.schema.case_schema import LAWS, name_of_law
 from ballscrew.cases.schema.duty_schema import CONSTANT_EFFICIENCY
-from ballscrew.cases.schema.schema import LAWS, name_of_law
 from ballscrew.cases.screw_tables.nut_kinds import ENDS, kind_of
 from ballscrew.physics.components.nut import Nut
 from ballscrew.physics.components.screw import MATERIALS, BallScrew

@@ -8,7 +8,7 @@ from typing import Any
 
 from ballscrew.basis.errors import Fault, raise_if_any
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.schema.schema import name_of_law
+from ballscrew.cases.schema.case_schema import name_of_law
 from ballscrew.evidence.validation.nearest import NearRows, near_rows
 from ballscrew.physics.friction.calibrations import calibrated, calibration
 from ballscrew.physics.friction.law_names import coefficients

@@ -12,7 +12,7 @@ from ballscrew.basis.errors import MISSING, Fault, InputError, either, nearest
 from ballscrew.basis.quantities import fields_of
 from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.case import PreloadNote
-from ballscrew.cases.schema.schema import law_of
+from ballscrew.cases.schema.case_schema import law_of
 from ballscrew.cases.schema.sections import Sections
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.cases.screw_tables.nut_kinds import ENDS, LOSSES, NUT_FIELDS, NUTS, Share

@@ -17,8 +17,8 @@ from ballscrew.basis.atomic_files import read_bytes
 from ballscrew.basis.errors import Fault, InputError, nearest
 from ballscrew.basis.quantities import fields_of
 from ballscrew.basis.records import Message
+from ballscrew.cases.schema.case_schema import read_table
 from ballscrew.cases.schema.fields import section_of
-from ballscrew.cases.schema.schema import read_table
 from ballscrew.physics.components.data_sheet import DataSheet
 
 #: Bytes of a file of oils at most.

@@ -17,7 +17,7 @@ from ballscrew.basis import units
 from ballscrew.basis.errors import Fault
 from ballscrew.basis.quantities import Quantity, within_bounds
 from ballscrew.basis.records import Measured, Message, Record
-from ballscrew.cases.schema.schema import sections
+from ballscrew.cases.schema.case_schema import sections
 from ballscrew.physics.components.ratings import PRELOAD_SHARES
 
 #: The id of the warning.

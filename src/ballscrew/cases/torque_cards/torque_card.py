@@ -21,8 +21,8 @@ from ballscrew.basis.quantities import AngularSpeed, Info, Length, Quantity, Tem
 from ballscrew.basis.records import Message
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.schema.case_schema import read_table, sections, without_null
 from ballscrew.cases.schema.fields import section_of
-from ballscrew.cases.schema.schema import read_table, sections, without_null
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.solvers.load_distribution import preload_of
 

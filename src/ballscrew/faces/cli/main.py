@@ -59,7 +59,7 @@ class _Command(TyperCommand):
             return super().invoke(ctx)
 
     def format_help(self, ctx: Any, formatter: Any) -> None:
-        from ballscrew.cases.schema.schema import DEFAULT_MODEL, MODELS
+        from ballscrew.cases.schema.case_schema import DEFAULT_MODEL, MODELS
         from ballscrew.physics.friction.calibrations import calibrations
 
         models = ", ".join(f"{name} (default)" if name == DEFAULT_MODEL else name for name in MODELS)

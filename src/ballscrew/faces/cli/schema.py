@@ -16,6 +16,6 @@ def schema(
     if need:
         from ballscrew.questions.optimise.need_schema import json_schema
     else:
-        from ballscrew.cases.schema.schema import json_schema
+        from ballscrew.cases.schema.case_schema import json_schema
 
     typer.echo(json.dumps(json_schema(), indent=2, ensure_ascii=False))

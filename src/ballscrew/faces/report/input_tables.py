@@ -9,7 +9,7 @@ from typing import Any
 from ballscrew.basis.quantities import Quantity, fields_of
 from ballscrew.cases.case_files.case_file import Case
 from ballscrew.cases.case_files.lubricants import described
-from ballscrew.cases.schema.schema import LAWS, name_of_law
+from ballscrew.cases.schema.case_schema import LAWS, name_of_law
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.cases.screw_tables.nut_kinds import ENDS, LISTED, kind_of
 from ballscrew.engine.uncertainty.uncertain_value import describe_distribution

@@ -14,7 +14,7 @@ from starlette.responses import Response
 
 from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.schema.schema import json_schema
+from ballscrew.cases.schema.case_schema import json_schema
 from ballscrew.cases.screw_tables import catalogue as rows
 from ballscrew.faces.report.heading import Heading
 from ballscrew.faces.report.options import ReportOptions

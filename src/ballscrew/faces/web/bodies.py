@@ -21,8 +21,8 @@ from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.basis.records import Message
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case_file import Case
+from ballscrew.cases.schema.case_schema import read_table
 from ballscrew.cases.schema.duty_schema import TRAJECTORY
-from ballscrew.cases.schema.schema import read_table
 from ballscrew.faces.report.options import ReportOptions
 from ballscrew.faces.web.limits import check_motion
 from ballscrew.faces.web.problems import Refused

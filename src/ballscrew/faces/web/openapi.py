@@ -8,7 +8,7 @@ from fastapi import FastAPI, Path
 from fastapi.openapi.utils import get_openapi
 from pydantic import BaseModel
 
-from ballscrew.cases.schema.schema import json_schema
+from ballscrew.cases.schema.case_schema import json_schema
 from ballscrew.faces.web import problems
 from ballscrew.faces.web.bodies import (
     BandBody,

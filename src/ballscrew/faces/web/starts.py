@@ -10,7 +10,7 @@ from typing import Any
 
 from ballscrew.basis import units
 from ballscrew.basis.quantities import fields_of
-from ballscrew.cases.schema.schema import DEFAULT_MODEL
+from ballscrew.cases.schema.case_schema import DEFAULT_MODEL
 from ballscrew.evidence.papers.olaru2005 import case as paper
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.operating_state import OperatingState

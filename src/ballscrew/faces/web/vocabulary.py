@@ -16,8 +16,8 @@ from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.basis import units
 from ballscrew.basis.quantities import Info, Quantity, fields_of, quantities_of
 from ballscrew.basis.version import __version__
+from ballscrew.cases.schema.case_schema import DEFAULT_MODEL, LAWS, MODELS
 from ballscrew.cases.schema.duty_schema import MOTIONS, fields_of_motion
-from ballscrew.cases.schema.schema import DEFAULT_MODEL, LAWS, MODELS
 from ballscrew.cases.screw_tables.catalogue import EXAMPLE_PRELOADS
 from ballscrew.cases.screw_tables.nut_kinds import LISTED, LOSSES, NUT_FIELDS, NUTS
 from ballscrew.engine.evaluation.outputs import known_outputs

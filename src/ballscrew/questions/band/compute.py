@@ -14,7 +14,7 @@ from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.cases.case_files import uncertain_inputs
 from ballscrew.cases.case_files.case_file import Case
 from ballscrew.cases.case_files.uncertain_inputs import Uncertain
-from ballscrew.cases.schema.schema import LAWS
+from ballscrew.cases.schema.case_schema import LAWS
 from ballscrew.engine.evaluation.comparison import Candidate
 from ballscrew.engine.uncertainty import bands
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS

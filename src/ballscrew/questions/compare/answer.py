@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Annotated, Any
 
 from ballscrew.basis.quantities import Info, Ratio, Torque, Unit, quantities_of
-from ballscrew.cases.schema.schema import LAWS
+from ballscrew.cases.schema.case_schema import LAWS
 from ballscrew.engine.evaluation.comparison import ComparedRule, Comparison, OfBalls, Row
 from ballscrew.engine.evaluation.comparison import Spread as TwoRows
 from ballscrew.physics.friction.result import FrictionResult

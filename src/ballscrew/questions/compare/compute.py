@@ -9,7 +9,7 @@ from typing import Any
 
 from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.schema.schema import LAWS, MODELS, coefficients_of, name_of_law
+from ballscrew.cases.schema.case_schema import LAWS, MODELS, coefficients_of, name_of_law
 from ballscrew.engine.evaluation.comparison import Candidate, ComparedRule, Comparison, OfBalls, Row, compare, same_law
 from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.sizing.rules import RULES, Estimate, Subject

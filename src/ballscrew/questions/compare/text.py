@@ -11,7 +11,7 @@ from rich.console import Console
 from ballscrew.basis.output.wrapping import aligned
 from ballscrew.cases.case_files import case_file, descriptions
 from ballscrew.cases.case_files.spelling import THOUSANDS
-from ballscrew.cases.schema.schema import LAWS, name_of_law
+from ballscrew.cases.schema.case_schema import LAWS, name_of_law
 from ballscrew.engine.evaluation.comparison import Comparison, Row
 from ballscrew.physics.friction.plausibility import IMPLAUSIBLE
 from ballscrew.physics.friction.result import MECHANISMS

@@ -15,8 +15,8 @@ from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, InputError, faults_of, nearest, raise_if_any
 from ballscrew.basis.quantities import Count, Info, Quantity, Ratio, fields_of
 from ballscrew.basis.records import Message
+from ballscrew.cases.schema.case_schema import read_table
 from ballscrew.cases.schema.fields import section_of
-from ballscrew.cases.schema.schema import read_table
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.sizing.catalogue import CatalogueRow, catalogue
 from ballscrew.physics.sizing.listed_nut import NUTS, PRELOADED

@@ -16,8 +16,8 @@ from ballscrew.basis.errors import MISSING, Fault, InputError, closest, nearest,
 from ballscrew.basis.quantities import Quantity, fields_of
 from ballscrew.basis.records import Message
 from ballscrew.cases.case_files import case_file
+from ballscrew.cases.schema.case_schema import read_table, sections
 from ballscrew.cases.schema.fields import section_of
-from ballscrew.cases.schema.schema import read_table, sections
 from ballscrew.physics.components.materials import grades
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.questions.select.need_motion import OF_MOTION, with_motion

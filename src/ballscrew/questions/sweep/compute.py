@@ -22,7 +22,7 @@ from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import Quantity, fields_of
 from ballscrew.basis.records import Message, Record
 from ballscrew.cases.case_files.case_file import Case
-from ballscrew.cases.schema.schema import name_of_law
+from ballscrew.cases.schema.case_schema import name_of_law
 from ballscrew.engine.evaluation.engines import FEW_POINTS
 from ballscrew.engine.evaluation.outputs import (
     DEFAULT_OUTPUTS,

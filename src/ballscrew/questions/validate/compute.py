@@ -13,7 +13,7 @@ from typing import Any
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, fault_of, nearest, raise_if_any
 from ballscrew.basis.records import Message
-from ballscrew.cases.schema.schema import MODELS
+from ballscrew.cases.schema.case_schema import MODELS
 from ballscrew.cases.screw_tables.catalogue import COLUMNS
 from ballscrew.evidence.validation.entries import CONDITIONS, Conditions, Entry, Point, ValidationSet, Values
 from ballscrew.evidence.validation.sets import SETS
