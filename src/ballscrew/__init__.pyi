@@ -22,7 +22,7 @@ from ballscrew.axis.thermal.warm_up_band import warm_up_band as warm_up_band
 from ballscrew.basis.errors import ImplausibleInput as ImplausibleInput
 from ballscrew.basis.errors import InputError as InputError
 from ballscrew.basis.version import __version__ as __version__
-from ballscrew.cases.case_files.oils import oils as oils
+from ballscrew.cases.case_files.oil_library import oils as oils
 from ballscrew.cases.screw_tables.catalogue import screws as screws
 from ballscrew.engine.evaluation.derivatives import derivatives as derivatives
 from ballscrew.engine.evaluation.evaluator import evaluator as evaluator

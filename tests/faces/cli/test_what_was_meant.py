@@ -9,7 +9,8 @@ import ballscrew as bs
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import fields_of
-from ballscrew.cases.case_files import case_file, oils
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files import oil_library as oils
 from ballscrew.physics.components.nut_losses import Seals
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.questions.sweep import compute as sweep

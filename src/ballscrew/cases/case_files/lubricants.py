@@ -12,7 +12,7 @@ from ballscrew.basis.errors import MISSING, Fault, InputError
 from ballscrew.basis.quantities import fields_of
 from ballscrew.basis.records import Message, Setting
 from ballscrew.basis.units import in_display_units
-from ballscrew.cases.case_files.oils import named_oil
+from ballscrew.cases.case_files.oil_library import named_oil
 from ballscrew.cases.schema.sections import Sections
 from ballscrew.physics.components.data_sheet import SHEET_TEMPERATURE, DataSheet
 from ballscrew.physics.components.materials import TEMPERATURE, Lubricant

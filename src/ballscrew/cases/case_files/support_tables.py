@@ -25,7 +25,7 @@ from ballscrew.axis.supports.mounted_bearing import MountedBearing
 from ballscrew.basis.errors import MISSING, Fault, InputError, nearest, shown
 from ballscrew.basis.quantities import fields_of
 from ballscrew.basis.records import Message, Setting
-from ballscrew.cases.case_files.oils import named_oil
+from ballscrew.cases.case_files.oil_library import named_oil
 from ballscrew.cases.schema.sections import Sections
 from ballscrew.cases.schema.support_schema import OIL
 from ballscrew.engine.uncertainty.distributions import Distribution

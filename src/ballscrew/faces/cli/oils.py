@@ -24,7 +24,7 @@ def list_oils(
 ) -> None:
     """All oils, one line each."""
     from ballscrew.basis.output import json_text
-    from ballscrew.cases.case_files import oils
+    from ballscrew.cases.case_files import oil_library as oils
     from ballscrew.questions.oils import document as documents
     from ballscrew.questions.oils import text
 
@@ -40,7 +40,7 @@ def show(
 ) -> None:
     """One oil: what its data sheet states, and its viscosity from -40 to 120 degC."""
     from ballscrew.basis.output import json_text
-    from ballscrew.cases.case_files import oils
+    from ballscrew.cases.case_files import oil_library as oils
     from ballscrew.questions.oils import document as documents
     from ballscrew.questions.oils import text
 

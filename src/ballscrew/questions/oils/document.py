@@ -7,7 +7,7 @@ from typing import Any
 
 from ballscrew.basis.quantities import fields_of
 from ballscrew.basis.version import __version__
-from ballscrew.cases.case_files.oils import TEXTS
+from ballscrew.cases.case_files.oil_library import TEXTS
 from ballscrew.physics.components.data_sheet import DataSheet
 
 _FIELDS = fields_of(DataSheet)
