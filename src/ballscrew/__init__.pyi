@@ -37,10 +37,10 @@ from ballscrew.engine.uncertainty.monte_carlo import monte_carlo as monte_carlo
 from ballscrew.engine.uncertainty.sensitivity import sensitivity as sensitivity
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel as CalibratedModel
 from ballscrew.evidence.calibration.fit import fit as fit
+from ballscrew.evidence.moving_logs.log_kind import read_log as read_log
 from ballscrew.evidence.moving_logs.motion_fit import MotionFit as MotionFit
 from ballscrew.evidence.moving_logs.motion_fit import fit_motion as fit_motion
 from ballscrew.evidence.moving_logs.moving_log import MovingLog as MovingLog
-from ballscrew.evidence.moving_logs.read_log import read_log as read_log
 from ballscrew.evidence.service.condition import condition as condition
 from ballscrew.evidence.service.condition_values import Condition as Condition
 from ballscrew.evidence.service.preload_change import PreloadChange as PreloadChange
