@@ -19,11 +19,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.compiler.kernels import elementary
+from ballscrew.compiler.kernels.bordered_chain import LoopWriter, RingWriter
 from ballscrew.compiler.kernels.buffers import aligned_array
 from ballscrew.compiler.kernels.emission import SIGNATURE, StepEmitter, pointers
 from ballscrew.compiler.kernels.ir import Value, constant
 from ballscrew.compiler.kernels.kernel import Kernel
-from ballscrew.compiler.kernels.rings import LoopWriter, RingWriter
 from ballscrew.compiler.tracing.program import Program, Source
 
 #: Chains in a vector.
