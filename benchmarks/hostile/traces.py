@@ -18,7 +18,7 @@ from ballscrew.basis.output.json_text import as_json
 from ballscrew.cases.case_files import case_file
 from ballscrew.questions.duty import compute, text
 from ballscrew.questions.duty import document as documents
-from ballscrew.questions.duty import records as duty_records
+from ballscrew.questions.duty import verdicts as duty_verdicts
 
 COUNT, SECONDS = 300, 120.0
 TRIED = (
@@ -123,6 +123,6 @@ def attempt(seed: int, number: int, _: int) -> Outcome:
     except Exception as error:
         return Outcome(wrong=[f"{words}: {workers.last_line(error)}"])
     bad = [name for name in NUMBERS if not math.isfinite(report.numbers[name])]
-    if bad and not duty_records.warnings(report):
+    if bad and not duty_verdicts.warnings(report):
         return Outcome(wrong=[f"{words}: {', '.join(bad)} not finite, without a warning"])
     return Outcome(answered=1)

@@ -13,7 +13,7 @@ from ballscrew.physics.sizing.installation import Ends
 from ballscrew.questions.axis.compute import chain_of, load
 from ballscrew.questions.duty import table as duty_tables
 from ballscrew.questions.duty.compute import duty
-from ballscrew.questions.duty.records import warnings
+from ballscrew.questions.duty.verdicts import warnings
 from support.commands import ROOT
 
 EXAMPLE = ROOT / "examples" / "feed_axis.toml"

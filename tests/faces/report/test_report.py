@@ -44,7 +44,7 @@ from ballscrew.questions.shared.report_blocks import Bar, Columns, Links, Pictur
 from ballscrew.questions.shared.report_numbers import banded, banded_share
 from ballscrew.questions.warm_up import report as warm_up_report
 from ballscrew.questions.warm_up.compute import warmed_up
-from ballscrew.questions.warm_up.records import verdicts
+from ballscrew.questions.warm_up.verdicts import verdicts
 
 ROOT = Path(__file__).parents[3]
 EXAMPLES = sorted(path.name for path in (ROOT / "examples").glob("*.toml"))

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
 from ballscrew.physics.sizing.checks import Check
 from ballscrew.questions.check.compute import Checked
-from ballscrew.questions.duty import records as duty_records
+from ballscrew.questions.duty import verdicts as duty_verdicts
 from ballscrew.questions.duty.compute import DutyReport
 from ballscrew.questions.shared import check_lines
 from ballscrew.questions.shared.report_blocks import Block, Paragraph, Table, sentence
@@ -24,7 +24,7 @@ def checks(found: Checked) -> list[Block]:
 
 def over_a_cycle(report: DutyReport, of_point: Checked) -> list[Block]:
     """The checks over the cycle, in place of those of the operating point as if it lasted for ever."""
-    verdict = next(record for record in duty_records.verdicts(report) if record.id == "verdict.checks")
+    verdict = next(record for record in duty_verdicts.verdicts(report) if record.id == "verdict.checks")
     return [
         said_of_checks(verdict.text, of_point),
         check_table("Limits over the cycle, and how much of each is used", report.checks),

@@ -7,7 +7,7 @@ from typing import Any
 from ballscrew.basis.records import documents
 from ballscrew.cases.case_files import case_file, provenance
 from ballscrew.questions.compensation.compute import PositionCompensation
-from ballscrew.questions.warm_up import records as warm_up_records
+from ballscrew.questions.warm_up import verdicts as warm_up_verdicts
 from ballscrew.questions.warm_up.compute import WarmUpReport
 
 
@@ -25,8 +25,8 @@ def document(found: PositionCompensation, report: WarmUpReport) -> dict[str, Any
         },
         "units": {"position": "m", "error": "m", "worst_error": "m", "cell": "m", "hours": "h"},
         "assumed": list(report.assumed),
-        "warnings": documents(warm_up_records.warnings(report)),
-        "verdicts": documents(warm_up_records.verdicts(report)),
+        "warnings": documents(warm_up_verdicts.warnings(report)),
+        "verdicts": documents(warm_up_verdicts.verdicts(report)),
         "checks": [],
         "provenance": provenance.of_case(report.case),
     }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ballscrew.basis.output.wrapping import wrapped
 from ballscrew.questions.compensation.compute import PositionCompensation
-from ballscrew.questions.warm_up import records as warm_up_records
+from ballscrew.questions.warm_up import verdicts as warm_up_verdicts
 from ballscrew.questions.warm_up.compute import WarmUpReport
 
 
@@ -17,8 +17,8 @@ def text(found: PositionCompensation, report: WarmUpReport) -> str:
         f"taken: {found.mounting} (--direction, --zero); if that is not so, signs and places are wrong",
         f"it holds after {found.hours:g} h of this work only; format checked against the manual, not on a control",
         "",
-        *(record.text for record in warm_up_records.verdicts(report)),
-        *(f"beware  {record.name}: {record.text}" for record in warm_up_records.warnings(report)),
+        *(record.text for record in warm_up_verdicts.verdicts(report)),
+        *(f"beware  {record.name}: {record.text}" for record in warm_up_verdicts.warnings(report)),
         "",
         "assumed",
         *(f"  {line}" for line in report.assumed),

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from ballscrew.basis.records import documents
 from ballscrew.cases.case_files import case_file, provenance
 from ballscrew.physics.sizing.checks import Check
-from ballscrew.questions.duty import records as duty_records
+from ballscrew.questions.duty import verdicts as duty_verdicts
 from ballscrew.questions.duty.answer import DutyResults
 from ballscrew.questions.duty.compute import DutyReport
 from ballscrew.questions.shared import declared
@@ -23,8 +23,8 @@ def document(report: DutyReport) -> dict[str, Any]:
         "inputs": case_file.inputs(report.case),
         "results": declared.document(results),
         "units": declared.units(results),
-        "warnings": documents(duty_records.warnings(report)),
-        "verdicts": documents(duty_records.verdicts(report)),
+        "warnings": documents(duty_verdicts.warnings(report)),
+        "verdicts": documents(duty_verdicts.verdicts(report)),
         "checks": [_check(check) for check in report.checks],
         "provenance": provenance.of_case(report.case),
     }

@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 from ballscrew.axis.motion.profiles import Trapezoid
 from ballscrew.basis import units
 from ballscrew.basis.quantities import fields_of
-from ballscrew.questions.duty import records as duty_records
 from ballscrew.questions.duty import text
+from ballscrew.questions.duty import verdicts as duty_verdicts
 from ballscrew.questions.duty.compute import NUMBERS, DutyReport, cause_of
 from ballscrew.questions.shared import charts
 from ballscrew.questions.shared.chart_colours import CAUSE_COLOURS
@@ -56,7 +56,7 @@ def panels(report: DutyReport) -> Figure:
 
 def caption(report: DutyReport) -> str:
     """The verdicts of a duty, and what the panels show."""
-    said = ". ".join(record.text for record in duty_records.verdicts(report))
+    said = ". ".join(record.text for record in duty_verdicts.verdicts(report))
     return f"{said}. Torques are those of the motor, by mechanics; bars to the left act against the sum of the others."
 
 

@@ -8,8 +8,8 @@ from ballscrew.basis.errors import InputError
 from ballscrew.basis.quantities import Quantity
 from ballscrew.questions.duty import band as duty_band
 from ballscrew.questions.duty import figure as figures
-from ballscrew.questions.duty import records as duty_records
 from ballscrew.questions.duty import text
+from ballscrew.questions.duty import verdicts as duty_verdicts
 from ballscrew.questions.duty.band import DutyBandReport
 from ballscrew.questions.duty.compute import NUMBERS, DutyReport
 from ballscrew.questions.shared.chart_svg import named, svg_of
@@ -33,8 +33,8 @@ def _bands(report: DutyReport) -> DutyBandReport | None:
 
 def blocks(report: DutyReport) -> list[Block]:
     """All that a report says of a cycle."""
-    said = [f"{sentence(one.text)}." for one in duty_records.verdicts(report) if one.id != "verdict.checks"]
-    warned = [f"Beware: {record.text}." for record in duty_records.warnings(report)]
+    said = [f"{sentence(one.text)}." for one in duty_verdicts.verdicts(report) if one.id != "verdict.checks"]
+    warned = [f"Beware: {record.text}." for record in duty_verdicts.warnings(report)]
     words = (
         "Motion, torque of the motor by cause and power over the time of a cycle, and torque over speed: "
         f"{text.title(report)}."

@@ -17,7 +17,7 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.schema.duty_schema import MOTIONS
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
 from ballscrew.physics.components.materials import TEMPERATURE
-from ballscrew.questions.duty import records as duty_records
+from ballscrew.questions.duty import verdicts as duty_verdicts
 from ballscrew.questions.duty.compute import IF_ANY, NUMBERS, DutyReport
 from ballscrew.questions.shared.check_lines import check_lines
 from ballscrew.questions.shared.elements_text import element_lines
@@ -61,8 +61,8 @@ def text(report: DutyReport, encoding: str = "utf-8") -> str:
         "Cycle",
         *_numbers(report),
         *_smoothing(report),
-        *(f"  {record.text}" for record in duty_records.verdicts(report)),
-        *(f"beware  {record.name}: {record.text}" for record in duty_records.warnings(report)),
+        *(f"  {record.text}" for record in duty_verdicts.verdicts(report)),
+        *(f"beware  {record.name}: {record.text}" for record in duty_verdicts.warnings(report)),
         "",
         *_parts(report, "█" if "utf" in encoding.lower() else "#"),
         "",

@@ -28,7 +28,7 @@ from ballscrew.physics.sizing.listed_nut import NUTS, PRELOADED, lists_preload
 from ballscrew.physics.solvers.load_distribution import BallLoads, preload_of
 from ballscrew.questions.check.compute import Checked, checked, checks_by_loads
 from ballscrew.questions.duty import compute as duties
-from ballscrew.questions.duty import records as duty_records
+from ballscrew.questions.duty import verdicts as duty_verdicts
 from ballscrew.questions.duty.compute import DutyReport
 from ballscrew.questions.select import requirement_checks
 from ballscrew.questions.select.need import Need
@@ -367,7 +367,7 @@ class Starved(NamedTuple):
     @classmethod
     def of(cls, found: Checked, report: DutyReport | None) -> Starved:
         """Under load and without, each judged by itself: under load oil may matter little, and without it much."""
-        loaded = found.run.friction.starvation if report is None else duty_records.starved(report)
+        loaded = found.run.friction.starvation if report is None else duty_verdicts.starved(report)
         return cls(units.in_display_units_of(loaded), _without_load(found))
 
     @property

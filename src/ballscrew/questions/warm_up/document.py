@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 from ballscrew.basis.records import documents
 from ballscrew.cases.case_files import case_file, duty_tables, provenance
 from ballscrew.questions.shared import declared
-from ballscrew.questions.warm_up import records as warm_up_records
+from ballscrew.questions.warm_up import verdicts as warm_up_verdicts
 from ballscrew.questions.warm_up.answer import results
 from ballscrew.questions.warm_up.compute import WarmUpReport
-from ballscrew.questions.warm_up.records import band_records
+from ballscrew.questions.warm_up.verdicts import band_records
 
 if TYPE_CHECKING:
     from ballscrew.questions.warm_up.band import WarmUpBandReport
@@ -25,8 +25,8 @@ def document(report: WarmUpReport) -> dict[str, Any]:
         "results": declared.document(found),
         "units": declared.units(found),
         "assumed": list(report.assumed),
-        "warnings": documents(warm_up_records.warnings(report)),
-        "verdicts": documents(warm_up_records.verdicts(report)),
+        "warnings": documents(warm_up_verdicts.warnings(report)),
+        "verdicts": documents(warm_up_verdicts.verdicts(report)),
         "checks": [],
         "provenance": provenance.of_case(report.case),
     }

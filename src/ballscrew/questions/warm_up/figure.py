@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 from ballscrew.basis import units
 from ballscrew.basis.quantities import Quantity
 from ballscrew.questions.shared import charts
-from ballscrew.questions.warm_up import records as warm_up_records
 from ballscrew.questions.warm_up import text
+from ballscrew.questions.warm_up import verdicts as warm_up_verdicts
 from ballscrew.questions.warm_up.compute import PLACE, SERIES, WarmUpReport
 
 if TYPE_CHECKING:  # slow to import
@@ -70,7 +70,7 @@ def _shade(found: WarmUpBandReport, panel: Axes, name: str, colour: str) -> None
 
 def caption(report: WarmUpReport, found: WarmUpBandReport | None = None) -> str:
     """The verdicts, and what the panels show."""
-    said = ". ".join(record.text for record in warm_up_records.verdicts(report))
+    said = ". ".join(record.text for record in warm_up_verdicts.verdicts(report))
     shaded = ""
     if found is not None:
         level, count = f"{100 * found.bands.level:.4g} %", found.bands.count

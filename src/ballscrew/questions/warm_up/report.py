@@ -9,8 +9,8 @@ from ballscrew.questions.shared.chart_svg import named, svg_of
 from ballscrew.questions.shared.report_blocks import Block, Bullets, Columns, Paragraph, Picture, Table, sentence
 from ballscrew.questions.shared.text_tables import shown_or_dash
 from ballscrew.questions.warm_up import figure as figures
-from ballscrew.questions.warm_up import records as warm_up_records
 from ballscrew.questions.warm_up import text
+from ballscrew.questions.warm_up import verdicts as warm_up_verdicts
 from ballscrew.questions.warm_up.compute import EQUILIBRIUM, PLACE, SERIES, WarmUpReport, warmed_up
 
 #: Hours of work that a report shows.
@@ -30,8 +30,8 @@ def blocks_of(case: Case) -> list[Block]:
 
 def blocks(report: WarmUpReport) -> list[Block]:
     """All that a report says of warming up."""
-    said = [f"{sentence(record.text)}." for record in warm_up_records.verdicts(report)]
-    warned = [f"Beware: {record.text}." for record in warm_up_records.warnings(report)]
+    said = [f"{sentence(record.text)}." for record in warm_up_verdicts.verdicts(report)]
+    warned = [f"Beware: {record.text}." for record in warm_up_verdicts.warnings(report)]
     words = (
         "Temperatures, growth at ends and middle of the stroke, preload or friction power, and friction torque over "
         f"{HOURS:g} hours: {text.title(report)}."

@@ -12,7 +12,7 @@ from ballscrew.basis.output.wrapping import aligned, wrapped
 from ballscrew.cases.case_files import descriptions
 from ballscrew.questions.duty.compute import NUMBERS
 from ballscrew.questions.shared.text_tables import ends_or_dashes, shown_or_dash
-from ballscrew.questions.warm_up import records as warm_up_records
+from ballscrew.questions.warm_up import verdicts as warm_up_verdicts
 from ballscrew.questions.warm_up.compute import EQUILIBRIUM, PLACE, SERIES, WarmUpReport
 
 if TYPE_CHECKING:
@@ -37,8 +37,8 @@ def text(report: WarmUpReport) -> str:
         *_table(report),
         *_in_full_bath(report),
         "",
-        *(record.text for record in warm_up_records.verdicts(report)),
-        *(f"beware  {record.name}: {record.text}" for record in warm_up_records.warnings(report)),
+        *(record.text for record in warm_up_verdicts.verdicts(report)),
+        *(f"beware  {record.name}: {record.text}" for record in warm_up_verdicts.warnings(report)),
         "",
         *_steady(report),
         *_steady_in_full_bath(report),
@@ -79,7 +79,7 @@ def band_text(found: WarmUpBandReport) -> str:
         for name, one in found.of_surroundings.items()
     ]
     steady = f"{100 * bands.steady_share:.4g} % of the samples have a steady state"
-    beware = [f"beware  {record.name}: {record.text}" for record in warm_up_records.band_records(found)]
+    beware = [f"beware  {record.name}: {record.text}" for record in warm_up_verdicts.band_records(found)]
     return "\n".join(["", *aligned(rows), "", *(wrapped(line) for line in (said, *inputs, steady, *beware))])
 
 
