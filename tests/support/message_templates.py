@@ -131,9 +131,9 @@ def records() -> tuple[Said, ...]:
 
 @functools.cache
 def messages() -> frozenset[tuple[str, str]]:
-    """The templates of all messages with their modules, and the hints of annotations, which faults say."""
+    """The templates of all messages with their modules, texts that are marked as such, and the hints of annotations."""
     found = set()
-    for source, call in calls("Message"):
+    for source, call in calls("Message", "translatable", "filled_text"):
         templates: set[str] = set()
         value = argument(call, "template", 0)
         if value is not None:

@@ -17,9 +17,8 @@ declare global {
   type UnitChoice = Schemas["UnitChoice"];
   type Mechanisms = Vocabulary["mechanisms"];
   type VerdictRecord = Schemas["Record"];
-  type Template = Schemas["Template"];
+  type DrawingAnswer = Schemas["Drawing"];
   type Message = Schemas["Message"];
-  type ShownQuantity = Schemas["Shown"];
   type ProblemDocument = Schemas["Problem"];
   type FaultLine = Schemas["FaultLine"];
   type CatalogueRow = Schemas["Row"];

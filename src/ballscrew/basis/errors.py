@@ -17,7 +17,7 @@ from typing import Any, ParamSpec, TypeVar, cast, get_type_hints
 import numpy as np
 
 from ballscrew.basis.quantities import BEYOND, Info, Quantity, carries_unit, fields_of, in_si, out_of_bounds, unit_of
-from ballscrew.basis.records import Measured, Message, Value
+from ballscrew.basis.records import Measured, Message, Value, message_of
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -120,11 +120,6 @@ class Fault:
         given = self.given if isinstance(self.given, str) else self.given.changed(change)
         problem, remedy = (message_of(one).changed(change) for one in (self.problem, self.remedy))
         return dataclasses.replace(self, problem=problem, given=given, remedy=remedy)
-
-
-def message_of(text: str | Message) -> Message:
-    """A literal text as the template that it is."""
-    return Message(text) if isinstance(text, str) else text
 
 
 def _cut(text: str) -> str:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import dataclasses
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, Literal
+from typing import Any, Literal, Self
 
 from ballscrew.basis.quantities import Quantity
 
@@ -147,6 +147,38 @@ class Message:
 
 #: What stands in a message.
 Value = Measured | str | Setting | Named | UnitName | Message | Sequence[Message]
+
+
+def listed(messages: Iterable[Message]) -> Message:
+    """Messages with commas between them, as one."""
+    return Message("{parts}", {"parts": list(messages)})
+
+
+class FilledText(str):
+    """English text that keeps the message it was filled from: a text wherever one is asked for, as a note of a log.
+
+    The page shows the message. So messages of ``zope.i18nmessageid`` are texts, too.
+    """
+
+    message: Message
+
+    def __new__(cls, text: str, message: Message | None = None) -> Self:
+        """Return the text with its message; a text alone is the template of its own."""
+        made = super().__new__(cls, text)
+        made.message = Message(text) if message is None else message
+        return made
+
+
+def message_of(text: str | Message) -> Message:
+    """The message of a text: the one it was filled from, or the literal text as a template."""
+    if isinstance(text, Message):
+        return text
+    return text.message if isinstance(text, FilledText) else Message(text)
+
+
+def translatable(text: str) -> str:
+    """A literal text as it is, marked as the template of a message without values, as ``N_`` marks it for gettext."""
+    return text
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)

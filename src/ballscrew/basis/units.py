@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import contextvars
 import dataclasses
 import decimal
 import functools
@@ -12,14 +10,14 @@ import math
 import re
 import reprlib
 import sys
-from collections.abc import Generator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from importlib import resources
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from ballscrew.basis import pint_plugins as _pint_plugins
-from ballscrew.basis.errors import Fault, as_float, message_of
+from ballscrew.basis.errors import Fault, as_float
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.basis.records import Measured, Message, Record, UnitName, Value
+from ballscrew.basis.records import FilledText, Measured, Message, Record, UnitName, Value, message_of
 
 if TYPE_CHECKING:
     import pint
@@ -158,38 +156,10 @@ DIGITS = 4
 _EXACT = 12
 
 
-class ShownQuantity(NamedTuple):
-    """A quantity in a text for people: its value in SI, how many digits of it are shown, and how it is written.
-
-    ``toward`` is -1 or 1 for the lower or the upper end of a band, which is rounded down or up; 0 for others.
-    """
-
-    value: float
-    quantity: Quantity
-    digits: int
-    text: str
-    toward: int = 0
-
-
 _KINEMATIC = Message(
     "{remedy}; for a kinematic viscosity multiply by the density, or give kinematic_viscosity_40 and "
     'kinematic_viscosity_100, or grade = "ISO VG 100"'
 )
-_placeholders: contextvars.ContextVar[list[ShownQuantity] | None] = contextvars.ContextVar("placeholders", default=None)
-
-
-@contextlib.contextmanager
-def placeholders() -> Generator[list[ShownQuantity]]:
-    """Texts made meanwhile have ``{0}``, ``{1}`` and so on in place of their quantities, which are collected.
-
-    So they can be shown in other units without being made or parsed again. A placeholder is filled up with underscores:
-    where lines are broken it is as long as what it stands for.
-    """
-    token = _placeholders.set(found := [])
-    try:
-        yield found
-    finally:
-        _placeholders.reset(token)
 
 
 def rounded(value: Any, quantity: Quantity, digits: int = DIGITS, toward: int = 0) -> str:
@@ -218,17 +188,18 @@ def label(quantity: Quantity) -> str:
 
 def shown(value: Any, quantity: Quantity, digits: int = DIGITS, toward: int = 0) -> str:
     """A value with its unit, rounded for reading."""
-    text = " ".join(filter(None, (rounded(value, quantity, digits, toward), label(quantity))))
-    if (collected := _placeholders.get()) is None:
-        return text
-    collected.append(ShownQuantity(float(value), quantity, digits, text, toward))
-    start = f"{{{len(collected) - 1}"
-    return f"{start}{'_' * (len(text) - len(start) - 1)}}}"
+    return " ".join(filter(None, (rounded(value, quantity, digits, toward), label(quantity))))
 
 
 def filled(message: Message) -> str:
     """The English text of a message, with its numbers in display units."""
     return message.filled(_measured)
+
+
+def filled_text(template: str, **values: Value) -> FilledText:
+    """The English text of a template with its values in display units, which keeps its message."""
+    message = Message(template, values)
+    return FilledText(filled(message), message)
 
 
 def _measured(one: Measured) -> str:

@@ -7,18 +7,18 @@ import math
 import re
 import tomllib
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 import typer.testing
 
-from ballscrew.basis import units
 from ballscrew.basis.errors import InputError
-from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.cli import main
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.questions.validate import compute as validation
 from support.documents import assert_same, differences
+from support.filled_messages import as_printed
 
 EXAMPLES = sorted((Path(__file__).parents[3] / "examples").glob("*.toml"))
 PAPER = next(path for path in EXAMPLES if path.stem == "olaru2005")
@@ -44,19 +44,9 @@ def document(*words):
     return json.loads(printed(*words))
 
 
-def as_printed(display):
-    """The texts of templates, each quantity as the command line shows it."""
-
-    def text(one):
-        quantities = [Quantity("", q["unit"], Info("", "", q["shown_in"])) for q in one["quantities"]]
-        numbers = [
-            units.shown(q["value"], known, q["digits"], q["toward"])
-            for q, known in zip(one["quantities"], quantities, strict=True)
-        ]
-        return one["text"].format(*numbers)
-
-    return {name: [text(one) for one in found] if isinstance(found, list) else text(found)
-            for name, found in display.items()}  # fmt: skip
+def without_zeros(text):
+    """A text whose numbers have no zeros at the end of their decimals."""
+    return re.sub(r"(\.\d*?)0+(?!\d)", lambda decimals: decimals[1].rstrip("."), text)
 
 
 def tables_of(path, settings=()):
@@ -102,7 +92,11 @@ def test_run(server, tables, tmp_path):
     found = server.post("run", {"case": tables}).json()
     words, display = found.pop("words"), found.pop("display")
     assert_same(found, document("run", written(tables, tmp_path), "--json"))
-    assert words == as_printed(display)
+    assert words["title"] == as_printed(display["title"])
+    assert list(map(without_zeros, words["assumed"])) == [without_zeros(as_printed(one)) for one in display["assumed"]]
+    assert words["verdicts"] == [one["text"] for one in found["verdicts"]]
+    rigidity = found.get("loads", {}).get("axial_rigidity", {})
+    assert rigidity.get("assumed", []) == [as_printed(one) for one in display["rigidity"]]
     text = printed("run", written(tables, tmp_path))
     flat = " ".join(text.split())
     assert " ".join(words["title"].split()) in flat
@@ -111,8 +105,6 @@ def test_run(server, tables, tmp_path):
 
 def test_check(server, tables, tmp_path):
     found = server.post("check", {"case": tables}).json()
-    for one in found["checks"]:
-        assert one["text"] == as_printed({"text": one.pop("display")})["text"]
     expected = document("check", written(tables, tmp_path), "--json")
     assert {"name": "case.toml", **found} == expected
     assert found["holds"] == all(one["holds"] is True for one in found["checks"])
@@ -170,7 +162,8 @@ def test_band(server, path, options):
     words += ["--level", options.get("level")] * ("level" in options)
     words += ["--only-given"] * options.get("only_given", False)
     said, display = found.pop("words"), found.pop("display")
-    assert said["sentences"] == as_printed(display)["sentences"]
+    assert said["inputs"] == as_printed(display["inputs"])
+    assert set(said["sentences"]) < {one["text"] for one in found["verdicts"]}
     assert_same(found, document("run", path, "--band", "--json", *words))
 
 
@@ -261,12 +254,16 @@ def test_warm_up(server, tmp_path):
     """Of a motion and of an operating point, with bands and without; refused as on the command line."""
     tables = tables_of(next(path for path in EXAMPLES if path.stem == "warm_up"))
     words = ("warm-up", written(tables, tmp_path), "--json", "--hours", "0.5", "--cool-down", "0.25")
-    assert server.post("warm-up", {"case": tables, "hours": 0.5, "cool_down": 0.25}).json() == document(*words)
+    found = server.post("warm-up", {"case": tables, "hours": 0.5, "cool_down": 0.25}).json()
+    assert [as_printed(one) for one in found.pop("display")["assumed"]] == found["assumed"]
+    assert found == document(*words)
     for name in ("axis", "motion"):
         del tables[name]
     words = ("warm-up", written(tables, tmp_path), "--json", "--hours", "0.5", "--band", "--samples", "8")
     body = {"case": tables, "hours": 0.5, "band": True, "samples": 8}
-    assert server.post("warm-up", body).json() == document(*words)
+    found = server.post("warm-up", body).json()
+    assert found.pop("display")["assumed"]
+    assert found == document(*words)
     for more, line in (
         ({"hours": 0.0}, "--hours: must be above 0 and at most 8766 (0) · write --hours 4"),
         ({"samples": 8}, "--samples: needs --band (8) · add --band"),
@@ -342,15 +339,19 @@ def test_drawing(server, path):
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
-def test_drawing_as_a_template(server, path):
-    """Filled, it is the drawing; only lines may be broken elsewhere, and the sign of degrees is another."""
+def test_drawing_with_messages(server, path):
+    """Its texts are those of the messages; only the signs of degrees and of places are others."""
 
     def words(text):
-        return re.sub(r"<[^>]*>|\s", "", text).replace("deg", "°")
+        return re.sub(r"\s|\+", "", without_zeros(text)).replace("deg", "°").replace("−", "-")
 
     found = server.post("drawing/template", {"case": tables_of(path)}).json()
-    plain = server.post("drawing", {"case": tables_of(path)}).text
-    assert words(as_printed({"drawing": found})["drawing"]) == words(plain)
+    places = ElementTree.fromstring(found["text"]).findall(".//*[@data-text]")
+    assert [int(place.get("data-text")) for place in places] == list(range(len(found["messages"])))
+    shown = [words("".join(place.itertext())) for place in places]
+    assert shown == [words(as_printed(one)) for one in found["messages"]]
+    plain = ElementTree.fromstring(server.post("drawing", {"case": tables_of(path)}).text)
+    assert words("".join(plain.itertext())) == words("".join(ElementTree.fromstring(found["text"]).itertext()))
 
 
 #: Each kind once; those of the elastic nut take four times as long.

@@ -22,16 +22,24 @@ from tests.support.message_templates import (
 )
 
 from ballscrew.axis.duty_cycle.drive import AS_GIVEN, FULL_BATH
-from ballscrew.cases.schema.case_schema import json_schema
+from ballscrew.axis.thermal.surroundings import Surroundings
+from ballscrew.basis.quantities import fields_of
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.schema.case_schema import LAWS, json_schema
+from ballscrew.cases.screw_tables.nut_kinds import NUTS
+from ballscrew.engine.evaluation.outputs import inputs_of
+from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE, TORQUE_DRIFT, TORQUE_OFFSET
 from ballscrew.faces.web import languages
 from ballscrew.faces.web.vocabulary import OPTIONS
+from ballscrew.physics.friction.law_names import coefficients
+from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import QUADRANTS
 from ballscrew.physics.sizing.installation import Ends
 from ballscrew.questions.axis.compute import SPRINGS
 from ballscrew.questions.duty.compute import OF_BATH
 from ballscrew.questions.optimise.need_schema import json_schema as need_schema
 from ballscrew.questions.shared.options import options_of
-from ballscrew.questions.warm_up.compute import AT_END, AT_START
+from ballscrew.questions.warm_up.compute import AT_END, AT_START, OF_DEFAULTS
 from ballscrew.questions.warm_up.self_heating import GIVEN, WARM
 
 PAGE = Path(languages.__file__).with_name("page")
@@ -93,7 +101,7 @@ NAMES = {
     "drive torque", "back driving", "step", "as listed",
     "computed from the geometry (ISO 3408-5)", "installation", "limits.running_time",
     "static_load_rating", "dynamic_load_rating", "maximum_pressure",
-    *SPRINGS,
+    *SPRINGS, *(fields_of(Surroundings)[name].info.meaning for name in OF_DEFAULTS),
     "Stribeck, viscous and load", "efficiency pair", "10 tests", "a year", "1000 h",
 }  # fmt: skip
 #: Fields of a record that are no text.
@@ -136,6 +144,26 @@ def test_every_message_is_translated(name):
     wanted = {one for one in of_page() if has_words(one)} | NAMES
     assert len(wanted) > 1000
     assert wanted - said(name).keys() == set()
+
+
+def named():
+    """Names that stand in messages by their path: fields of nuts, laws and their coefficients, numbers of fits."""
+    case = case_file.load(Path(__file__).parents[3] / "examples" / "rig.toml")
+    known = set(inputs_of(case.model, case.screw, case.lubricant))
+    known |= {f"model.{name}" for name in (*LAWS, *fields_of(FrictionModel))}
+    known |= {name for slot in LAWS.values() for law in slot.values() for name in coefficients(law)}
+    known |= {f"nut.{name}" for kind in NUTS.values() for name in fields_of(kind)}
+    return known | {one.name for one in (CONSTANT_TORQUE, TORQUE_OFFSET, TORQUE_DRIFT)}
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_every_name_is_translated(name):
+    """As the page looks for the label of a name: by its path, its last part, and in each section."""
+    texts = languages.texts()[name]
+    labels = {key.split(".")[-2] for key in texts if re.fullmatch(r"field\..+\.label", key)}
+    labels |= {key.removeprefix("fit.number.") for key in texts if key.startswith("fit.number.")}
+    assert len(named()) > 60
+    assert {path for path in named() if path.rpartition(".")[2] not in labels} == set()
 
 
 @pytest.mark.parametrize("name", list(languages.texts()))
@@ -308,6 +336,9 @@ def test_the_page_in_german(visit):
         here.settle()
         assert here.text("#checks-title") == "Nachweise"
         assert re.search(r"\d,\d", here.text("#numbers"))
+        here.page.locator("#drawing text", has_text="Schnitt quer zur Bahn").wait_for()
+        assert "Rauheit von Kugeln, Spindel, Mutter" in here.text("#assumed")
+        assert here.page.locator("#results [lang=en]").count() == 0
         assert not re.search(r"\d\.\d", here.text("#numbers"))
         here.unit("operation.axial_load", "N").type("operation.axial_load", "1.234")  # a thousand to most, not to all
         fault = here.page.locator("[data-path='operation.axial_load'] .fault").inner_text()

@@ -15,6 +15,7 @@ from ballscrew.faces.web.request_queue import RequestQueue
 from ballscrew.faces.web.server import application
 from faces.web.test_equal_to_commands import document, written
 from support.documents import assert_same
+from support.filled_messages import as_printed
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 
@@ -93,7 +94,10 @@ def test_fit(post, folders, tmp_path):
     picture = extra["picture"]
     assert len({len(values) for values in picture.values() if isinstance(values, list)}) == 1
     assert picture["kinds"].count("held_out") == found["rows"]["held_out"]
-    assert extra["words"]["next_test"][0].startswith("next test: ")
+    words, display = extra["words"], extra["display"]
+    assert words["next_test"][0].startswith("next test: ")
+    assert words["next_test"] == [as_printed(one) for one in display["next_test"]]
+    assert words["trade_off"] == as_printed(display["trade_off"])
 
 
 def test_columns(post, folders):
@@ -147,7 +151,7 @@ def test_service(post, folders, tmp_path):
     assert found["results"]["verdict"] == "lost"
     assert set(extra["picture"]) == {"new", "worn"}
     assert extra["words"]["title"] == "new.csv, worn.csv"
-    assert extra["display"]["verdicts"][0]["text"] == found["verdicts"][0]["text"]
+    assert extra["words"]["causes"] == [as_printed(one) for one in extra["display"]["causes"]]
 
 
 @pytest.mark.parametrize(("target", "name"), [("c", "c.zip"), ("linuxcnc", "ballscrew.hal")])
@@ -161,7 +165,7 @@ def test_hand_over(post, folders, tmp_path, target, name):
     case = written(body["case"], tmp_path)
     expected = document("hand-over", case, "--to", target, "--range", "axial_load=-4:4 kN", "-o", out, "--json")
     found = post("hand-over", body)
-    file, words = found.pop("file"), found.pop("words")
+    file, words, display = (found.pop(name) for name in ("file", "words", "display"))
     files = found["results"].pop("files")
     assert expected["results"].pop("files") == [str(out / one) for one in files]
     assert_same(found, expected)
@@ -175,6 +179,8 @@ def test_hand_over(post, folders, tmp_path, target, name):
     else:
         assert content == (out / files[0]).read_bytes()
     assert words["lines"][0].startswith("range")
+    lines = [line.strip() for line in words["lines"] if not line.startswith("warning: ")]
+    assert lines == [as_printed(one) for one in display["lines"]]
 
 
 def test_targets(client, post):

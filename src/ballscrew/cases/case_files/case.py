@@ -42,9 +42,16 @@ class PreloadNote(NamedTuple):
 
     def __str__(self) -> str:
         """``preload 5.047 kN: 7 % of the dynamic load rating 72.1 kN, as listed``."""
+        return units.filled(self.message)
+
+    @property
+    def message(self) -> Message:
+        """The preload, the share, the rating and its source."""
         quantity = LISTED["dynamic_load_rating"]
-        force, rated = (units.shown(value, quantity) for value in (self.share * self.rating, self.rating))
-        return f"preload {force}: {100 * self.share:.4g} % of the dynamic load rating {rated}, {self.source}"
+        force, rating = (units.measured(value, quantity) for value in (self.share * self.rating, self.rating))
+        share = units.as_written(f"{100 * self.share:.4g}")
+        message = Message("preload {force}: {share} % of the dynamic load rating {rating}, {source}")
+        return message.of(force=force, share=share, rating=rating, source=Message(self.source))
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

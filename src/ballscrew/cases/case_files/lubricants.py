@@ -15,7 +15,7 @@ from ballscrew.basis.units import in_display_units
 from ballscrew.cases.case_files.oil_library import named_oil
 from ballscrew.cases.schema.sections import Sections
 from ballscrew.physics.components.data_sheet import SHEET_TEMPERATURE, DataSheet
-from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
+from ballscrew.physics.components.materials import Lubricant
 
 #: What tells an oil, each on its own; a library and a data sheet go together, the sheet over the library.
 _POINTS = ("kinematic_viscosity_40", "kinematic_viscosity_100")
@@ -138,17 +138,12 @@ def _shown(fault: Fault, table: Mapping[str, Any]) -> Fault:
     return in_display_units(fault, known[name], str(table.get(name, fault.given)))
 
 
-def described(oil: Mapping[str, Any]) -> str:
-    """The oil in words by what it was made from: ``ISO VG 100``, ``100 and 11.1 cSt at 40 and 100 °C``."""
+def described(oil: Mapping[str, Any]) -> Message:
+    """The oil by what it was made from: ``ISO VG 100``, ``with 100 cSt at 40 °C and 11.1 cSt at 100 °C``."""
     if "grade" in oil:
-        return str(oil["grade"])
+        return Message("{oil}", {"oil": str(oil["grade"])})
     if "oil" in oil:
-        return str(oil["oil"])
+        return Message("{oil}", {"oil": str(oil["oil"])})
     known = fields_of(DataSheet)
-    warm, hot = (units.shown(oil[name], known[name]) for name in _POINTS)
-    return f"with {warm} at 40 °C and {hot} at 100 °C"
-
-
-def shown_temperature(oil: Mapping[str, Any], default: float) -> str:
-    """The temperature that an oil was made at."""
-    return units.shown(oil.get("temperature", default), TEMPERATURE)
+    warm, hot = (units.measured(oil[name], known[name]) for name in _POINTS)
+    return Message("with {warm} at 40 °C and {hot} at 100 °C", {"warm": warm, "hot": hot})

@@ -125,7 +125,7 @@ def _made(row: Row, path: Path, taken: dict[str, int], logs: dict[str, Path]) ->
     if isinstance(seals := values.get("seal_torque"), str):
         values["seal_torque"] = _seal_torque(seals, values, faults)
         if seals == column_names.STANDARD:
-            values["seal_torque_source"] = _seals_of(str(values.get("make", "")))
+            values["seal_torque_source"] = units.filled(seal_source(str(values.get("make", ""))))
     if "spacer_balls" in values:
         values["spacer_balls"] = values["spacer_balls"] == column_names.YES
     try:
@@ -155,10 +155,13 @@ def _seal_torque(word: str, values: Mapping[str, Any], faults: list[Fault]) -> f
         return None
 
 
-def _seals_of(make: str) -> str:
+def seal_source(make: str) -> Message:
     """The source of the torque of standard seals, which are those of one maker."""
-    of_other = "" if SEAL_MAKER in make.casefold() else f", not of {make}" if make else ", of whatever make the nut is"
-    return f"standard seals of {SEAL_SOURCE}{of_other}"
+    if SEAL_MAKER in make.casefold():
+        return Message("standard seals of {source}", {"source": SEAL_SOURCE})
+    if not make:
+        return Message("standard seals of {source}, of whatever make the nut is", {"source": SEAL_SOURCE})
+    return Message("standard seals of {source}, not of {make}", {"source": SEAL_SOURCE, "make": make})
 
 
 def _in_column(fault: Fault, row: Row) -> Fault:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-import textwrap
 from collections.abc import Sequence
 from typing import NamedTuple
 
 from ballscrew.basis import units
+from ballscrew.basis.errors import both, chained
 from ballscrew.basis.quantities import quantities_of
+from ballscrew.basis.records import Measured, Message
 from ballscrew.faces.report import svg
 from ballscrew.faces.report.contact_geometry import DrawnBall, DrawnContact, SlipField
 from ballscrew.faces.report.svg import BLUE, FAINT, GREEN, RED, TEXT, TITLE, Panel, Point
@@ -19,7 +20,7 @@ _LEFT, _MIDDLE, _ABOVE, _HALF_ACROSS, _HALF_ALONG = 254.0, 418.0, 56.0, 140.0, 7
 #: Below this b/a the ellipse is drawn stretched along the path.
 SMALLEST_RATIO = 0.17
 _COLUMNS, _ROWS, _ROOM, _RIM = 15, 5, 0.95, 1.8
-_LINE, _CHARACTERS = 17.0, 46
+_CHARACTERS = 46
 
 _CONTACT = quantities_of(RaceState)
 _SLIP = _CONTACT["creep_speed"]
@@ -27,10 +28,10 @@ _SLIP = _CONTACT["creep_speed"]
 
 def contact(ball: DrawnBall) -> Panel:
     """The ellipse to scale, the lines of pure rolling, the slip as arrows, and what is to be said of them."""
-    parts = [svg.text((_LEFT, 20), "Contact of ball and screw", TITLE, font_weight="bold")]
+    parts: list[svg.Part] = [svg.text((_LEFT, 20), Message("Contact of ball and screw"), TITLE, font_weight="bold")]
     if ball.contact is None:
-        lines = _paragraph(ball.missing, 60)
-        return Panel([*parts, *lines.parts], lines.bottom)
+        lines = svg.Paragraph((_LEFT, 60), Message(ball.missing), _CHARACTERS)
+        return Panel([*parts, lines], lines.bottom)
     touching = ball.contact
     place = Place.of(touching)
     outline = (place.middle, place.across, place.along)
@@ -41,8 +42,9 @@ def contact(ball: DrawnBall) -> Panel:
     if touching.slip is not None:
         parts += _arrows(touching, touching.slip, place)
     bottom = place.middle[1] + place.along + 74
-    lines = _paragraph(" ".join(in_words(ball)[1:]), bottom + (0 if touching.slip is None else 22))
-    parts += [*_axes(touching, place), *_legend(touching, bottom), *lines.parts]
+    at = _LEFT, bottom + (0 if touching.slip is None else 22)
+    lines = svg.Paragraph(at, sentences(in_words(ball)[1:]), _CHARACTERS)
+    parts += [*_axes(touching, place), *_legend(touching, bottom), lines]
     return Panel(parts, lines.bottom)
 
 
@@ -109,21 +111,25 @@ def _arrow_scale(grid: Sequence[Point], slips: Sequence[Point], step: Point) -> 
     return min(limits, default=0.0)
 
 
-def _axes(contact: DrawnContact, place: Place) -> list[str]:
+def _axes(contact: DrawnContact, place: Place) -> list[svg.Part]:
     """Both semi-axes with their lengths, outside the ellipse, and which of its ends is where in the groove."""
     (x, y), across, along = place.middle, place.across, place.along
     below, left, right = y + along + 15, x - across - 14, x + across + 8
-    a, b = (units.shown(getattr(contact, name), _CONTACT[name]) for name in ("semi_major_axis", "semi_minor_axis"))
+    a, b = (_of_contact(contact, name) for name in ("semi_major_axis", "semi_minor_axis"))
     return [
         *_measure((x, below), (x + across, below)),
-        svg.text((x + across / 2, below + 15), f"a {a}", TEXT, "middle"),
+        svg.text((x + across / 2, below + 15), Message("a {length}", {"length": a}), TEXT, "middle"),
         *_measure((right, y - along), (right, y)),
-        svg.text((right + 4, y - along - 8), f"b {b}", TEXT, "end"),
+        svg.text((right + 4, y - along - 8), Message("b {length}", {"length": b}), TEXT, "end"),
         svg.arrow((left, y + 18), (left, y - 18), 7, "currentColor", 1.4),
-        svg.text((left - 6, y - along - 8), "path", TEXT),
-        svg.text((x - across, below + 15), "← groove bottom", TEXT),
-        svg.text((right + 4, below + 32), "groove edge →", TEXT, "end"),
+        svg.text((left - 6, y - along - 8), Message("path"), TEXT),
+        svg.text((x - across, below + 15), Message("← groove bottom"), TEXT),
+        svg.text((right + 4, below + 32), Message("groove edge →"), TEXT, "end"),
     ]
+
+
+def _of_contact(contact: DrawnContact, name: str) -> Measured:
+    return units.measured(getattr(contact, name), _CONTACT[name])
 
 
 def _measure(start: Point, end: Point) -> list[str]:
@@ -139,59 +145,62 @@ def _measure(start: Point, end: Point) -> list[str]:
     ]
 
 
-def _legend(contact: DrawnContact, y: float) -> list[str]:
+def _legend(contact: DrawnContact, y: float) -> list[svg.Part]:
     if contact.slip is None:
         return []
-    x, parts = _LEFT, list[str]()
-    for colour, words, wide in ((BLUE, "screw ahead of ball", 170), (RED, "behind", 88)):
+    x, parts = _LEFT, list[svg.Part]()
+    for colour, words, wide in ((BLUE, Message("screw ahead of ball"), 170), (RED, Message("behind"), 88)):
         parts += [svg.arrow((x, y - 4), (x + 18, y - 4), 6, colour, 1.6), svg.text((x + 23, y), words, TEXT)]
         x += wide
     if contact.slip.lines:
         parts += [
             svg.line((x, y - 4), (x + 18, y - 4), stroke_dasharray="5 3", stroke_width=1.4),
-            svg.text((x + 22, y), "neither", TEXT),
+            svg.text((x + 22, y), Message("neither"), TEXT),
         ]
     return parts
 
 
-def _paragraph(words: str, y: float) -> Panel:
-    lines = textwrap.wrap(words, _CHARACTERS)
-    return Panel([svg.text((_LEFT, y + _LINE * i), line) for i, line in enumerate(lines)], y + _LINE * (len(lines) - 1))
+def sentences(said: Sequence[Message]) -> Message:
+    """Sentences one after another."""
+    return chained(Message("{others} {last}"), said)
 
 
-def in_words(ball: DrawnBall) -> Sequence[str]:
+def in_words(ball: DrawnBall) -> Sequence[Message]:
     """Alternative text of the picture of the contact, with its numbers."""
     contact = ball.contact
     if contact is None:
-        return [ball.missing]
-    a, b, pressure = (
-        units.shown(getattr(contact, name), _CONTACT[name])
-        for name in ("semi_major_axis", "semi_minor_axis", "maximum_pressure")
+        return [Message(ball.missing)]
+    axes = Message(
+        "Right: contact ellipse of ball and screw, semi-axes a = {a} across the path and b = {b} along it.",
+        {"a": _of_contact(contact, "semi_major_axis"), "b": _of_contact(contact, "semi_minor_axis")},
     )
-    words = [
-        f"Right: contact ellipse of ball and screw, semi-axes a = {a} across the path and b = {b} along it.",
-        f"Greatest pressure {pressure}.",
-    ]
+    words = [axes, Message("Greatest pressure {pressure}.", {"pressure": _of_contact(contact, "maximum_pressure")})]
     if contact.slip is not None:
         words += _slip_in_words(contact, contact.slip)
     stretched = Place.of(contact).stretched
     if stretched > 1:
-        words.append(f"The ellipse is stretched {stretched:g} times along the path.")
-    return [*words, *([contact.missing] if contact.missing else [])]
+        times = {"times": units.as_written(f"{stretched:g}")}
+        words.append(Message("The ellipse is stretched {times} times along the path.", times))
+    return [*words, *([Message(contact.missing)] if contact.missing else [])]
 
 
-def _slip_in_words(contact: DrawnContact, field: SlipField) -> list[str]:
-    largest = units.shown(field.largest(contact.axes_ratio), _SLIP)
-    rolling = units.shown(field.entrainment_speed, _SLIP)
-    words = [f"Largest slip {largest}, at a rolling speed of {rolling}."]
-    lines = [f"{t:+.3f} a".replace("-", "−") for t in field.lines]
+def _slip_in_words(contact: DrawnContact, field: SlipField) -> list[Message]:
+    slip = {
+        "slip": units.measured(field.largest(contact.axes_ratio), _SLIP),
+        "speed": units.measured(field.entrainment_speed, _SLIP),
+    }
+    words = [Message("Largest slip {slip}, at a rolling speed of {speed}.", slip)]
+    lines = [
+        Message("{place} a", {"place": Measured(round(t, 3), digits=12, written=f"{t:+.3f}".replace("-", "−"))})
+        for t in field.lines
+    ]
     words.append(
-        f"Nothing slips along the path at {' and '.join(lines)}."
+        Message("Nothing slips along the path at {places}.", {"places": both(lines)})
         if lines
-        else "The screw slips the same way along the path all over the contact."
+        else Message("The screw slips the same way along the path all over the contact.")
     )
     if field.along_only:
-        words.append("The model has no slip across the path.")
+        words.append(Message("The model has no slip across the path."))
     elif field.lateral:
-        words.append("Drawn as the screw drives.")
+        words.append(Message("Drawn as the screw drives."))
     return words

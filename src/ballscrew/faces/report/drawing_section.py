@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
+from typing import NamedTuple
 
 from ballscrew.basis import units
+from ballscrew.basis.errors import both, chained
 from ballscrew.basis.quantities import fields_of, quantities_of
+from ballscrew.basis.records import Measured, Message
 from ballscrew.faces.report import svg
 from ballscrew.faces.report.contact_geometry import DrawnBall
-from ballscrew.faces.report.svg import FAINT, GREEN, TEXT, TITLE, Panel, Point
+from ballscrew.faces.report.svg import FAINT, GREEN, LINE, TEXT, TITLE, Panel, Point
 from ballscrew.physics.components.contact import RaceState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.questions.run.nut_state import Touching
@@ -18,8 +22,30 @@ BALL, RADIUS = (122.0, 158.0), 78.0
 _HALF_WIDTH, _BODY = 116.0, 44.0
 #: How far the grooves go up the ball, of its radius, or of the height of its contacts: catalogues do not say.
 _LAND, _LAND_OF_CONTACT = 0.35, 0.6
-_LINE = 17.0
 
+
+class _Words(NamedTuple):
+    """The sizes of ball and grooves."""
+
+    ball: Message
+    groove: Message
+    screw_groove: Message
+    nut_groove: Message
+
+
+#: Where there is little room, and in the alternative text.
+_SHORT = _Words(
+    Message("ball ⌀ {diameter}"),
+    Message("groove radius {radius}, {factor} ⌀"),
+    Message("screw groove r {radius}, {factor} ⌀"),
+    Message("nut groove r {radius}, {factor} ⌀"),
+)
+_LONG = _Words(
+    Message("ball diameter {diameter}"),
+    Message("groove radius {radius}, {factor} diameter"),
+    Message("screw groove radius {radius}, {factor} diameter"),
+    Message("nut groove radius {radius}, {factor} diameter"),
+)
 _SCREW = fields_of(BallScrew)
 _LENGTH, _ANGLE, _LOAD = _SCREW["ball_diameter"], _SCREW["contact_angle"], quantities_of(RaceState)["contact_load"]
 
@@ -65,10 +91,13 @@ def section(ball: DrawnBall) -> Panel:
     """The ball, its grooves, its contacts and their angle, a scale, and the sizes in words."""
     flanks = {flank.side: flank for flank in ball.flanks}
     main = max(ball.flanks, key=lambda flank: flank.load)
-    parts = [svg.text((8, 20), "Section across the path", TITLE, font_weight="bold")]
+    parts: list[svg.Part] = [svg.text((8, 20), Message("Section across the path"), TITLE, font_weight="bold")]
     lowest = min(math.cos(flank.angle) for flank in ball.flanks)
     land = RADIUS * min(_LAND, _LAND_OF_CONTACT * lowest)
-    for conformity, down, name in ((ball.nut_conformity, -1, "nut"), (ball.screw_conformity, 1, "screw")):
+    for conformity, down, name in (
+        (ball.nut_conformity, -1, Message("nut")),
+        (ball.screw_conformity, 1, Message("screw")),
+    ):
         grooves = {side: Groove(conformity, flanks.get(side, main).angle, side, down) for side in (1, -1)}
         left, right = sorted(grooves.values(), key=lambda groove: groove.normal[0])
         parts += _body(left, right, land, down)
@@ -82,10 +111,10 @@ def section(ball: DrawnBall) -> Panel:
     parts.append(svg.circle(BALL, RADIUS, stroke_width=1.6))
     for flank in ball.flanks:
         parts += _normal(ball, flank)
-    parts += [*_angle(main, both=len(ball.flanks) > 1), *_scale_bar(ball)]
-    notes, y = _sizes_in_words(ball), BALL[1] + RADIUS + _BODY + 22
-    parts += [svg.text((8, y + _LINE * i), words) for i, words in enumerate(notes)]
-    return Panel(parts, y + _LINE * (len(notes) - 1))
+    parts += [*_angle(main, has_both=len(ball.flanks) > 1), *_scale_bar(ball)]
+    notes, y = _sizes(ball, _SHORT), BALL[1] + RADIUS + _BODY + 22
+    parts += [svg.text((8, y + LINE * i), words) for i, words in enumerate(notes)]
+    return Panel(parts, y + LINE * (len(notes) - 1))
 
 
 def _body(left: Groove, right: Groove, land: float, down: int) -> list[str]:
@@ -139,15 +168,15 @@ def _scale(ball: DrawnBall) -> float:
     return 2 * RADIUS / ball.ball_diameter
 
 
-def _angle(flank: Touching, *, both: bool) -> list[str]:
+def _angle(flank: Touching, *, has_both: bool) -> list[svg.Part]:
     """The contact angle against the radius."""
     radius, side = 0.5 * RADIUS, flank.side
     start = (BALL[0], BALL[1] - radius)
     end = (BALL[0] + side * radius * math.sin(flank.angle), BALL[1] - radius * math.cos(flank.angle))
-    words = f"α {units.shown(flank.angle, _ANGLE).replace(' deg', '°')}"
+    words = Message("α {angle}", {"angle": _degrees(flank)})
     # beside the arc where there is room: between the normals with two, else on the far side of the radius
-    middle = (BALL[0] - side * 6, BALL[1] - radius + 4) if not both else (BALL[0], BALL[1] + 0.62 * RADIUS)
-    anchor = "middle" if both else "end" if side > 0 else "start"
+    middle = (BALL[0] - side * 6, BALL[1] - radius + 4) if not has_both else (BALL[0], BALL[1] + 0.62 * RADIUS)
+    anchor = "middle" if has_both else "end" if side > 0 else "start"
     return [
         svg.line(BALL, (BALL[0], BALL[1] - 0.8 * RADIUS), stroke_width=0.8, opacity=0.8),
         svg.path([svg.to(start, "M"), svg.arc(end, radius, clockwise=side > 0)], stroke_width=1.0),
@@ -155,7 +184,13 @@ def _angle(flank: Touching, *, both: bool) -> list[str]:
     ]
 
 
-def _scale_bar(ball: DrawnBall) -> list[str]:
+def _degrees(flank: Touching) -> Measured:
+    """The contact angle as it is written in drawings."""
+    found = units.measured(flank.angle, _ANGLE)
+    return dataclasses.replace(found, written=found.written.replace(" deg", "°"))
+
+
+def _scale_bar(ball: DrawnBall) -> list[svg.Part]:
     """One, two or five times a power of ten millimetres, about a third of the ball."""
     wanted = 0.42 * ball.ball_diameter * 1e3
     power = 10 ** math.floor(math.log10(wanted))
@@ -165,40 +200,50 @@ def _scale_bar(ball: DrawnBall) -> list[str]:
     return [
         svg.line(*ends, stroke_width=2.2),
         *(svg.line((end[0], y - 4), (end[0], y + 4), stroke_width=1.2) for end in ends),
-        svg.text((x - wide / 2, y - 7), units.shown(length * 1e-3, _LENGTH), TEXT, "middle"),
+        svg.text(
+            (x - wide / 2, y - 7),
+            Message("{length}", {"length": units.measured(length * 1e-3, _LENGTH)}),
+            TEXT,
+            "middle",
+        ),
     ]
 
 
-def _sizes_in_words(ball: DrawnBall) -> list[str]:
-    diameter = units.shown(ball.ball_diameter, _LENGTH)
-    radii = [units.shown(f * ball.ball_diameter, _LENGTH) for f in (ball.screw_conformity, ball.nut_conformity)]
-    factors = [f"{f:.4g}" for f in (ball.screw_conformity, ball.nut_conformity)]
-    grooves = (
-        [f"groove radius {radii[0]}, {factors[0]} ⌀"]
-        if factors[0] == factors[1]
-        else [f"screw groove r {radii[0]}, {factors[0]} ⌀", f"nut groove r {radii[1]}, {factors[1]} ⌀"]
+def _sizes(ball: DrawnBall, words: _Words) -> list[Message]:
+    """The sizes of ball and grooves, and the loads."""
+    conformities = ball.screw_conformity, ball.nut_conformity
+    factors = [f"{f:.4g}" for f in conformities]
+    screw, nut = (
+        {"radius": units.measured(f * ball.ball_diameter, _LENGTH), "factor": units.as_written(factor)}
+        for f, factor in zip(conformities, factors, strict=True)
     )
-    return [f"ball ⌀ {diameter}", *grooves, *_loads_in_words(ball)]
+    same = factors[0] == factors[1]
+    grooves = [words.groove.of(**screw)] if same else [words.screw_groove.of(**screw), words.nut_groove.of(**nut)]
+    return [words.ball.of(diameter=units.measured(ball.ball_diameter, _LENGTH)), *grooves, *_loads(ball)]
 
 
-def _loads_in_words(ball: DrawnBall) -> list[str]:
+def _loads(ball: DrawnBall) -> list[Message]:
     if ball.load == 0:
-        return ["no load on the ball"]
-    words = "load of this ball" if ball.most_loaded else "load of each ball"
+        return [Message("no load on the ball")]
+    whose = Message("load of this ball") if ball.most_loaded else Message("load of each ball")
     if not math.isfinite(ball.load):
-        return [f"{words}: no number"]
+        return [Message("{load_of_ball}: no number", {"load_of_ball": whose})]
+    loads = [Message("{load}", {"load": units.measured(flank.load, _LOAD)}) for flank in ball.flanks]
+    said = Message("{load_of_ball} {load}", {"load_of_ball": whose, "load": both(loads)})
     if len(ball.flanks) == 1:
-        return [f"{words} {units.shown(ball.load, _LOAD)}"]
-    loads = " and ".join(units.shown(flank.load, _LOAD) for flank in ball.flanks)
-    angles = " and ".join(units.shown(flank.angle, _ANGLE).replace(" deg", "°") for flank in ball.flanks)
-    return [f"{words} {loads}", f"at {angles}: four contacts"]
+        return [said]
+    angles = both([Message("{angle}", {"angle": _degrees(flank)}) for flank in ball.flanks])
+    return [said, Message("at {angles}: four contacts", {"angles": angles})]
 
 
-def in_words(ball: DrawnBall) -> list[str]:
+def in_words(ball: DrawnBall) -> list[Message]:
     """Alternative text of the section, with its numbers."""
-    angles = " and ".join(units.shown(flank.angle, _ANGLE) for flank in ball.flanks)
+    angles = [Message("{angle}", {"angle": units.measured(flank.angle, _ANGLE)}) for flank in ball.flanks]
     return [
-        "Left: section across the path of the balls, to scale, the screw below and the nut above; how far the grooves "
-        f"reach is assumed. Contact angle {angles}.",
-        f"{'; '.join(_sizes_in_words(ball))}.".replace("⌀", "diameter").replace(" r ", " radius "),
+        Message(
+            "Left: section across the path of the balls, to scale, the screw below and the nut above; how far the "
+            "grooves reach is assumed. Contact angle {angles}.",
+            {"angles": both(angles)},
+        ),
+        Message("{sizes}.", {"sizes": chained(Message("{others}; {last}"), _sizes(ball, _LONG))}),
     ]

@@ -6,6 +6,7 @@ import dataclasses
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from ballscrew.basis import units
 from ballscrew.basis.quantities import Quantity, fields_of
 from ballscrew.cases.case_files.case_file import Case
 from ballscrew.cases.case_files.lubricants import described
@@ -127,7 +128,7 @@ def _lubricant(case: Case) -> Rows:
     of_grade: OilState | None = None
     if case.oil:
         of_grade = nominal_oil(oil)
-        rows.append(("grade" if "grade" in case.oil else "oil", described(case.oil), CASE))
+        rows.append(("grade" if "grade" in case.oil else "oil", units.filled(described(case.oil)), CASE))
         rows += [
             (q.info.meaning, value_of(case.oil[n], q), CASE) for n, q in fields_of(DataSheet).items() if n in case.oil
         ]

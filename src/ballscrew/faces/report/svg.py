@@ -6,27 +6,73 @@ page. Lines and text are in ``currentColor``: they follow the page into the dark
 
 from __future__ import annotations
 
+import dataclasses
 import math
-from collections.abc import Sequence
+import textwrap
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
+from ballscrew.basis import units
 from ballscrew.basis.output.markup import escaped
+from ballscrew.basis.records import Message
 
 Point = tuple[float, float]
-
-
-class Panel(NamedTuple):
-    """Elements, and the foot of the last line of text."""
-
-    parts: Sequence[str]
-    bottom: float
-
 
 _FONT = "DejaVu Sans, sans-serif"
 #: Colours of Okabe and Ito that are seen on white and on black alike, and how faint an area is.
 GREEN, BLUE, RED, FAINT = "#009E73", "#0072B2", "#D55E00", 0.09
 #: Sizes of letters.
 TITLE, TEXT = 14.0, 13.0
+#: From one line of a paragraph to the next.
+LINE = 17.0
+
+
+@dataclasses.dataclass(frozen=True)
+class Text:
+    """A line of text: a message at its place."""
+
+    at: Point
+    message: Message
+    attributes: Mapping[str, str | float]
+
+    def element(self, mark: Mapping[str, str]) -> str:
+        """The element, in English."""
+        return _line_of_text(self.at, units.filled(self.message), **self.attributes, **mark)
+
+
+@dataclasses.dataclass(frozen=True)
+class Paragraph:
+    """A message in lines of so many characters."""
+
+    at: Point
+    message: Message
+    characters: int
+
+    @property
+    def lines(self) -> list[str]:
+        """The lines, in English."""
+        return textwrap.wrap(units.filled(self.message), self.characters)
+
+    @property
+    def bottom(self) -> float:
+        """The foot of the last line."""
+        return self.at[1] + LINE * (len(self.lines) - 1)
+
+    def element(self, mark: Mapping[str, str]) -> str:
+        """The lines; with a mark they are a group that says how they were broken."""
+        x, y = self.at
+        lines = [_line_of_text((x, y + LINE * row), line, TEXT) for row, line in enumerate(self.lines)]
+        return group(*lines, **mark, data_characters=self.characters) if mark else "\n".join(lines)
+
+
+Part = str | Text | Paragraph
+
+
+class Panel(NamedTuple):
+    """Elements, and the foot of the last line of text."""
+
+    parts: Sequence[Part]
+    bottom: float
 
 
 def number(value: float) -> str:
@@ -48,8 +94,14 @@ def group(*parts: str, **attributes: str | float) -> str:
     return element("g", "\n".join(parts), **attributes)
 
 
-def text(at: Point, words: str, size: float = TEXT, anchor: str = "start", **attributes: str | float) -> str:
+def text(at: Point, message: Message, size: float = TEXT, anchor: str = "start", **attributes: str | float) -> Text:
     """A line of text."""
+    return Text(at, message, {"size": size, "anchor": anchor, **attributes})
+
+
+def _line_of_text(
+    at: Point, words: str, size: float | str, anchor: float | str = "start", **attributes: str | float
+) -> str:
     return element(
         "text", escaped(words), x=at[0], y=at[1], font_size=size, text_anchor=anchor, fill="currentColor",
         **attributes,
@@ -99,16 +151,43 @@ def arrow(start: Point, end: Point, head: float, colour: str, width: float = 1.2
     return line(start, base, stroke=colour, stroke_width=width) + path(tip, fill=colour, stroke="none")
 
 
-def document(width: float, height: float, title: str, description: str, parts: Sequence[str]) -> str:
+@dataclasses.dataclass(frozen=True)
+class Document:
     """A whole drawing that says in words what it shows."""
-    return element(
-        "svg",
-        "\n" + "\n".join([element("title", escaped(title)), element("desc", escaped(description)), *parts]) + "\n",
-        xmlns="http://www.w3.org/2000/svg",
-        viewBox=f"0 0 {number(width)} {number(height)}",
-        role="img",
-        font_family=_FONT,
-    )
+
+    width: float
+    height: float
+    title: Message
+    description: Message
+    parts: Sequence[Part]
+
+    def text(self) -> str:
+        """The drawing with English words."""
+        return self._text(None)
+
+    def marked(self) -> tuple[str, list[Message]]:
+        """The drawing, where ``data-text`` of each element with words is the place of its message in the list."""
+        messages: list[Message] = []
+        return self._text(messages), messages
+
+    def _text(self, messages: list[Message] | None) -> str:
+        def mark(message: Message) -> dict[str, str]:
+            if messages is None:
+                return {}
+            messages.append(message)
+            return {"data_text": str(len(messages) - 1)}
+
+        about = {"title": self.title, "desc": self.description}
+        parts = [element(tag, escaped(units.filled(said)), **mark(said)) for tag, said in about.items()]
+        parts += [part if isinstance(part, str) else part.element(mark(part.message)) for part in self.parts]
+        return element(
+            "svg",
+            "\n" + "\n".join(parts) + "\n",
+            xmlns="http://www.w3.org/2000/svg",
+            viewBox=f"0 0 {number(self.width)} {number(self.height)}",
+            role="img",
+            font_family=_FONT,
+        )
 
 
 def _stroked(attributes: dict[str, str | float]) -> dict[str, str | float]:

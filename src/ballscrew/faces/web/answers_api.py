@@ -71,7 +71,7 @@ class DrawingLine(answer_parts.Closed):
 
     question: Literal["drawing"]
     place: Literal[0]
-    answer: answer_parts.Template
+    answer: answer_parts.Drawing
 
 
 class ProblemLine(answer_parts.Closed):

@@ -227,12 +227,13 @@ async def warm_up(request: Request) -> Response:
         case = case_of(body.case, moves=warm_ups.moves(body.case))
         limits.check_warm_up(case, options.samples)
         if not options.band:
-            return as_json(warm_up_documents.document(warm_ups.warmed_up(case, options.hours, options.cool_down)))
+            warmed = warm_ups.warmed_up(case, options.hours, options.cool_down)
+            return as_json(documents.warm_up(warmed, warm_up_documents.document(warmed)))
         found = warm_up_bands.band(
             case, options.hours, options.cool_down, samples=options.samples, level=options.level,
             only_given=options.only_given, done=done,
         )  # fmt: skip
-        return as_json(warm_up_documents.with_band(found))
+        return as_json(documents.warm_up(found.report, warm_up_documents.with_band(found)))
 
     return await heavy(request, work)
 
@@ -393,11 +394,11 @@ async def drawing(request: Request) -> Response:
 @router.post(
     "/drawing/template",
     openapi_extra=openapi.body(CaseBody),
-    response_model=answer_parts.Template,
+    response_model=answer_parts.Drawing,
     responses=openapi.problems_of(),
 )
 async def drawing_template(request: Request) -> Response:
-    """The same drawing as a template, to be shown in any units."""
+    """The same drawing with the messages of its texts, to be shown in any units."""
     return await of_body(request, lambda found: as_json(documents.drawing(found)))
 
 

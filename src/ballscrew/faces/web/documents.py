@@ -1,4 +1,4 @@
-"""Documents of the API: those of the commands, with their sentences also as templates."""
+"""Documents of the API: those of the commands, with their sentences also as messages."""
 
 from __future__ import annotations
 
@@ -9,9 +9,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ballscrew.basis import units
-from ballscrew.cases.case_files import case_file
-from ballscrew.cases.case_files.descriptions import assumed, title
-from ballscrew.faces.web.templates import fill_records, filled, template
+from ballscrew.basis.records import Message, message_of
+from ballscrew.cases.case_files import case_file, case_messages
 from ballscrew.questions.band import compute as bands
 from ballscrew.questions.band import document as band_documents
 from ballscrew.questions.band import text as band_text
@@ -19,6 +18,7 @@ from ballscrew.questions.check import compute as checks
 from ballscrew.questions.check import document as check_documents
 from ballscrew.questions.run import compute as runs
 from ballscrew.questions.run import document as run_documents
+from ballscrew.questions.warm_up.compute import WarmUpReport
 
 #: Runs that are kept: who has asked for the numbers of a case often asks for its drawing or its checks next.
 _MOST_RUNS = 4
@@ -41,61 +41,58 @@ def run_of(case: case_file.Case, tables: Mapping[str, Any]) -> runs.Run:
 
 
 def run(found: runs.Run) -> dict[str, Any]:
-    """The document of a run, and its sentences as texts and as templates."""
-    case = found.case
-    with units.placeholders() as quantities:
-        document = run_documents.document(found)
-        heading, assumptions = title(case), assumed(case, found.ball_to_ball_force)
-    verdicts = [record["text"] for record in document["verdicts"]]
-    fill_records(document, quantities)
+    """The document of a run, and its sentences as texts and as messages."""
+    case, document = found.case, run_documents.document(found)
+    title, assumed = case_messages.title(case), case_messages.assumed(case, found.ball_to_ball_force)
+    rigidity = () if found.nut is None else found.nut.rigidity.assumed
     return {
         **document,
         "words": {
-            "title": filled(heading, quantities),
-            "verdicts": [filled(text, quantities) for text in verdicts],
-            "assumed": [filled(text, quantities) for text in assumptions],
+            "title": units.filled(title),
+            "verdicts": [record["text"] for record in document["verdicts"]],
+            "assumed": texts(assumed),
         },
-        "display": {
-            "title": template(heading, quantities),
-            "verdicts": [template(text, quantities) for text in verdicts],
-            "assumed": [template(text, quantities) for text in assumptions],
-        },
+        "display": {"title": title.document(), "assumed": messages(assumed), "rigidity": messages(rigidity)},
     }
 
 
+def texts(said: Sequence[Message]) -> list[str]:
+    """Messages as the command line prints them."""
+    return [units.filled(one) for one in said]
+
+
+def messages(said: Sequence[Message | str]) -> list[dict[str, Any]]:
+    """Messages, or texts that keep theirs, as the page fills them."""
+    return [message_of(one).document() for one in said]
+
+
 def check(found: runs.Run, notes: Sequence[str] = ()) -> dict[str, Any]:
-    """The document of the checks of a run, each with its text also as a template; a request has no name."""
-    with units.placeholders() as quantities:
-        document = check_documents.document(checks.checked("", found.case, notes, known=found))
-    for one in document["checks"]:
-        one["display"] = template(one["text"], quantities)
-        one["words"] = filled(one["words"], quantities)
-    document["assumed"] = [filled(text, quantities) for text in document["assumed"]]
-    fill_records(document, quantities)
+    """The document of the checks of a run; a request has no name."""
+    document = check_documents.document(checks.checked("", found.case, notes, known=found))
     return {key: value for key, value in document.items() if key != "name"}
 
 
 def drawing(found: runs.Run) -> dict[str, Any]:
-    """The ball between its grooves, as SVG whose texts are a template."""
-    from ballscrew.faces.report.drawing import drawing as drawn
+    """The ball between its grooves, as SVG with the messages of its texts."""
+    from ballscrew.faces.report.drawing import document
 
-    with units.placeholders() as quantities:
-        picture = drawn(found)
-    return template(picture, quantities)
+    text, words = document(found).marked()
+    return {"text": text, "messages": messages(words)}
 
 
 def band(case: case_file.Case, found: bands.BandReport) -> dict[str, Any]:
-    """The document of a band, and its sentences as texts and as templates."""
-    answered = runs.run(case)
-    with units.placeholders() as quantities:
-        document = band_documents.document(answered, found)
-        sentences = [verdict.text for verdict in band_documents.verdicts(case, found)]
-    fill_records(document, quantities)
+    """The document of a band, and its sentences as texts; the counts of its inputs as a message."""
+    counts = band_text.input_counts(found)
     return {
-        **document,
+        **band_documents.document(runs.run(case), found),
         "words": {
-            "sentences": [filled(text, quantities) for text in sentences],
-            "inputs": band_text.input_counts(found),
+            "sentences": [verdict.text for verdict in band_documents.verdicts(case, found)],
+            "inputs": units.filled(counts),
         },
-        "display": {"sentences": [template(text, quantities) for text in sentences]},
+        "display": {"inputs": counts.document()},
     }
+
+
+def warm_up(report: WarmUpReport, document: Mapping[str, Any]) -> dict[str, Any]:
+    """The document of warming up, and what is assumed as messages."""
+    return {**document, "display": {"assumed": messages(report.assumed)}}

@@ -14,7 +14,7 @@ from ballscrew.basis import units
 from ballscrew.cases.case_files import fitted_case
 from ballscrew.cases.case_files.case import Case
 from ballscrew.exports.export import Export
-from ballscrew.faces.web.templates import fill_records, filled, template
+from ballscrew.faces.web.documents import messages, texts
 from ballscrew.questions.fit import document as fit_documents
 from ballscrew.questions.fit import points as fit_points
 from ballscrew.questions.fit import text as fit_text
@@ -29,19 +29,17 @@ from ballscrew.questions.service.compute import ServiceReport
 
 def fit(case: Case, tables: Mapping[str, Any], report: FitReport) -> dict[str, Any]:
     """The document of a fit, what it says in words, the rows to draw, and the case with the fitted numbers."""
-    document = fit_documents.document(case, report)
-    with units.placeholders() as quantities:
-        test = [] if report.next_test is None else fit_text.describe_next_test(report.next_test, report.model)
-    lines = [line.strip() for line in test]
+    test = [] if report.next_test is None else fit_text.describe_next_test(report.next_test, report.model)
+    trade_off = fit_text.trade_off(report.model)
     calibrated = fitted_case.text_of(tables, case, report.model)
     return {
-        **document,
+        **fit_documents.document(case, report),
         "words": {
             "title": fit_text.log_and_model(case, report),
-            "trade_off": fit_text.trade_off(report.model),
-            "next_test": [filled(line, quantities) for line in lines],
+            "trade_off": units.filled(trade_off),
+            "next_test": texts(test),
         },
-        "display": {"next_test": [template(line, quantities) for line in lines]},
+        "display": {"trade_off": trade_off.document(), "next_test": messages(test)},
         "picture": fit_points.of_fit(report.model),
         "calibrated": {"toml": calibrated, "case": tomllib.loads(calibrated)},
     }
@@ -49,14 +47,11 @@ def fit(case: Case, tables: Mapping[str, Any], report: FitReport) -> dict[str, A
 
 def service(case: Case, report: ServiceReport) -> dict[str, Any]:
     """The document of a service, what it says in words, and the curves to draw."""
-    with units.placeholders() as quantities:
-        document = service_documents.document(case, report)
-    said = [record["text"] for record in document["verdicts"]]
-    fill_records(document, quantities)
+    causes = service_text.causes(report)
     return {
-        **document,
-        "words": {"title": ", ".join(service_text.names(report)), "causes": service_text.causes(report)},
-        "display": {"verdicts": [template(text, quantities) for text in said]},
+        **service_documents.document(case, report),
+        "words": {"title": ", ".join(service_text.names(report)), "causes": texts(causes)},
+        "display": {"causes": messages(causes)},
         "picture": service_points.of_service(report),
     }
 
@@ -64,9 +59,11 @@ def service(case: Case, report: ServiceReport) -> dict[str, Any]:
 def hand_over(case: Case, export: Export) -> dict[str, Any]:
     """The document of a hand-over, and its file: that of the target, or a zip archive of them all."""
     names = [PurePosixPath(name) for name in export.files]
+    said = [one for heading, entries in hand_over_text.blocks(export) for one in (heading, *entries)]
     return {
         **hand_over_documents.document(export, case, names),
         "words": {"lines": hand_over_text.lines(export)},
+        "display": {"lines": messages(said)},
         "file": _file(export),
     }
 

@@ -9,9 +9,9 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.basis.errors import Fault, accepts_units, is_concrete, raise_if_any, shown
-from ballscrew.basis.quantities import Force, Info, Length, Ratio, Stiffness
-from ballscrew.basis.records import Message
+from ballscrew.basis.errors import Fault, accepts_units, is_concrete, raise_if_any, shown, shown_in_si
+from ballscrew.basis.quantities import Force, Info, Length, Quantity, Ratio, Stiffness
+from ballscrew.basis.records import FilledText, Measured, Message, translatable
 from ballscrew.physics.components.nut import Nut, OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import rigidity
@@ -33,6 +33,7 @@ DIN_69051_5 = {
 COARSE_LEAD = 0.020
 #: Factors for accuracy that ISO 3408-4 has by grade, greatest and least; as recalled, the default of nothing.
 RECALLED_ACCURACY_FACTORS = (0.6, 0.5)
+_WIDTH = Quantity("nut_outer_diameter", "m", Info("D_1", "outer diameter of the nut", "mm"))
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -98,17 +99,28 @@ def rigidity_iso3408(
     load = 0.0 if axial_load is None else abs(float(axial_load))
     R_bt, R_ns = _balls_and_tracks(screw, preload, load), _widening(screw, size.nut_outer_diameter)
     if R_ns != R_ns:
-        assumed.append("no rigidity of the nut: the usual one has no wall around these balls, give nut_outer_diameter")
+        assumed.append(
+            translatable(
+                "no rigidity of the nut: the usual one has no wall around these balls, give nut_outer_diameter"
+            )
+        )
     if preload > 0:
         R_ns = 2 * R_ns
-        assumed.append("R_b/t up to the load that relieves one half, as ISO 3408-4 is recalled; it was not read")
+        assumed.append(
+            translatable("R_b/t up to the load that relieves one half, as ISO 3408-4 is recalled; it was not read")
+        )
         if load > 2**1.5 * preload:
-            assumed.append("the load is beyond that which relieves one half: there the nut is stiffer than R_nu says")
+            assumed.append(
+                translatable("the load is beyond that which relieves one half: there the nut is stiffer than R_nu says")
+            )
     elif not load:
-        assumed.append("no rigidity of the nut: without preload it takes a load")
+        assumed.append(translatable("no rigidity of the nut: without preload it takes a load"))
     if isinstance(nut, OversizeBallNut):
         assumed.append(
-            "widening of a nut with oversize balls as of two halves; a ball on both flanks widens it less under load"
+            translatable(
+                "widening of a nut with oversize balls as of two halves; "
+                "a ball on both flanks widens it less under load"
+            )
         )
     R_nu = float(rigidity.series_rigidity(R_bt, R_ns))
     factor = None if accuracy_factor is None else float(accuracy_factor)
@@ -116,7 +128,7 @@ def rigidity_iso3408(
     R_s, R_b, words = _shaft(screw, installation, distance_to_bearing)
     assumed += words
     if factor is None and installation is not None:
-        assumed.append("drive with R_nu, not R_nu,ar: no accuracy factor is given")
+        assumed.append(translatable("drive with R_nu, not R_nu,ar: no accuracy factor is given"))
     compliances = (1 / (R_nu if factor is None else corrected), 1 / R_s, 0.0 if math.isnan(R_b) else 1 / R_b)
     drive = 1 / sum(compliances)
     return AxialRigidity(
@@ -195,17 +207,19 @@ def _shaft(
     assumed: list[str] = []
     if distance is None:
         assumed.append(
-            f"nut {'in the middle of the shaft' if both else 'at the end of the shaft'}, where it gives way most"
+            translatable("nut in the middle of the shaft, where it gives way most")
+            if both
+            else translatable("nut at the end of the shaft, where it gives way most")
         )
     if installation.ends is Ends.SUPPORTED_SUPPORTED:
-        assumed.append("one of the two supports holds the shaft axially")
+        assumed.append(translatable("one of the two supports holds the shaft axially"))
     R_s = float(
         rigidity.shaft_rigidity_held_at_both_ends(E, d_c, at, l)
         if both
         else rigidity.shaft_rigidity_held_at_one_end(E, d_c, at)
     )
     if installation.bearing_rigidity is None:
-        return R_s, math.nan, [*assumed, "support bearings rigid: no rigidity of theirs is given"]
+        return R_s, math.nan, [*assumed, translatable("support bearings rigid: no rigidity of theirs is given")]
     R_b = float(installation.bearing_rigidity)
     if not both:
         return R_s, R_b, assumed
@@ -223,8 +237,11 @@ def _outer_diameter(screw: BallScrew, nut: Nut, given: Length | None, nominal: L
         return _Sizes(float(known), ())
     size = float(screw.pitch_circle_diameter if nominal is None else nominal)
     usual = usual_nut_outer_diameter(size, screw.lead)
-    beyond = "" if min(DIN_69051_5) <= size <= max(DIN_69051_5) else ", its last size with the same wall"
-    return _Sizes(usual, (f"nut {1000 * usual:.4g} mm wide, DIN 69051-5{beyond}: none is given",))
+    message = Message("nut {width} wide, DIN 69051-5: none is given")
+    if not min(DIN_69051_5) <= size <= max(DIN_69051_5):
+        message = Message("nut {width} wide, DIN 69051-5, its last size with the same wall: none is given")
+    said = message.of(width=Measured(usual, _WIDTH, written=f"{1000 * usual:.4g} mm"))
+    return _Sizes(usual, (FilledText(said.filled(shown_in_si), said),))
 
 
 def _numbers(screw: BallScrew) -> tuple[Any, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from ballscrew.basis import units
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.named_calibration import vendor_rows_like
@@ -69,7 +70,7 @@ def blocks(case: Case, report: BandReport) -> list[Block]:
     warned = [Bullets([f"Beware: {one.text}." for one in warnings])] if warnings else []
     laws = band.exchanged_laws(case, report)
     exchanged = [Paragraph(f"{': '.join(filter(None, [sentence(laws.heading), '; '.join(laws.entries)]))}.")]
-    inputs: list[Block] = [Paragraph(f"{band.input_counts(report)}.")]
+    inputs: list[Block] = [Paragraph(f"{units.filled(band.input_counts(report))}.")]
     for heading, entries in band.uncertain_inputs(report):
         inputs += [Paragraph(f"{sentence(heading)}:"), Bullets(entries)]
     return [*summary, _causes(report), *swings(case, report), *warned, *exchanged * bool(laws.heading), *inputs]

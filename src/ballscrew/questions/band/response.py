@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ballscrew.questions.band.answer import BandResults
 from ballscrew.questions.run.response import Document
-from ballscrew.questions.shared.answer_parts import Closed, Template
+from ballscrew.questions.shared.answer_parts import Closed, Message
 from ballscrew.questions.shared.declared import with_answers
 
 
@@ -16,9 +16,9 @@ class BandWords(Closed):
 
 
 class BandDisplay(Closed):
-    """The same sentences, with their quantities apart."""
+    """The same as messages; the sentences are those of the verdicts."""
 
-    sentences: list[Template]
+    inputs: Message
 
 
 class Band(Document, with_answers(band=BandResults)):

@@ -9,7 +9,9 @@ from typing import NamedTuple
 from rich.console import Console
 from rich.table import Table
 
+from ballscrew.basis import units
 from ballscrew.basis.quantities import Quantity
+from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.case_file import Case
 from ballscrew.cases.case_files.descriptions import design, title
 from ballscrew.cases.case_files.uncertain_inputs import GIVEN, Uncertain
@@ -154,12 +156,17 @@ def _percent(share: float) -> str:
     return f"{share:.0%}" if math.isfinite(share) else "–"
 
 
-def input_counts(report: BandReport) -> str:
+def input_counts(report: BandReport) -> Message:
     """The number of samples, of uncertain inputs, and of those assumed."""
     count = len(report.inputs)
-    return (
-        f"{report.band.count} samples of {count} uncertain inputs: {report.given} by the case, "
-        f"{count - report.given} assumed, {report.judged} of these by judgement"
+    counts = {
+        "samples": report.band.count, "inputs": count, "given": report.given, "assumed": count - report.given,
+        "judged": report.judged,
+    }  # fmt: skip
+    return Message(
+        "{samples} samples of {inputs} uncertain inputs: {given} by the case, {assumed} assumed, "
+        "{judged} of these by judgement",
+        {name: str(number) for name, number in counts.items()},
     )
 
 
@@ -168,5 +175,5 @@ def caption(case: Case, report: BandReport, curve: BandCurve) -> str:
     exact = f"On the left {curve.count} samples"
     if curve.along in report.inputs:
         exact += f", and the {spoken(curve.along)} is exact"
-    parts = [design(case), input_counts(report), *(warning.text for warning in warnings(report)), exact]
+    parts = [design(case), units.filled(input_counts(report)), *(warning.text for warning in warnings(report)), exact]
     return ". ".join(filter(None, parts)) + "."

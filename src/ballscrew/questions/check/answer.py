@@ -13,7 +13,6 @@ from ballscrew.questions.shared.answer_parts import (
     Provenance,
     Record,
     Tables,
-    Template,
 )  # fmt: skip
 from ballscrew.questions.shared.declared import with_answers
 
@@ -23,7 +22,6 @@ class OneCheck(JudgedCheck):
 
     passes: bool | None = Field(description="as ``holds``")
     words: str = Field(description="as ``text``")
-    display: Template
 
 
 class Checks(

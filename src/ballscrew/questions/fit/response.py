@@ -5,7 +5,7 @@ from __future__ import annotations
 from pydantic import Field
 
 from ballscrew.questions.fit.answer import FitResults
-from ballscrew.questions.shared.answer_parts import Closed, Record, Tables, Template, field
+from ballscrew.questions.shared.answer_parts import Closed, Message, Record, Tables, field
 from ballscrew.questions.shared.declared import schema
 
 
@@ -18,9 +18,10 @@ class FitWords(Closed):
 
 
 class FitDisplay(Closed):
-    """The same to be shown in any units."""
+    """The same as messages."""
 
-    next_test: list[Template]
+    trade_off: Message
+    next_test: list[Message]
 
 
 class Calibrated(Closed):

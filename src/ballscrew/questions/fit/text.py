@@ -10,7 +10,9 @@ from rich.console import Console
 from rich.table import Table
 
 from ballscrew.basis import units
+from ballscrew.basis.errors import both
 from ballscrew.basis.quantities import Quantity, quantities_of
+from ballscrew.basis.records import Measured, Message, Named
 from ballscrew.cases.case_files.case_file import Case
 from ballscrew.cases.case_files.descriptions import design, model_text
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
@@ -54,14 +56,15 @@ def print_fit(case: Case, report: FitReport) -> None:
         say(line, "dim")
     for warning in model.warnings:
         say(f"beware  {warning}", "yellow")
-    say(f"\n{trade_off(model)}")
+    say(f"\n{units.filled(trade_off(model))}")
     console.print(_scores(model))
     if unlisted := sum(map(_is_wandering, model.sensor)):
         say(f"among the numbers are {unlisted} for a sensor whose zero wanders slowly, not listed above", "dim")
     console.print(_residuals(model))
     if report.next_test is not None:
+        console.print()
         for line in describe_next_test(report.next_test, model):
-            say(line)
+            say(units.filled(line))
 
 
 def _estimates(model: CalibratedModel) -> Table:
@@ -113,7 +116,7 @@ def _number(estimate: Estimate, value: float, digits: int = 4) -> str:
     return f"{units.from_si(value, estimate.quantity):.{digits}g}"
 
 
-def trade_off(model: CalibratedModel) -> str:
+def trade_off(model: CalibratedModel) -> Message:
     """What the log tells least of, as one sentence: numbers that make up for each other."""
     least = model.identifiability.combinations[-1]
     values = {name: estimate.value for name, estimate in model.estimates.items()}
@@ -123,16 +126,23 @@ def trade_off(model: CalibratedModel) -> str:
     largest = max(map(abs, shares.values()), default=0.0)
     kept = {name: share for name, share in shares.items() if abs(share) >= _LEAST_TRADED * largest}
     if len(kept) < 2:
-        return "Trade-offs: none; the log tells each number by itself"
+        return Message("Trade-offs: none; the log tells each number by itself")
     (first, change), *others = sorted(kept.items(), key=lambda item: -abs(item[1]))
     sign = 1.0 if change > 0 else -1.0
     error = least.relative_error if least.identified else _TRADED / abs(change)
-    changes = [(name, sign * share * error) for name, share in [(first, change), *others]]
-    shown = [f"{abs(100 * each):.2g} % {'more' if each > 0 else 'less'} {spoken(name)}" for name, each in changes]
-    exchange = f"{shown[0]} with {' and '.join(shown[1:])}"
+    one, *more = [_changed(name, sign * share * error) for name, share in [(first, change), *others]]
+    message = Message("Trade-off: {one} with {others} fits the rows nearly as well (one standard error)")
     if not least.identified:
-        return f"Trade-off: {exchange} makes no difference in this log, which tells only what they make together"
-    return f"Trade-off: {exchange} fits the rows nearly as well (one standard error)"
+        message = Message(
+            "Trade-off: {one} with {others} makes no difference in this log, which tells only what they make together"
+        )
+    return message.of(one=one, others=both(more))
+
+
+def _changed(name: str, share: float) -> Message:
+    """``2.1 % more preload``."""
+    message = Message("{percent} % more {name}") if share > 0 else Message("{percent} % less {name}")
+    return message.of(percent=units.as_written(f"{abs(100 * share):.2g}"), name=Named(name))
 
 
 def _scores(model: CalibratedModel) -> Table:
@@ -154,30 +164,45 @@ def _residuals(model: CalibratedModel) -> Table:
     return table
 
 
-def describe_next_test(test: NextTest, model: CalibratedModel) -> list[str]:
+def describe_next_test(test: NextTest, model: CalibratedModel) -> list[Message]:
     """Recommended next test, and the reduction of uncertainty it would give."""
     known: Mapping[str, Quantity] = {name: quantity for name, (_, quantity) in model.subject.inputs.items()}
-    where = ", ".join(units.shown(value, known[name], 3) for name, value in test.best.items())
-    both = ", half of them in each direction" if model.rows.log.forward.any() and model.rows.log.backward.any() else ""
-    errors = (f"{share:.0%} of the error of the {spoken(name)}" for name, share in test.remaining_error.items())
-    left = f"{test.best_volume:.0%} of the uncertainty of all together (a random test {test.random_volume:.0%})"
+    where = [Message("{value}", {"value": units.measured(value, known[name], 3)}) for name, value in test.best.items()]
+    message = Message("next test: {where}; {readings} readings")
+    if model.rows.log.forward.any() and model.rows.log.backward.any():
+        message = Message("next test: {where}; {readings} readings, half of them in each direction")
+    errors = [
+        Message("{percent}% of the error of the {name}", {"percent": _percent(share), "name": Named(name)})
+        for name, share in test.remaining_error.items()
+    ]
+    left = Message("it would leave {percent}% of the uncertainty of all together (a random test {random}%), {errors}")
     return [
-        f"\nnext test: {where}; {test.readings} readings{both}",
-        f"it would leave {left}, {', '.join(errors)}",
+        message.of(where=where, readings=str(test.readings)),
+        left.of(percent=_percent(test.best_volume), random=_percent(test.random_volume), errors=errors),
         *_beside_the_log(test, model, known),
     ]
 
 
-def _beside_the_log(test: NextTest, model: CalibratedModel, known: Mapping[str, Quantity]) -> list[str]:
+def _percent(share: float) -> Measured:
+    return units.as_written(f"{100 * share:.0f}")
+
+
+def _beside_the_log(test: NextTest, model: CalibratedModel, known: Mapping[str, Quantity]) -> list[Message]:
     """That the next test asks for more than the log has shown the rig to give, or that no such test was thought of."""
     log = model.rows.log
     ends = {name: float(np.abs(getattr(log, name)).max()) for name in ("axial_load", "screw_speed")}
-    said = [f"{spoken(n)} {units.shown(most, known[n], 3)}" for n, most in ends.items() if test.best[n] > most]
-    if said:
-        return [f"that is beyond the log, which ends at {' and '.join(said)}"]
+    beyond = [
+        Message("{name} {value}", {"name": Named(name), "value": units.measured(most, known[name], 3)})
+        for name, most in ends.items()
+        if test.best[name] > most
+    ]
+    if beyond:
+        return [Message("that is beyond the log, which ends at {ends}", {"ends": both(beyond)})]
     if any(float(test.tests[name].max()) > most * (1 + 1e-9) for name, most in ends.items()):
         return []
-    return ["of the loads and speeds that the log has; --limits of ballscrew fit say what else the rig can give"]
+    return [
+        Message("of the loads and speeds that the log has; --limits of ballscrew fit say what else the rig can give")
+    ]
 
 
 def _shown(value: float, quantity: Quantity, digits: int = 4) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ballscrew.questions.shared.answer_parts import Closed, Record, Tables
+from ballscrew.questions.shared.answer_parts import Closed, Message, Record, Tables
 
 
 class Choice(Closed):
@@ -41,6 +41,12 @@ class HandOverWords(Closed):
     lines: list[str]
 
 
+class HandOverDisplay(Closed):
+    """Ranges and worst errors as messages; those of the warnings stand in the warnings."""
+
+    lines: list[Message]
+
+
 class HandOver(Closed):
     """A model handed over: its files, their range and their worst error."""
 
@@ -52,4 +58,5 @@ class HandOver(Closed):
     checks: list[Record]
     provenance: Tables
     words: HandOverWords
+    display: HandOverDisplay
     file: SentContent

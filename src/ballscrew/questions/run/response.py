@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from ballscrew.questions.run.answer import RunResults, VendorRows
 from ballscrew.questions.run.nut_loads import NutLoads
-from ballscrew.questions.shared.answer_parts import Closed, Provenance, Record, Tables, Template, field
+from ballscrew.questions.shared.answer_parts import Closed, Message, Provenance, Record, Tables, field
 from ballscrew.questions.shared.declared import with_answers
 
 LOADS = (NutLoads, field("loads of the balls of a nut, SI", optional=True))
@@ -24,11 +24,11 @@ class RunWords(Closed):
 
 
 class RunDisplay(Closed):
-    """The same sentences, with their quantities apart."""
+    """The same as messages; those of the verdicts stand in the verdicts."""
 
-    title: Template
-    verdicts: list[Template]
-    assumed: list[Template]
+    title: Message
+    assumed: list[Message]
+    rigidity: list[Message] = field("what the axial rigidity rests on")
 
 
 class Document(with_answers(results=RunResults, loads=LOADS, vendor_rows=VENDOR_ROWS)):

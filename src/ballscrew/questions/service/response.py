@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ballscrew.questions.service.answer import ServiceResults
-from ballscrew.questions.shared.answer_parts import Closed, Record, Tables, Template
+from ballscrew.questions.shared.answer_parts import Closed, Message, Record, Tables
 from ballscrew.questions.shared.declared import with_answers
 
 
@@ -15,9 +15,9 @@ class ServiceWords(Closed):
 
 
 class ServiceDisplay(Closed):
-    """The verdicts, to be shown in any units."""
+    """The causes as messages; those of the verdicts stand in the verdicts."""
 
-    verdicts: list[Template]
+    causes: list[Message]
 
 
 class Service(with_answers(results=ServiceResults)):

@@ -8,14 +8,21 @@ from rich.console import Console
 from rich.table import Table
 
 from ballscrew.basis import units
+from ballscrew.basis.records import Message, Named, Value
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import design, model_text, nut_text
 from ballscrew.evidence.service.preload_estimate import PreloadEstimate
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.questions.service.compute import TORQUE, ServiceReport
 from ballscrew.questions.service.document import preload_quantity, verdicts
-from ballscrew.questions.shared.text_tables import spoken, table_of
+from ballscrew.questions.shared.text_tables import table_of
 
+#: Causes of an interval that are no input of the model.
+_CAUSES = {
+    "nominal preload": Message("nominal preload"),
+    "temperature of the new log": Message("temperature of the new log"),
+    "temperature of the worn log": Message("temperature of the worn log"),
+}
 #: Causes of an interval that are named.
 _MOST_CAUSES = 3
 #: A cause that is less than this share of an interval is not named.
@@ -40,7 +47,7 @@ def print_service(case: Case, report: ServiceReport) -> None:
     for line in _logs(report):
         say(line, "dim")
     for cause in causes(report):
-        say(cause, "dim")
+        say(units.filled(cause), "dim")
     for record in report.warnings:
         say(f"{'beware' if record.severity == 'warning' else 'note'}  {record.text}", "yellow")
     if report.change is not None:
@@ -97,17 +104,25 @@ def _interval(one: PreloadEstimate, case: Case) -> str:
     return " to ".join(units.ends(low, high, preload_quantity(case)))
 
 
-def causes(report: ServiceReport) -> list[str]:
+def causes(report: ServiceReport) -> list[Message]:
     """What the interval comes from, the largest cause first."""
     of = report.change.ratio_shares if report.change is not None else {}
     of = report.preload.shares if report.preload is not None else of
     shares = sorted(((share, name) for name, share in of.items() if math.isfinite(share)), reverse=True)
-    named = [f"{spoken(name)} ({share:.0%})" for share, name in shares[:_MOST_CAUSES] if share >= _LEAST_CAUSE]
-    if not named:
+    largest = [
+        Message("{cause} ({percent}%)", {"cause": _cause(name), "percent": units.as_written(f"{100 * share:.0f}")})
+        for share, name in shares[:_MOST_CAUSES]
+        if share >= _LEAST_CAUSE
+    ]
+    if not largest:
         return []
-    is_most = sum(share for share, _ in shares[:_MOST_CAUSES]) > _MOST
-    said = "most of the interval is from" if is_most else "no cause makes most of the interval; the largest"
-    return [f"{said}: {', '.join(named)}"]
+    if sum(share for share, _ in shares[:_MOST_CAUSES]) > _MOST:
+        return [Message("most of the interval is from: {causes}", {"causes": largest})]
+    return [Message("no cause makes most of the interval; the largest: {causes}", {"causes": largest})]
+
+
+def _cause(name: str) -> Value:
+    return _CAUSES.get(name, Named(name))
 
 
 def caption(case: Case, report: ServiceReport) -> str:

@@ -153,8 +153,11 @@ class JudgedCheck(Record):
     missing: str = Field(description="the input without which it is not judged; empty where it is")
 
 
-class Template(Closed):
-    """A text in which ``{0}``, ``{1}`` and so on stand for its quantities, to be shown in any unit."""
+class Drawing(Closed):
+    """A drawing as SVG: ``data-text`` of an element is the place of its message, to be shown in any unit and language.
+
+    A group with ``data-characters`` is a message in lines of so many characters.
+    """
 
     text: str
-    quantities: list[Shown]
+    messages: list[Message]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -35,7 +35,8 @@ from ballscrew.basis.quantities import (
     Unit,
     fields_of,
 )  # fmt: skip
-from ballscrew.basis.records import Message
+from ballscrew.basis.records import FilledText, Message
+from ballscrew.basis.units import filled_text
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 from ballscrew.physics.components.materials import Lubricant
@@ -51,6 +52,8 @@ LENGTH = 1.0
 FEED_SHARE, REST, USUAL_ACCELERATION = 0.5, 1.0, 1.0
 #: Distance of the places of a compensation table, m.
 STEP = 0.05
+#: Numbers of the surroundings that are said where they are their defaults.
+OF_DEFAULTS = ("ambient", "nut_conductance", "shaft_share", "bearing_conductance", "bearing_mass")
 _OF, _VISCOSITY = fields_of(Surroundings), fields_of(Lubricant)["viscosity"]
 _Temperatures = Annotated[Sequence[float], Unit("K")]
 _Lengths = Annotated[Sequence[float], Unit("m")]
@@ -182,43 +185,56 @@ class WarmUpReport:
         return assumed_of(self.case, self.surroundings, self.warm_up.network, self.stroke)
 
 
-def assumed_of(case: Case, given: Surroundings, network: Network, stroke: Length | None) -> Sequence[str]:
+def assumed_of(case: Case, given: Surroundings, network: Network, stroke: Length | None) -> Sequence[FilledText]:
     """Numbers of the heat that a case does not give, and what stands in for them."""
-    found: list[str] = []
-
-    def shown(name: str, value: Any) -> str:
-        return units.shown(value, _OF[name])
-
-    if given.ball_conductance is None:
+    found = [*_assumed_sizes(case, given, network)]
+    if stroke is not None and given.stroke is None:
+        length = units.measured(stroke, PLACE)
+        found.append(filled_text("to and fro over {stroke}, half the shaft, under the load of the case", stroke=length))
+    if any(network.bearing_power):
+        first, last = (units.measured(power, SERIES["friction_power"], 3) for power in network.bearing_power)
         found.append(
-            f"{shown('ball_conductance', network.ball_conductance)} from nut to shaft: balls at rest and grease of "
-            f"{GREASE_CONDUCTIVITY:g} W/(m K) in a gap of {GAP_SHARE:g} ball diameters; "
-            "a factor of three either way is possible"
+            filled_text(
+                "bearings make {first} at the fixed end and {last} at the other, whatever they warm up to",
+                first=first, last=last,
+            )
+        )  # fmt: skip
+    else:
+        found.append(filled_text("no heat of the support bearings: their friction is not given ([bearings.fixed])"))
+    defaults = {field.name: field.default for field in dataclasses.fields(Surroundings)}
+    for name in OF_DEFAULTS:
+        if getattr(given, name) == defaults[name] and name not in case.given_surroundings:
+            meaning, value = Message(_OF[name].info.meaning), units.measured(defaults[name], _OF[name])
+            found.append(filled_text("{meaning} {value}: the default", meaning=meaning, value=value))
+    return found
+
+
+def _assumed_sizes(case: Case, given: Surroundings, network: Network) -> Iterator[FilledText]:
+    """Conductances and sizes of nut and shaft that are not given."""
+    if given.ball_conductance is None:
+        yield filled_text(
+            "{conductance} from nut to shaft: balls at rest and grease of {grease} W/(m K) in a gap of {gap} ball "
+            "diameters; a factor of three either way is possible",
+            conductance=units.measured(network.ball_conductance, _OF["ball_conductance"]),
+            grease=units.as_written(f"{GREASE_CONDUCTIVITY:g}"),
+            gap=units.as_written(f"{GAP_SHARE:g}"),
         )
     if given.shaft_convection is None:
-        found.append(
-            f"{shown('shaft_convection', network.shaft.convection)} from the shaft to the air by the mean speed, "
-            "a recalled formula; a factor of two either way is possible"
+        convection = units.measured(network.shaft.convection, _OF["shaft_convection"])
+        yield filled_text(
+            "{convection} from the shaft to the air by the mean speed, a recalled formula; "
+            "a factor of two either way is possible",
+            convection=convection,
         )
     if given.nut_mass is None:
-        found.append(f"nut of {shown('nut_mass', network.nut_mass)}: {NUT_WALL:g} times as wide as the screw")
+        mass, wall = units.measured(network.nut_mass, _OF["nut_mass"]), units.as_written(f"{NUT_WALL:g}")
+        yield filled_text("nut of {mass}: {wall} times as wide as the screw", mass=mass, wall=wall)
     if given.shaft_length is None:
-        source = "not given, an assumption" if case.installation is None else "the length of [installation]"
-        found.append(f"shaft of {shown('shaft_length', network.shaft.length)}: {source}")
-    if stroke is not None and given.stroke is None:
-        found.append(f"to and fro over {units.shown(stroke, PLACE)}, half the shaft, under the load of the case")
-    first, last = (units.shown(power, SERIES["friction_power"], 3) for power in network.bearing_power)
-    if any(network.bearing_power):
-        found.append(f"bearings make {first} at the fixed end and {last} at the other, whatever they warm up to")
-    else:
-        found.append("no heat of the support bearings: their friction is not given ([bearings.fixed])")
-    defaults = {field.name: field.default for field in dataclasses.fields(Surroundings)}
-    found += [
-        f"{_OF[name].info.meaning} {shown(name, defaults[name])}: the default"
-        for name in ("ambient", "nut_conductance", "shaft_share", "bearing_conductance", "bearing_mass")
-        if getattr(given, name) == defaults[name] and name not in case.given_surroundings
-    ]
-    return found
+        length = units.measured(network.shaft.length, _OF["shaft_length"])
+        if case.installation is None:
+            yield filled_text("shaft of {length}: not given, an assumption", length=length)
+        else:
+            yield filled_text("shaft of {length}: the length of [installation]", length=length)
 
 
 def check_hours(hours: float, cool_down: float) -> None:

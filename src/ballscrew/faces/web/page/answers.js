@@ -46,7 +46,7 @@ const PAINT_TIMEOUT = 500;
  * @property {Sweep} [alongLoad]
  * @property {Sweep} [everywhere]
  * @property {Sweep} [hotAndCold]
- * @property {Template} [drawing]
+ * @property {DrawingAnswer} [drawing]
  * @property {import("./compare.js").Answers} [designs]
  * @property {Question} [asked] what the designs answer
  * @property {Compare} [models]

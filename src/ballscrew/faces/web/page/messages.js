@@ -2,7 +2,7 @@
 
 import { labelIn, words } from "./fields.js";
 import { OF_CARDS, SECTIONS } from "./schema.js";
-import { filledIn, hasText, language, ofServer, textOr } from "./texts.js";
+import { filledIn, ofServer, textOr } from "./texts.js";
 import { formattedIn, inLanguage, inSystem, symbol } from "./units.js";
 
 /**
@@ -82,12 +82,12 @@ export function ofRecord({ message: { template, values }, subject }) {
 }
 
 /**
- * Attributes of an element with a record: its language, where that is another one.
+ * Attributes of an element with a record: its language, where that is English.
  *
  * @param {VerdictRecord} record
  */
 export function languageOfRecord({ message }) {
-  return language === "en" || hasText(`message.${message.template}`) ? {} : ofServer;
+  return message ? {} : ofServer;
 }
 
 /**

@@ -3,8 +3,8 @@
 import { inHeadline, isStarved } from "./bath.js";
 import { verdict } from "./checks.js";
 import { byId, element, table } from "./dom.js";
-import { languageOfRecord, ofRecord } from "./messages.js";
-import { languageOf, sentence, text, textOr } from "./texts.js";
+import { languageOfRecord, ofRecord, said } from "./messages.js";
+import { text, textOr } from "./texts.js";
 import * as units from "./units.js";
 
 /** Results of the first table. */
@@ -144,7 +144,7 @@ export function show(answer, { band, checks }) {
   const { results, display, warnings } = answer;
   const numbers = numbersOf(answer);
   const known = band?.state === "done" ? band.answer : undefined;
-  byId("case").replaceChildren(element("span", languageOf(display.title.text), units.filled(display.title)));
+  byId("case").textContent = said(display.title);
   const torque = rounded("screw_torque", results.screw_torque, known);
   const numbersInWords = text("answer.summary", {
     friction: `${torque.text}${torque.interval ? ` (${torque.interval})` : ""}`,
@@ -236,7 +236,7 @@ function warning(record) {
 function showAssumptions({ display, provenance }) {
   const { model, version, references } = provenance;
   byId("assumed").replaceChildren(
-    element("ul", {}, ...display.assumed.map((one) => element("li", languageOf(one.text), units.filled(one)))),
+    element("ul", {}, ...display.assumed.map((one) => element("li", {}, said(one)))),
     element("p", { class: "small" }, text("assumed.sources", { model, version, references: references.join(", ") })),
   );
 }
@@ -296,7 +296,7 @@ function showBand(answer, band) {
   else if (band.state === "failed") {
     place.replaceChildren(element("p", { class: "warning" }, band.lines.join("; ")));
   } else {
-    const { words, verdicts, warnings } = band.answer;
+    const { display, verdicts, warnings } = band.answer;
     const shown = new Set(answer.warnings.map((record) => record.id));
     const others = warnings.filter((record) => !shown.has(record.id));
     const [first, ...sentences] = verdicts.filter(({ id }) => id.startsWith("band."));
@@ -307,7 +307,7 @@ function showBand(answer, band) {
         { open: isOpen },
         element("summary", languageOfRecord(first), ofRecord(first)),
         ...sentences.map((one) => element("p", languageOfRecord(one), ofRecord(one))),
-        element("p", { class: "small", ...languageOf(words.inputs) }, sentence(words.inputs)),
+        element("p", { class: "small" }, said(display.inputs)),
         ...others.map((record) => element("p", { class: "small", ...languageOfRecord(record) }, ofRecord(record))),
       ),
     );

@@ -3,7 +3,8 @@
 import * as parts from "./chart_parts.js";
 import { byId, element, table } from "./dom.js";
 import { draw, hide, layout } from "./plot.js";
-import { ofServer, text } from "./texts.js";
+import { said } from "./messages.js";
+import { text } from "./texts.js";
 import * as units from "./units.js";
 import { vocabulary } from "./vocabulary.js";
 
@@ -54,10 +55,10 @@ export function show(answer) {
     const [least, mean, greatest] = ["least", "mean", "greatest"].map((one) => units.formattedIn(found[one], "N", "N"));
     rows.push([text(`stiffness.${flank}`), text("stiffness.loads", { least, greatest, mean })]);
   }
-  const notes = /** @type {string[]} */ (loads.axial_rigidity?.assumed ?? []);
+  const notes = answer.display.rigidity.map(said).join("; ");
   place.replaceChildren(
     table(text("stiffness.caption"), ["", ""], rows),
-    element("p", { class: "small", ...ofServer }, notes.length ? `Assumed: ${notes.join("; ")}.` : ""),
+    element("p", { class: "small" }, notes ? text("stiffness.assumed", { notes }) : ""),
   );
   drawBalls(loads.balls ?? {}, halvesOf(answer));
 }

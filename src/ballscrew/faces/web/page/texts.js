@@ -45,11 +45,6 @@ export function filledIn(pattern, value) {
   return pattern.replace(PLACEHOLDER, (placeholder, name) => String(value(name) ?? placeholder));
 }
 
-/** True where the language has a text of a key. @param {string} key */
-export function hasText(key) {
-  return Object.hasOwn(table, key);
-}
-
 /**
  * The digits of a number, written with a point, as they are written in the language.
  *
@@ -61,49 +56,6 @@ export function localised(digits) {
 
 /** Attributes of an element whose words the server makes, which are English: a screen reader pronounces them so. */
 export const ofServer = language === "en" ? {} : { lang: "en" };
-
-/** What stands in a sentence of the server for a number or a quantity. */
-const NUMBERS = /\{\d+\}|(?<![\w.-])\d+(?:\.\d+)?(?:e[-+]?\d+)?(?!\w)/g;
-/** What parts the clauses of a sentence of the server. */
-const BETWEEN = /(, |; )/;
-
-/**
- * A sentence of the server, or each clause of it, in the language of the page, as far as that has it.
- *
- * @param {string} english its quantities are numbers in braces
- */
-export function sentence(english) {
-  if (language === "en") return english;
-  return (
-    translated(english) ??
-    english
-      .split(BETWEEN)
-      .map((clause) => translated(clause) ?? clause)
-      .join("")
-  );
-}
-
-/**
- * Attributes of an element with a sentence of the server: its language, where that is another one.
- *
- * @param {string} english
- */
-export function languageOf(english) {
-  const isKnown = translated(english) || english.split(BETWEEN).every((one) => !/[a-z]/i.test(one) || translated(one));
-  return isKnown ? {} : ofServer;
-}
-
-/** @param {string} clause */
-function translated(clause) {
-  /** @type {string[]} */
-  const numbers = [];
-  const pattern = clause.replace(NUMBERS, (number) => {
-    numbers.push(number.startsWith("{") ? number : localised(number));
-    return "{}";
-  });
-  const found = Object.hasOwn(table, `sentence.${pattern}`) ? table[`sentence.${pattern}`] : undefined;
-  return found?.replace(/\{\}/g, () => numbers.shift() ?? "");
-}
 
 /** True where the language has a decimal comma. */
 export const hasComma = POINT === ",";

@@ -2,7 +2,7 @@
 
 import { currentLead } from "./designs.js";
 import { store } from "./store.js";
-import { hasComma, localised, sentence, textOr } from "./texts.js";
+import { hasComma, localised, textOr } from "./texts.js";
 import { vocabulary } from "./vocabulary.js";
 
 const NUMBER = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(.*?)\s*$/i;
@@ -20,7 +20,6 @@ const GROUPS = {
   ".": /(?<![\d.,])[1-9]\d{0,2}(?:\.\d{3})+(?![\d.])/,
   ",": /(?<![\d.,])[1-9]\d{0,2}(?:,\d{3})+(?![\d,])/,
 };
-const PLACEHOLDER = /\{(\d{1,4})\}/g;
 /** How far the full-width forms stand behind those of ASCII. */
 const FULL_WIDTH = 0xfee0;
 
@@ -347,27 +346,6 @@ export function withPowers(written) {
  */
 export function ends(low, high) {
   return [digits(low, DIGITS, -1), digits(high, DIGITS, 1)];
-}
-
-/**
- * A sentence of the server in the language of the page, with its quantities in the current units.
- *
- * @param {Template} template
- */
-export function filled({ text, quantities }) {
-  return inUnits({ text: sentence(text), quantities });
-}
-
-/**
- * A text of the server with its quantities in the current units.
- *
- * @param {Template} template
- */
-export function inUnits({ text, quantities }) {
-  return text.replace(PLACEHOLDER, (placeholder, place) => {
-    const one = quantities[Number(place)];
-    return one ? formattedIn(one.value, one.shown_in, one.unit, one.digits, one.toward) : placeholder;
-  });
 }
 
 /**

@@ -2,6 +2,7 @@
 
 import * as designs from "../designs.js";
 import { element, scrolling, table } from "../dom.js";
+import { said } from "../messages.js";
 import { watch } from "../plot.js";
 import { save } from "../saving.js";
 import { ask, linesOf, sendJson } from "../server.js";
@@ -168,7 +169,7 @@ export function setUp(holder) {
   function show(found) {
     answer = found;
     system = units.currentSystem();
-    const { rows, words: said, display } = found;
+    const { rows, display } = found;
     const left = Object.entries(rows.left_out).map(([reason, count]) => `${reason}: ${count}`);
     words.replaceChildren(
       ...lines(found.verdicts, []),
@@ -176,9 +177,9 @@ export function setUp(holder) {
       element("p", { class: "small", ...ofServer }, [...left, ...rows.notes, rows.torque].join("; ")),
       estimates(found),
       ...lines([], found.warnings),
-      element("p", ofServer, said.trade_off),
+      element("p", {}, said(display.trade_off)),
       ...(display.next_test.length ? [element("h3", {}, text("calibrate.next"))] : []),
-      ...display.next_test.map((line) => element("p", ofServer, units.filled(line))),
+      ...display.next_test.map((line) => element("p", {}, said(line))),
     );
     charts.show(found);
     const untold = Object.entries(found.estimates)

@@ -2,6 +2,7 @@
 
 import * as designs from "../designs.js";
 import { element, scrolling, table } from "../dom.js";
+import { said } from "../messages.js";
 import { save } from "../saving.js";
 import { get } from "../server.js";
 import { ofServer, text, textOr } from "../texts.js";
@@ -107,13 +108,13 @@ export function setUp(holder) {
     /** @param {string} option @param {Record<string, string>} given */
     const words = (option, given) => Object.entries(given).flatMap(([name, value]) => [option, `${name}=${value}`]);
     const { ranges, options: choices } = body();
-    const said = ["ballscrew", "hand-over", caseFile(), "--to", select.value, "-o", "out"];
-    command.replaceChildren(commandLine([...said, ...words("--range", ranges), ...words("--option", choices)]));
+    const start = ["ballscrew", "hand-over", caseFile(), "--to", select.value, "-o", "out"];
+    command.replaceChildren(commandLine([...start, ...words("--range", ranges), ...words("--option", choices)]));
     asked.compare(body());
   }
 
   /** @param {HandOverAnswer} found */
-  function show({ results, warnings, words, file }) {
+  function show({ results, warnings, display, file }) {
     const worst = /** @type {Record<string, Record<string, any>>} */ (results.worst_error);
     const rows = Object.entries(worst).map(([name, one]) => [
       textOr(`result.${name}`, name.replaceAll("_", " ")),
@@ -143,7 +144,7 @@ export function setUp(holder) {
           "details",
           { open: "" },
           element("summary", {}, text("hand_over.ranges")),
-          element("ul", ofServer, ...words.lines.map((line) => element("li", {}, line.trim()))),
+          element("ul", {}, ...display.lines.map((line) => element("li", {}, said(line)))),
         ),
       ),
     );

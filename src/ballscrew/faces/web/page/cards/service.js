@@ -3,7 +3,8 @@
 import * as designs from "../designs.js";
 import { element, scrolling, table } from "../dom.js";
 import { draw, layout, watch } from "../plot.js";
-import { ofServer, text } from "../texts.js";
+import { said } from "../messages.js";
+import { text } from "../texts.js";
 import * as units from "../units.js";
 import { vocabulary } from "../vocabulary.js";
 import { button, caseFile, commandLine, dropZone, exampleButton, faultLines } from "./log_parts.js";
@@ -99,8 +100,8 @@ export function setUp(holder) {
     start.disabled = !logs.worn;
     const names = ["new", "worn"].flatMap((name) => (logs[name] ? [logs[name].name] : []));
     const option = tolerance.value === TOLERANCE ? [] : ["--tolerance", String(share())];
-    const said = ["ballscrew", "service", ...names, "--case", caseFile(), ...option, ...flags(options, chosen)];
-    command.replaceChildren(...(logs.worn ? [commandLine(said)] : []));
+    const commandWords = ["ballscrew", "service", ...names, "--case", caseFile(), ...option, ...flags(options, chosen)];
+    command.replaceChildren(...(logs.worn ? [commandLine(commandWords)] : []));
     if (answer && system !== units.currentSystem()) show(answer);
     asked.compare(body());
   }
@@ -109,16 +110,15 @@ export function setUp(holder) {
   function show(found) {
     answer = found;
     system = units.currentSystem();
-    const { verdicts, display, warnings, words: said, results } = found;
-    const inUnits = verdicts.map((one, place) => ({ ...one, text: units.filled(display.verdicts[place]) }));
+    const { verdicts, display, warnings, results } = found;
     const ratio = /** @type {{ value: number, low: number, high: number } | undefined} */ (results.ratio);
     words.replaceChildren(
-      ...lines(inUnits.slice(0, 1), []),
+      ...lines(verdicts.slice(0, 1), []),
       ...(ratio ? [left(ratio)] : []),
       preloads(results),
-      ...said.causes.map((line) => element("p", { class: "small", ...ofServer }, line)),
-      ...(inUnits.length > 1 ? [element("h3", {}, text("service.others"))] : []),
-      ...lines(inUnits.slice(1), warnings),
+      ...display.causes.map((one) => element("p", { class: "small" }, said(one))),
+      ...(verdicts.length > 1 ? [element("h3", {}, text("service.others"))] : []),
+      ...lines(verdicts.slice(1), warnings),
     );
     draw(CHART, picture(/** @type {Record<string, Curve>} */ (found.picture)));
   }

@@ -2,11 +2,12 @@
 
 import * as designs from "../designs.js";
 import { element, table } from "../dom.js";
+import { said } from "../messages.js";
 import { watch } from "../plot.js";
 import * as schema from "../schema.js";
 import * as states from "../state.js";
 import { store } from "../store.js";
-import { ofServer, text, textOr } from "../texts.js";
+import { text, textOr } from "../texts.js";
 import * as units from "../units.js";
 import { vocabulary } from "../vocabulary.js";
 import { fieldset, placeFaults, showValues } from "./case_fields.js";
@@ -233,15 +234,15 @@ export function setUp(holder) {
 
   /** How far the loop of heat is from running away. @param {WarmUpAnswer} found */
   function margin({ results: { equilibrium, stopped, heat } }) {
-    const said = [text("warm_up.margin", { margin: units.digits(equilibrium.margin, units.DIGITS) })];
-    if (stopped !== null) said.push(text("warm_up.stopped", { time: HOURS.text(stopped) }));
+    const sentences = [text("warm_up.margin", { margin: units.digits(equilibrium.margin, units.DIGITS) })];
+    if (stopped !== null) sentences.push(text("warm_up.stopped", { time: HOURS.text(stopped) }));
     const energy = quantity("J", "kJ");
     const { generated, stored, lost } = heat;
-    said.push(
+    sentences.push(
       text("warm_up.heat", { generated: energy.text(generated), stored: energy.text(stored), lost: energy.text(lost) }),
     );
-    said.push(text("warm_up.growth_note"));
-    return element("p", { class: "small" }, said.join(" "));
+    sentences.push(text("warm_up.growth_note"));
+    return element("p", { class: "small" }, sentences.join(" "));
   }
 
   /** @param {WarmUpAnswer["results"]} results */
@@ -254,8 +255,8 @@ export function setUp(holder) {
   }
 
   /** @param {WarmUpAnswer} found */
-  function assumed({ assumed: found }) {
-    const list = element("ul", ofServer, ...found.map((one) => element("li", {}, one)));
+  function assumed({ display }) {
+    const list = element("ul", {}, ...display.assumed.map((one) => element("li", {}, said(one))));
     return element("details", {}, element("summary", {}, text("warm_up.assumed")), list);
   }
 
