@@ -179,3 +179,19 @@ def what_stays_in_the_browser(here):
         here.page.locator("#forget").click()
     assert here.page.evaluate("Object.keys(localStorage).length") == 0
     assert not here.page.locator("#forget").is_visible()
+
+
+def test_a_need_and_a_table_are_there_before_their_card(visit):
+    """They are part of the state: a card shows them once it is opened, and the need is in the address and undone."""
+    here = visit().open("#A=paper&band=0")
+    need = b'[need]\nforce = "2 kN"\nfeed = "15 m/min"\nlength = "1 m"\nends = "fixed-supported"\nlife = "9000 h"\n'
+    assert "need.toml" in given(here, "need.toml", need)
+    here.page.wait_for_function("() => location.hash.includes('need=')")
+    assert "own.csv" in given(here, "own.csv", b"name,d0 [mm],lead [mm],ball [mm],turns,nut\nMINE,40,20,6,4,single\n")
+    here.page.locator("#choose-open").click()
+    here.page.wait_for_selector("#choose label >> text=own.csv")
+    assert here.page.locator("#f-need-feed").input_value() == "15"
+    here.page.locator("#undo").click()
+    here.page.wait_for_function("() => !location.hash.includes('need=')")
+    here.page.locator("#files-open").click()
+    here.page.wait_for_selector("#files li >> text=MINE")
