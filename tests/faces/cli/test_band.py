@@ -39,7 +39,9 @@ def document_of(process):
 def test_json(drive, ballscrew):
     with_band = document_of(ballscrew("run", drive, "--band", "--json", "--samples", "512"))
     without = document_of(ballscrew("run", drive, "--json"))
-    found = with_band.pop("band")
+    found, units = with_band.pop("band"), with_band["units"].pop("band")
+    banded = {name for name, one in found.items() if isinstance(one, dict) and "median" in one}
+    assert {"screw_torque", "efficiency"} < banded < units.keys()
     for kind in ("verdicts", "warnings"):  # those of the band stand after those of the run
         own = with_band[kind][len(without[kind]) :]
         assert with_band[kind] == [*without[kind], *own]
