@@ -332,6 +332,11 @@ def to_significant(value: Any, digits: int) -> Measured:
     return as_written(f"{float(value):.{digits}g}")
 
 
+def grouped(number: int) -> Measured:
+    """A whole number with its thousands in groups."""
+    return Measured(float(number), digits=12, written=f"{number:,}")
+
+
 def percent(share: Any, decimals: int = 0) -> Message:
     """A share in per cent: ``12%``."""
     return Message("{percent}%", {"percent": _of_hundred(share, decimals)})
@@ -339,13 +344,13 @@ def percent(share: Any, decimals: int = 0) -> Message:
 
 def change(share: Any, decimals: int = 0) -> Message:
     """A change in per cent, with its sign: ``+12%``."""
-    number = _of_hundred(share, decimals)
-    return (Message("+{percent}%") if f"{float(share):+}".startswith("+") else Message("{percent}%")).of(percent=number)
+    values = {"percent": _of_hundred(share, decimals)}
+    return Message("{percent}%" if math.copysign(1.0, float(share)) < 0 else "+{percent}%", values)
 
 
 def signed(number: Measured) -> Message:
     """A number with its sign: ``+0.2 N m``."""
-    return Message("+{number}" if f"{number.value:+}".startswith("+") else "{number}", {"number": number})
+    return Message("{number}" if math.copysign(1.0, number.value) < 0 else "+{number}", {"number": number})
 
 
 def _of_hundred(share: Any, decimals: int) -> Measured:

@@ -203,6 +203,24 @@ def test_no_template_is_put_together():
     assert found == []
 
 
+def test_numbers_in_messages_are_numbers():
+    """None is written by Python, with a point where a language has a comma."""
+    found = [
+        f"{source.name}:{value.lineno}: {ast.unparse(value)}"
+        for source, call in calls("Message", "of")
+        for value in values_in(call)
+        if isinstance(value, ast.JoinedStr) and any(getattr(part, "format_spec", None) for part in value.values)
+    ]
+    assert found == []
+
+
+def values_in(call):
+    """What stands in the message that a call makes."""
+    yield from (keyword.value for keyword in call.keywords)
+    for one in call.args:
+        yield from one.values if isinstance(one, ast.Dict) else ()
+
+
 def is_text(part):
     return isinstance(part, ast.Constant)
 

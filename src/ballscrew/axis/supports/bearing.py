@@ -166,7 +166,7 @@ class SupportBearing(ByValue):
                 "bearing.balls",
                 "do not fit on their circle",
                 given,
-                Message("{room} mm are all there is", {"room": f"{1000.0 * room:.4g}"}),
+                Message("{room} mm are all there is", {"room": units.to_significant(1000.0 * room, 4)}),
             )
         ]
 

@@ -12,6 +12,7 @@ from typing import TypeAlias, get_args
 
 import numpy as np
 
+from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, as_float, is_concrete, nearest, raise_if_any
 from ballscrew.basis.quantities import Array, Info, Quantity
 from ballscrew.basis.records import Message
@@ -170,7 +171,10 @@ class Triangular:
                     "triangular.mode",
                     "must lie between the ends",
                     given,
-                    Message("{low} to {high}", {"low": f"{self.low:g}", "high": f"{self.high:g}"}),
+                    Message(
+                        "{low} to {high}",
+                        {"low": units.to_significant(self.low, 6), "high": units.to_significant(self.high, 6)},
+                    ),
                 )
             ]
         raise_if_any(faults)

@@ -80,7 +80,7 @@ def _parsed(raw: str, quantity: Quantity) -> UncertainValue | Fault | None:
             "",
             "is a whole number, which has no distribution",
             raw,
-            Message('write "{central}"', {"central": f"{written.central:g}"}),
+            Message('write "{central}"', {"central": units.to_significant(written.central, 6)}),
         )
     return dataclasses.replace(written, distribution=within(written.distribution, quantity.info))
 

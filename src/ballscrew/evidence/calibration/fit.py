@@ -10,6 +10,7 @@ from typing import Any, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, accepts_units, nearest, raise_if_any, si_value
 from ballscrew.basis.quantities import Force, MomentOfInertia, TemperatureDifference, within_bounds
 from ballscrew.basis.records import Message
@@ -348,7 +349,8 @@ def _faults_of_options(
         faults.append(Fault("fit.holdout", "must be a share from 0 to 0.5", str(holdout), "0.2 is usual"))
     if temperature_error is not None and not 0 <= temperature_error <= MOST_TEMPERATURE_ERROR:
         problem = Message(
-            "must be from 0 to {most_temperature_error} K", {"most_temperature_error": f"{MOST_TEMPERATURE_ERROR:g}"}
+            "must be from 0 to {most_temperature_error} K",
+            {"most_temperature_error": units.to_significant(MOST_TEMPERATURE_ERROR, 6)},
         )
         faults.append(
             Fault("fit.temperature_error", problem, str(temperature_error), "2 K is usual where it is logged")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, accepts_units, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, MomentOfInertia, Temperature
 from ballscrew.basis.records import Message
@@ -123,7 +124,10 @@ def _faults(subject: Configuration, baseline: Any, false_alarms: Any, tolerance:
             faults.append(
                 Fault(
                     f"condition.{name}",
-                    Message("must lie between {low} and {high}", {"low": f"{low:g}", "high": f"{high:g}"}),
+                    Message(
+                        "must lie between {low} and {high}",
+                        {"low": units.to_significant(low, 6), "high": units.to_significant(high, 6)},
+                    ),
                     str(value),
                     remedy,
                 )

@@ -174,7 +174,7 @@ def _faults_of_jumps(parts: Sequence[tuple[int, _Mean]], labels: Sequence[str]) 
             f"{labels[i]}: log",
             Message(
                 "has {usual} times the friction of {labels}",
-                {"usual": f"{usual[i] / usual[i - 1]:.3g}", "labels": labels[i - 1]},
+                {"usual": units.to_significant(usual[i] / usual[i - 1], 3), "labels": labels[i - 1]},
             ),
             "",
             remedy,

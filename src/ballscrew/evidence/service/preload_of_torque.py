@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, accepts_units, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, Temperature, Torque
 from ballscrew.basis.records import Message
@@ -98,7 +99,11 @@ def preload_of_torque(
         without, much = float(np.nanmedian(least)), float(np.nanmedian(most))
         problem = Message(
             "no preload gives it: the nut loses {without} N m without any, {much} N m at {most} times it",
-            {"without": f"{without:.3g}", "much": f"{much:.3g}", "most": f"{MOST:g}"},
+            {
+                "without": units.to_significant(without, 3),
+                "much": units.to_significant(much, 3),
+                "most": units.to_significant(MOST, 6),
+            },
         )
         remedy = "look at the unit, and at the seals in [losses]"
         raise InputError(Fault("service.torque", problem, f"{torque:.4g} N m", remedy))

@@ -80,7 +80,7 @@ def friction_curve(handed: HandOver, count: int, slowest: float | None = None) -
         least, greatest = limits[OPERATION[0]]
         remedy = Message(
             "give a load from {least} N to {greatest} N, or a larger range",
-            {"least": f"{least:g}", "greatest": f"{greatest:g}"},
+            {"least": units.to_significant(least, 6), "greatest": units.to_significant(greatest, 6)},
         )
         raise InputError(Fault("hand_over.load", "is beyond the range", f"{load:g} N", remedy))
     fixed = {one.name: one.value for one in handed.inputs if one.name != OPERATION[1]} | {OPERATION[0]: load}

@@ -182,7 +182,7 @@ def _too_many(size: int) -> Fault:
         "hand_over.tolerance",
         Message(
             "needs a table of {size} nodes, more than {most_nodes}",
-            {"size": f"{size:,}", "most_nodes": f"{MOST_NODES:,}"},
+            {"size": units.grouped(size), "most_nodes": units.grouped(MOST_NODES)},
         ),
         "",
         remedy,

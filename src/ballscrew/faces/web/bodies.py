@@ -17,6 +17,7 @@ import anyio
 from pydantic import BaseModel, ConfigDict, Field, create_model
 from starlette.requests import ClientDisconnect, Request
 
+from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.basis.records import Message
 from ballscrew.cases.case_files import case_file
@@ -212,7 +213,12 @@ async def content_of(request: Request, most: int) -> bytes:
     except TimeoutError:
         raise Refused(
             408,
-            Fault("request", Message("did not arrive within {read_timeout} s", {"read_timeout": f"{READ_TIMEOUT:g}"})),
+            Fault(
+                "request",
+                Message(
+                    "did not arrive within {read_timeout} s", {"read_timeout": units.to_significant(READ_TIMEOUT, 6)}
+                ),
+            ),
         ) from None
     except ClientDisconnect:
         raise Refused(400, Fault("request", "was interrupted")) from None  # no client is left to read it

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
+from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.case_file import (
@@ -66,7 +67,7 @@ def check_size(vary: Mapping[str, str], outputs: int, *, banded: bool = False) -
                 "sweep",
                 "too many values",
                 f"{values:,}",
-                Message("{most_returned} at most here", {"most_returned": f"{MOST_RETURNED:,}"}),
+                Message("{most_returned} at most here", {"most_returned": units.grouped(MOST_RETURNED)}),
             )
         )
     raise_if_any(faults)
@@ -87,7 +88,7 @@ def check_sweep(case: Case, plan: sweeps.Plan) -> None:
                 "sweep",
                 "too many values",
                 number,
-                Message("{most_returned} at most here", {"most_returned": f"{MOST_RETURNED:,}"}),
+                Message("{most_returned} at most here", {"most_returned": units.grouped(MOST_RETURNED)}),
             )
         )
     raise_if_any(faults)
@@ -113,7 +114,8 @@ def check_warm_up(case: Case, samples: int | None) -> None:
         faults.append(Fault("motion", "has too many states to map their friction", f"{states:,}", remedy))
     if samples is not None and samples > MOST_TRANSIENTS:
         remedy = Message(
-            "{most_transients} at most here; the rest by ballscrew warm-up", {"most_transients": f"{MOST_TRANSIENTS:,}"}
+            "{most_transients} at most here; the rest by ballscrew warm-up",
+            {"most_transients": units.grouped(MOST_TRANSIENTS)},
         )
         faults.append(Fault("--samples", "too many", f"{samples:,}", remedy))
     raise_if_any(faults)
@@ -139,7 +141,7 @@ def check_columns(name: str, content: bytes) -> None:
                 name,
                 "has too many columns",
                 f"{widest + 1:,}",
-                Message("{most_columns} at most here", {"most_columns": f"{MOST_COLUMNS:,}"}),
+                Message("{most_columns} at most here", {"most_columns": units.grouped(MOST_COLUMNS)}),
             )
         )
 
@@ -172,7 +174,9 @@ def samples_of(case: Case, requested: int | None = None) -> int | None:
         return most if _default_samples(case) > most else None
     if requested > most:
         raise InputError(
-            Fault("--samples", "too many", f"{requested:,}", Message("{most} at most here", {"most": f"{most:,}"}))
+            Fault(
+                "--samples", "too many", f"{requested:,}", Message("{most} at most here", {"most": units.grouped(most)})
+            )
         )
     return requested
 
@@ -190,7 +194,9 @@ def samples_of_sweep(case: Case, plan: sweeps.Plan, requested: int | None = None
         raise InputError(_too_many_points(points, total // FEWEST_SAMPLES))
     if requested is not None and requested > most:
         raise InputError(
-            Fault("--samples", "too many", f"{requested:,}", Message("{most} at most here", {"most": f"{most:,}"}))
+            Fault(
+                "--samples", "too many", f"{requested:,}", Message("{most} at most here", {"most": units.grouped(most)})
+            )
         )
     usual = NUT_SAMPLES if case.screw.nut.one_by_one else SAMPLES
     return requested or min(usual, 2 ** int(math.log2(most)))
@@ -225,5 +231,5 @@ def _too_many_points(points: int, most: int) -> Fault:
         "sweep",
         "too many points",
         f"{points:,}",
-        Message("{most} at most here; the rest by ballscrew sweep", {"most": f"{most:,}"}),
+        Message("{most} at most here; the rest by ballscrew sweep", {"most": units.grouped(most)}),
     )

@@ -210,7 +210,9 @@ def headings_in(
     if not found:
         raise InputError(Fault(str(path), "is empty", "", "give a table with headings and rows"))
     if (widest := max(len(record.cells) for record in found)) > MOST_COLUMNS:
-        remedy = Message("{most_columns} at most: keep those that are needed", {"most_columns": f"{MOST_COLUMNS:,}"})
+        remedy = Message(
+            "{most_columns} at most: keep those that are needed", {"most_columns": units.grouped(MOST_COLUMNS)}
+        )
         raise InputError(Fault(str(path), "has too many columns", f"{widest:,}", remedy))
     best: tuple[int, list[Heading]] = (0, [])
     for number, record in enumerate(found[:within]):

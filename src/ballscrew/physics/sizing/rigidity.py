@@ -266,7 +266,10 @@ def _faults(
         return faults
     least = _nut_force_diameter(screw)
     if outer is not None and not outer > least:
-        remedy = Message("more than {least} m, where the balls press on it", {"least": f"{least:.6g}"})
+        remedy = Message(
+            "more than {least} m, where the balls press on it",
+            {"least": Measured(least, digits=6, written=f"{least:.6g}")},
+        )
         faults.append(
             Fault("rigidity.nut_outer_diameter", "leaves no wall around the balls", shown(outer, "m"), remedy)
         )

@@ -64,7 +64,7 @@ def heat_samples(heating: SelfHeating, *, only_given: bool = False) -> HeatSampl
     if len(known) < ENOUGH * SAMPLES:
         problem = Message(
             "has no steady state in {count} % of samples of the surroundings",
-            {"count": f"{100 * (1 - len(known) / SAMPLES):.2g}"},
+            {"count": units.to_significant(100 * (1 - len(known) / SAMPLES), 2)},
         )
         remedy = "give [surroundings] ball_conductance and nut_conductance with their bands, or see ballscrew warm-up"
         raise InputError(Fault("--self-heating", problem, "", remedy))

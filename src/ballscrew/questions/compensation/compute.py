@@ -8,6 +8,7 @@ import math
 import numpy as np
 
 from ballscrew.axis.motion.states import Numbers
+from ballscrew.basis import units
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, InputError, nearest
 from ballscrew.basis.quantities import Duration
@@ -88,7 +89,10 @@ def position_compensation(
         given = f"{1000 * step:g} mm"
         remedy = Message(
             "give {length} mm to {length_2} mm",
-            {"length": f"{1000 * length / (MOST - 1):.3g}", "length_2": f"{1000 * length:.4g}"},
+            {
+                "length": units.to_significant(1000 * length / (MOST - 1), 3),
+                "length_2": units.to_significant(1000 * length, 4),
+            },
         )
         raise InputError(
             Fault(
@@ -98,13 +102,19 @@ def position_compensation(
     if direction not in DIRECTIONS:
         raise InputError(Fault("--direction", "unknown direction", direction, nearest(direction, DIRECTIONS)))
     if not 0 <= zero <= length:
-        remedy = Message("its place is 0 mm to {length} mm from the fixed bearing", {"length": f"{1000 * length:g}"})
+        remedy = Message(
+            "its place is 0 mm to {length} mm from the fixed bearing",
+            {"length": units.to_significant(1000 * length, 6)},
+        )
         raise InputError(Fault("--zero", "is beyond the shaft", f"{1000 * zero:g} mm", remedy))
     sign = DIRECTIONS[direction]
     at = 0.0 if reference is None else zero + sign * reference
     if not 0 <= at <= length:
         low, high = sorted((-1000 * sign * zero, 1000 * sign * (length - zero)))
-        remedy = Message("it is {low} mm to {high} mm", {"low": f"{low:zg}", "high": f"{high:zg}"})
+        remedy = Message(
+            "it is {low} mm to {high} mm",
+            {"low": units.as_written(f"{low:zg}"), "high": units.as_written(f"{high:zg}")},
+        )
         raise InputError(Fault("--reference", "is beyond the shaft", f"{1000 * sign * (at - zero):g} mm", remedy))
     places, growth = report.warm_up.compensation_table(step / _FINER)
     even = np.linspace(0.0, length, int(np.ceil(length / step - 1e-9)) + 1)
@@ -130,7 +140,7 @@ def _stopped(stopped: Duration, hours: float) -> Fault:
     reached = math.floor(100 * stopped / HOUR) / 100
     problem = Message(
         "the warm-up stops after {reached} h: beyond it oil or preload are outside what the model knows",
-        {"reached": f"{reached:.2f}"},
+        {"reached": units.fixed(reached, 2)},
     )
     less = f"write --hours {reached:g} at most, or " if reached else ""
     return Fault(

@@ -323,7 +323,7 @@ def _axis(where: str, text: str, quantity: Quantity) -> np.ndarray | Fault:
             where,
             "bad number of values",
             span["count"],
-            Message("start:stop:count, count from 1 to {longest_axis}", {"longest_axis": f"{_LONGEST_AXIS:,}"}),
+            Message("start:stop:count, count from 1 to {longest_axis}", {"longest_axis": units.grouped(_LONGEST_AXIS)}),
         )
     numbers = np.linspace(values[0], values[1], int(span["count"]))
     if quantity.info.whole and np.any(numbers % 1):

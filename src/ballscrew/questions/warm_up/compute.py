@@ -241,10 +241,10 @@ def check_hours(hours: float, cool_down: float) -> None:
     """Raise :class:`~ballscrew.basis.errors.InputError` for times that are none."""
     faults: list[Fault] = []
     if not 0 < hours <= LONGEST:
-        problem = Message("must be above 0 and at most {most}", {"most": f"{LONGEST:g}"})
+        problem = Message("must be above 0 and at most {most}", {"most": units.to_significant(LONGEST, 6)})
         faults.append(Fault("--hours", problem, f"{hours:g}", "write --hours 4"))
     if not 0 <= cool_down <= LONGEST:
-        problem = Message("must be 0 to {most}", {"most": f"{LONGEST:g}"})
+        problem = Message("must be 0 to {most}", {"most": units.to_significant(LONGEST, 6)})
         faults.append(Fault("--cool-down", problem, f"{cool_down:g}", "write --cool-down 1"))
     raise_if_any(faults)
 

@@ -3,7 +3,7 @@
 import { labelIn, words } from "./fields.js";
 import { OF_CARDS, SECTIONS } from "./schema.js";
 import { filledIn, ofServer, textOr } from "./texts.js";
-import { formattedIn, inLanguage, inSystem, symbol } from "./units.js";
+import { formattedIn, inLanguage, inSystem, symbol, withPowers } from "./units.js";
 
 /**
  * The name of a field as the form labels it.
@@ -62,7 +62,7 @@ function partOf(value) {
   if ("field" in value) return setting(value.field);
   if ("name" in value) return nameOf(value.name);
   if ("unit_name" in value) return symbol(inSystem(value.unit_name));
-  return formattedIn(value.value, value.shown_in, value.unit, value.digits, value.toward);
+  return withPowers(formattedIn(value.value, value.shown_in, value.unit, value.digits, value.toward));
 }
 
 /** @param {string} path */
