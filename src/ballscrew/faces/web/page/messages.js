@@ -2,7 +2,7 @@
 
 import { labelIn, words } from "./fields.js";
 import { OF_CARDS, SECTIONS } from "./schema.js";
-import { filledIn, ofServer, textOr } from "./texts.js";
+import { filledIn, textOr } from "./texts.js";
 import { formattedIn, inLanguage, inSystem, symbol, withPowers } from "./units.js";
 
 /**
@@ -79,15 +79,6 @@ export function ofRecord({ message: { template, values }, subject }) {
   // a message about a field has its meaning as the form has it
   const meaning = "meaning" in values ? textOr(`field.${subject}.help`, "") : "";
   return said({ template, values: meaning ? { ...values, meaning } : values });
-}
-
-/**
- * Attributes of an element with a record: its language, where that is English.
- *
- * @param {VerdictRecord} record
- */
-export function languageOfRecord({ message }) {
-  return message ? {} : ofServer;
 }
 
 /**

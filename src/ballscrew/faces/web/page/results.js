@@ -3,7 +3,7 @@
 import { inHeadline, isStarved } from "./bath.js";
 import { verdict } from "./checks.js";
 import { byId, element, table } from "./dom.js";
-import { languageOfRecord, ofRecord, said } from "./messages.js";
+import { ofRecord, said } from "./messages.js";
 import { text, textOr } from "./texts.js";
 import * as units from "./units.js";
 
@@ -201,11 +201,7 @@ function showVendorRows({ vendor_rows: near }) {
 function showVerdicts(answer) {
   const { verdicts, warnings } = answer;
   const lines = verdicts.map((record) =>
-    element(
-      "p",
-      { class: record.severity === "info" ? "verdict" : "verdict careful", ...languageOfRecord(record) },
-      ofRecord(record),
-    ),
+    element("p", { class: record.severity === "info" ? "verdict" : "verdict careful" }, ofRecord(record)),
   );
   const ofContacts = warnings.filter(isOfContact);
   if (ofContacts.length) {
@@ -229,7 +225,7 @@ function showVerdicts(answer) {
 /** @param {VerdictRecord} record */
 function warning(record) {
   const subject = element("strong", {}, `${text("answer.beware", { subject: nameOf(record) })} `);
-  return element("p", { class: "warning" }, subject, element("span", languageOfRecord(record), ofRecord(record)));
+  return element("p", { class: "warning" }, subject, element("span", {}, ofRecord(record)));
 }
 
 /** @param {Run} answer */
@@ -305,10 +301,10 @@ function showBand(answer, band) {
       element(
         "details",
         { open: isOpen },
-        element("summary", languageOfRecord(first), ofRecord(first)),
-        ...sentences.map((one) => element("p", languageOfRecord(one), ofRecord(one))),
+        element("summary", {}, ofRecord(first)),
+        ...sentences.map((one) => element("p", {}, ofRecord(one))),
         element("p", { class: "small" }, said(display.inputs)),
-        ...others.map((record) => element("p", { class: "small", ...languageOfRecord(record) }, ofRecord(record))),
+        ...others.map((record) => element("p", { class: "small" }, ofRecord(record))),
       ),
     );
   }

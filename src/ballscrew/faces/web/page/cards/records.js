@@ -2,7 +2,7 @@
 
 import { element } from "../dom.js";
 import { text } from "../texts.js";
-import { languageOfRecord, ofRecord } from "../messages.js";
+import { ofRecord } from "../messages.js";
 
 /**
  * Verdicts, and below them what to beware of.
@@ -20,7 +20,6 @@ export function lines(verdicts, warnings) {
         {
           class: record.severity === "info" ? "verdict" : "verdict careful",
           "data-record": record.id,
-          ...languageOfRecord(record),
         },
         sentence(ofRecord(record)),
       ),
@@ -32,7 +31,7 @@ export function lines(verdicts, warnings) {
           "p",
           { class: "warning", "data-record": record.id },
           element("strong", {}, `${text("card.beware")} `),
-          element("span", languageOfRecord(record), sentence(ofRecord(record))),
+          element("span", {}, sentence(ofRecord(record))),
         ),
       ),
   ];
