@@ -8,11 +8,10 @@ from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Literal, NamedTuple
 
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Ratio, Temperature, Torque, Unit
-from ballscrew.evidence.service.alternatives import Alternative
 from ballscrew.evidence.service.preload_change import PreloadChange
 from ballscrew.evidence.service.preload_estimate import PreloadEstimate
 from ballscrew.questions.service.compute import TORQUE, ServiceReport
-from ballscrew.questions.shared.declared import LEFT_OUT
+from ballscrew.questions.shared.declared import LEFT_OUT, from_attributes
 
 
 class Estimate(NamedTuple):
@@ -112,31 +111,22 @@ def results(report: ServiceReport) -> ServiceResults:
 def _estimate(one: PreloadEstimate) -> Estimate:
     low, high = one.interval()
     rows = None if one.fit is None else one.fit.rows
-    return Estimate(
-        preload=one.preload,
+    return from_attributes(
+        Estimate,
+        one,
         low=low,
         high=high,
         deviation_of_logarithm=math.sqrt(one.logarithm.total_variance),
-        shares=one.shares,
-        temperature=one.temperature,
         rows=None if rows is None else len(rows.log),
         rows_read=None if rows is None else rows.log.rows,
         left_out={} if rows is None else rows.log.left_out,
         notes=[] if rows is None else rows.log.notes,
-        rows_beyond_lift_off=one.rows_beyond_lift_off,
-        residual_rms=one.residual_rms,
     )
 
 
 def _change(change: PreloadChange) -> dict[str, Any]:
     return {
         "ratio": PreloadLeft(change.ratio, *change.ratio_interval(), change.ratio_shares),
-        "alternatives": [_other_cause(one) for one in change.alternatives],
+        "alternatives": [from_attributes(OtherCause, one, unit=one.quantity.unit) for one in change.alternatives],
         **{name: getattr(change, name) for name in ("tolerance", "probability_of_loss", "verdict", "scores")},
     }
-
-
-def _other_cause(one: Alternative) -> OtherCause:
-    return OtherCause(
-        one.name, one.value, one.instead_of, one.quantity.unit, one.rms, one.rms_of_preload, one.explains, one.plausible
-    )
