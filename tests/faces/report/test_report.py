@@ -1,6 +1,7 @@
 """``ballscrew report``: read back as people and machines read it."""
 
 import dataclasses
+import datetime
 import functools
 import importlib.util
 import io
@@ -398,6 +399,8 @@ def test_a_project_and_a_date_stand_on_it_only_if_somebody_says_so(content):
     assert "Project" not in Page(html_bytes(content).decode()).words
     assert Heading.of(None, "").lines == []
     assert Heading.of("", "2026-11-23").lines == ["Date: 2026-11-23"]
+    before = datetime.date.today()
+    assert before <= datetime.date.fromisoformat(Heading.of("", "today").date) <= datetime.date.today()
     for project, date, where in (("a\nb", "", "--project"), ("x" * 121, "", "--project"), ("", "23.11.2026", "--date")):
         with pytest.raises(InputError, match=where):
             Heading.of(project, date)
