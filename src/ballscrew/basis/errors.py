@@ -60,6 +60,8 @@ class Fault:
     id: str = ""
     #: The column that the fault is about, where ``where`` is a place in a file.
     column: str = ""
+    #: The part of the field that it is about, where the field has several: ``point 2`` of a curve.
+    part: str = ""
 
     def __str__(self) -> str:
         return f"{self.field}: {self.text}"
@@ -67,7 +69,7 @@ class Fault:
     @property
     def field(self) -> str:
         """The section and field, cut to a length that people read."""
-        return _one_line(_cut(self.where))
+        return _one_line(_cut(f"{self.where} {self.part}" if self.part else self.where))
 
     @property
     def text(self) -> str:
@@ -103,6 +105,7 @@ class Fault:
         templates = {"problem": message_of(self.problem), "given": self.given, "remedy": message_of(self.remedy)}
         return {
             "where": self.field,
+            "path": _one_line(_cut(self.where)),
             "id": self.id,
             "text": self.text,
             "line": str(self),

@@ -176,6 +176,12 @@ def message_of(text: str | Message) -> Message:
     return text.message if isinstance(text, FilledText) else Message(text)
 
 
+def in_file(path: str) -> Named:
+    """A field by its place in a case file, ``[axis] mass``; its label on the page."""
+    section, _, key = path.partition(".")
+    return Named(path, f"[{section}] {key}")
+
+
 def translatable(text: str) -> str:
     """A literal text as it is, marked as the template of a message without values, as ``N_`` marks it for gettext."""
     return text

@@ -186,6 +186,25 @@ def label(quantity: Quantity) -> str:
     return "" if quantity.unit == "1" else quantity.shown_in.replace("um", "µm")
 
 
+#: What stands in the names of units for their usual symbols.
+_SYMBOLS = (
+    (r"\bu(?=m\b|in\b)", "µ"),
+    (r"\bdeg(?=[CF]\b)", "°"),
+    (r"^deg\b", "°"),
+    (r"\^2", "²"),
+    (r"\^3", "³"),
+    (r"\bohm\b", "Ω"),
+    (" ", "·"),
+)
+
+
+def symbol(unit: str) -> str:
+    """A unit in its usual symbols, as pages show it: µm, °C, m/s², N·m."""
+    for written, usual in _SYMBOLS:
+        unit = re.sub(written, usual, unit)
+    return unit
+
+
 def shown(value: Any, quantity: Quantity, digits: int = DIGITS, toward: int = 0) -> str:
     """A value with its unit, rounded for reading."""
     return " ".join(filter(None, (rounded(value, quantity, digits, toward), label(quantity))))

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.basis.records import Message, Record
+from ballscrew.basis.records import Message, Record, in_file
 from ballscrew.basis.references import citations_of
 from ballscrew.basis.version import __version__
 from ballscrew.compiler.tracing.gradient import UnknownDerivativeError, partials
@@ -33,8 +33,8 @@ PRELOADS = ("preload", "oversize")
 #: Points at which an error is measured.
 POINTS = 2000
 _OF_RANGE = Message(
-    "so where the range of the inputs starves the most; [model] inlet.replenishment_constant = 0 hands over the full "
-    "bath"
+    "so where the range of the inputs starves the most; {constant} = 0 hands over the full bath",
+    {"constant": in_file("model.inlet.replenishment_constant")},
 )
 #: Shares of the largest load and of the largest speed of the range at which starvation is looked for.
 _SHARES = {OPERATION[0]: np.array([0.0, 0.1, 1.0]), OPERATION[1]: np.array([0.1, 1.0])}

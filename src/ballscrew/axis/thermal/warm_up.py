@@ -23,7 +23,7 @@ from ballscrew.basis import units
 from ballscrew.basis.arrays import ByValue, lazy
 from ballscrew.basis.errors import Fault, InputError, accepts_units
 from ballscrew.basis.quantities import Duration, Energy, Info, Length, Power, Quantity, Torque
-from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.records import Measured, Message, Record, in_file
 from ballscrew.physics.friction.starvation import NEARLY_ALL, differs
 
 #: Relative and absolute tolerance of the integration; temperatures are then right to 1e-5 K.
@@ -355,8 +355,11 @@ def _records(found: WarmUp) -> list[Record]:
     if both:
         message = Message(
             "the growth of the shaft between the halves of the nut is left out, as it is not said how they are braced: "
-            "{endings}; give [surroundings] bracing",
-            {"endings": [_ending(name, one) for name, one in both.items()]},
+            "{endings}; give {bracing}",
+            {
+                "endings": [_ending(name, one) for name, one in both.items()],
+                "bracing": in_file("surroundings.bracing"),
+            },
         )
         verdicts.append(units.record(message, id="warning.bracing", subject="preload", severity="warning", holds=False))
     if found.stopped is not None:

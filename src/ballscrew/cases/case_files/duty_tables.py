@@ -232,13 +232,14 @@ def _surroundings(sections: Sections, faults: list[Fault]) -> Surroundings | Non
 def _curve(points: list[Any], faults: list[Fault]) -> tuple[tuple[float, float], ...]:
     found: list[tuple[float, float]] = []
     for number, point in enumerate(points, start=1):
-        where = f"motor.curve point {number}"
+        part = f"point {number}"
         if not isinstance(point, list) or len(point) != len(POINT):
             remedy = 'write curve = [["0 rpm", "7 N m"], ["3000 rpm", "5 N m"]]'
-            faults.append(Fault(where, "is not a speed and a torque", reprlib.repr(point), remedy))
+            problem = "is not a speed and a torque"
+            faults.append(Fault("motor.curve", problem, reprlib.repr(point), remedy, part=part))
             continue
-        numbers = [units.parse(where, raw, quantity) for raw, quantity in zip(point, POINT, strict=True)]
-        wrong = [number for number in numbers if isinstance(number, Fault)]
+        numbers = [units.parse("motor.curve", raw, quantity) for raw, quantity in zip(point, POINT, strict=True)]
+        wrong = [dataclasses.replace(number, part=part) for number in numbers if isinstance(number, Fault)]
         faults += wrong
         if not wrong:
             speed, torque = (float(number) for number in numbers if not isinstance(number, Fault))

@@ -17,7 +17,7 @@ from ballscrew.axis.duty_cycle.axis import GRAVITY
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.records import Measured, Message, Record, in_file
 from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.exports.programs import c99
@@ -57,11 +57,11 @@ BEYOND = 1e4
 #: Loads of the table of errors, as shares of the load of the fit.
 SHARES = (0.0, 0.5, 1.0, 1.5, 2.0)
 _NO_MASS_BUT_LOAD = Message(
-    "no mass is given ([axis] mass): the axis of the files is vertical and has {mass}, whose weight is the load of the "
+    "no mass is given ({axis_mass}): the axis of the files is vertical and has {mass}, whose weight is the load of the "
     "fit"
 )
 _NO_MASS = Message(
-    "no mass is given ([axis] mass): the axis of the files is vertical and has {mass}, of no meaning, as there is no "
+    "no mass is given ({axis_mass}): the axis of the files is vertical and has {mass}, of no meaning, as there is no "
     "load either"
 )
 _COUNTERFORCE = Message(
@@ -182,7 +182,9 @@ class JointFriction:
         """A sentence where the mass is none of the case, and where a file does not have what balances the weight."""
         found = list[Record]()
         if math.isnan(self.given_mass):
-            message = (_NO_MASS_BUT_LOAD if self.load else _NO_MASS).of(mass=units.in_unit(self.mass, "kg"))
+            message = (_NO_MASS_BUT_LOAD if self.load else _NO_MASS).of(
+                mass=units.in_unit(self.mass, "kg"), axis_mass=in_file("axis.mass")
+            )
             found.append(_assumed("hand_over.mass", "mass", message))
         if self.counterforce and not balances:
             message = _COUNTERFORCE.of(force=units.in_unit(self.counterforce, "N"))

@@ -127,6 +127,7 @@ class Vocabulary(_Table):
     documentation: str | None
     units: dict[str, list[UnitChoice]]
     systems: dict[str, dict[str, str]]
+    symbols: dict[str, str]
     results: dict[str, ResultQuantity]
     of_cycle: dict[str, CycleQuantity]
     of_warm_up: dict[str, ResultQuantity]
@@ -151,6 +152,7 @@ def vocabulary() -> dict[str, Any]:
         "documentation": _documentation(),
         "units": _units(),
         "systems": {"metric": {}, "inch": dict(_INCHES)},
+        "symbols": _symbols(),
         "results": _results(),
         "of_cycle": {name: _described(quantity) | {"if_any": name in IF_ANY} for name, quantity in NUMBERS.items()},
         "of_warm_up": {name: _described(quantity) for name, quantity in SERIES.items()},
@@ -191,6 +193,13 @@ def _units() -> dict[str, Any]:
         if quantity.unit != "1":
             known.setdefault(quantity.unit, {})[quantity.shown_in] = None
     return {si: [_unit(unit, si) for unit in those] for si, those in known.items()}
+
+
+def _symbols() -> dict[str, str]:
+    """The symbols of units by their names, where they differ."""
+    known = {one["unit"] for choices in _units().values() for one in choices}
+    found = {unit: units.symbol(unit) for unit in sorted(known | {*_INCHES, *_INCHES.values()})}
+    return {unit: symbol for unit, symbol in found.items() if symbol != unit}
 
 
 def _unit(unit: str, si: str) -> dict[str, Any]:

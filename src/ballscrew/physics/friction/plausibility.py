@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ballscrew.basis.errors import shown_in_si
-from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.records import Measured, Message, Record, in_file
 from ballscrew.basis.usual_ranges import IMPLAUSIBLE as IMPLAUSIBLE
 from ballscrew.basis.usual_ranges import unusual
 from ballscrew.physics.components.data_sheet import SHEET_TEMPERATURE, DataSheet
@@ -114,8 +114,8 @@ def _grease_as_oil(lubricant: Any, inlet: Any) -> list[Record]:
     if least >= GREASE_REPLENISHMENT * (1 - 1e-9):
         return []
     message = Message(
-        "grease computed as oil of a bath: its constant of replenishment is 6e-8; "
-        "write [model] inlet.replenishment_constant = 6e-8"
+        "grease computed as oil of a bath: its constant of replenishment is 6e-8; write {constant} = 6e-8",
+        {"constant": in_file("model.inlet.replenishment_constant")},
     )
     return [
         Record(

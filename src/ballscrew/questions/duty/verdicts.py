@@ -13,7 +13,7 @@ from ballscrew.axis.motion.trajectory import Trajectory
 from ballscrew.axis.supports.bearing import DIRECTION
 from ballscrew.basis import units
 from ballscrew.basis.quantities import Quantity, fields_of
-from ballscrew.basis.records import Measured, Message, Record, Severity
+from ballscrew.basis.records import Measured, Message, Record, Severity, in_file
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction import starvation
 from ballscrew.physics.friction.plausibility import implausible
@@ -168,7 +168,8 @@ def _nothing_turns(report: DutyReport) -> list[Record]:
         return []
     message = Message(
         "the inertia of motor, coupling and screw is zero: no torque is counted that accelerates them, often a quarter "
-        'of the peak; give [axis] inertia = "45 kg cm^2"'
+        'of the peak; give {inertia} = "45 kg cm^2"',
+        {"inertia": in_file("axis.inertia")},
     )
     return [_warning("no_inertia", "axis.inertia", message, 0.0, None, _INERTIA)]
 

@@ -97,7 +97,8 @@ class FaultMessages(Closed):
 class FaultLine(Closed):
     """One fault, and the field that it names."""
 
-    where: str = Field(description="section.field")
+    where: str = Field(description="section.field, and the part of it that is meant where it has several")
+    path: str = Field(description="section.field")
     id: str = Field(description="the kind of fault, such as unknown; empty for most")
     text: str = Field(description="what is wrong, the value, the remedy")
     line: str = Field(description="the field and the text, as the command line prints them")

@@ -8,7 +8,7 @@ import numpy as np
 
 from ballscrew.axis.motion.states import Numbers
 from ballscrew.basis import units
-from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.records import Measured, Message, Record, in_file
 from ballscrew.physics.friction import starvation
 from ballscrew.physics.friction.plausibility import implausible
 from ballscrew.questions.warm_up.compute import AT_END, AT_START, PLACE, SERIES, WarmUpReport
@@ -105,7 +105,8 @@ def band_records(found: WarmUpBandReport) -> list[Record]:
     if bands.warm_up.network.by_bracing:
         message = Message(
             "the bands have the radial growth alone: how the halves of the nut are braced moves the preload farther; "
-            "give [surroundings] bracing"
+            "give {bracing}",
+            {"bracing": in_file("surroundings.bracing")},
         )
         said.append(units.record(message, id="band.bracing", subject="preload", severity="warning"))
     away, lost = 1 - bands.steady_share, 1 - float(bands.known_share[-1])

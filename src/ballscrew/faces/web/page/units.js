@@ -42,23 +42,22 @@ function lead() {
   return (found ? toSI(found.number, found.unit, "m") : computed) || undefined;
 }
 
-/** Powers as they are written above the line. @type {Record<string, string>} */
-const POWERS = { 2: "²", 3: "³" };
-
 /**
- * A unit in its usual symbols: µm, °C, m/s², N·m.
+ * A unit in its usual symbols, in the language of the page where that has others: µm, °C, m/s², N·m.
  *
  * @param {string} unit
  */
 export function symbol(unit) {
-  const usual = unit
-    .replace(/\bu(?=m\b|in\b)/g, "µ")
-    .replace(/\bdeg(?=[CF]\b)/g, "°")
-    .replace(/^deg\b/, "°")
-    .replace(/\^([23])/g, (_, power) => POWERS[power])
-    .replace(/\bohm\b/, "Ω")
-    .replaceAll(" ", "·");
-  return textOr(`unit.${unit}`, usual);
+  return textOr(`unit.${unit}`, vocabulary.symbols[unit] ?? unit);
+}
+
+/**
+ * The name of a unit that was typed by its symbol.
+ *
+ * @param {string} typed
+ */
+function nameOf(typed) {
+  return Object.keys(vocabulary.symbols).find((unit) => vocabulary.symbols[unit] === typed) ?? typed;
 }
 
 /**
@@ -198,14 +197,7 @@ export function parse(text, si) {
   const match = NUMBER.exec(withPoint(written));
   if (!match) return null;
   const digits = written.trimStart().slice(0, match[1].length); // as they were typed
-  const unit = match[2]
-    .replace("µ", "u")
-    .replace("°C", "degC")
-    .replace("°F", "degF")
-    .replace(/^°/, "deg")
-    .replace("²", "^2")
-    .replace("³", "^3")
-    .replace("·", " ");
+  const unit = nameOf(match[2]);
   return conversion(unit, si) ? { number: Number(match[1]), digits, unit } : null;
 }
 

@@ -69,9 +69,7 @@ export function placeFaults(holder, faults) {
   /** @type {NodeListOf<HTMLElement>} */
   const places = holder.querySelectorAll("[data-path]");
   return faults.filter((fault) => {
-    // a point of a curve is a fault of the field that has them all
-    const [whole] = fault.where.split(" point ");
-    const place = [...places].find((one) => one.dataset.path === fault.where || one.dataset.path === whole);
+    const place = [...places].find((one) => one.dataset.path === fault.path);
     if (!place) return true;
     place.classList.add("wrong");
     within(place, ".fault").textContent = inWords(fault);

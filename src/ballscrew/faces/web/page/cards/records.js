@@ -42,11 +42,7 @@ export function once(records) {
   return [...new Map(records.map((record) => [ofRecord(record), record])).values()];
 }
 
-/** @param {string} words */
+/** A sentence with its capital letter and its full stop. @param {string} words */
 function sentence(words) {
-  // a section and a key of a file, perhaps with a value
-  const plain = words.replace(/\[(\w+)\] (\w+)(?: = "([^"]*)")?/g, (_, section, key, value) =>
-    [`${key.replaceAll("_", " ")} (${section})`, value].filter(Boolean).join(" "),
-  );
-  return `${plain.charAt(0).toUpperCase()}${plain.slice(1)}.`;
+  return `${words.charAt(0).toUpperCase()}${words.slice(1)}.`;
 }

@@ -1,0 +1,106 @@
+"""No script of the page takes a text of ours apart: what is parsed is what people typed, a path, a name or a number."""
+
+import re
+from collections import defaultdict
+from pathlib import Path
+
+import pytest
+
+import ballscrew
+
+PAGE = Path(ballscrew.__file__).parent / "faces" / "web" / "page"
+SCRIPTS = {path.relative_to(PAGE).as_posix(): path.read_text(encoding="utf-8") for path in PAGE.rglob("*.js")}
+#: Calls that take a text apart, and regular expressions as they begin: ``/`` after what cannot end an operand.
+_CALL = re.compile(r"\.(?:split|replace|replaceAll|match|matchAll|search|test|exec)\(|\bRegExp\(")
+_EXPRESSION = re.compile(r"(?:^|[=(:,\[&|!?]|return)\s*/(?![/*])\S")
+_COMMENT = re.compile(r"/\*.*?\*/|^\s*//[^\n]*$", re.DOTALL | re.MULTILINE)
+
+PATHS = "the path of a field, or a name in one"
+NAMES = "a name of the API in words, where the language has none"
+TYPED = "what people typed"
+NUMBERS = "the digits of a number"
+ADDRESSES = "an address, a fragment or a file name"
+#: What is left, by file: what stands in the line, and what it is applied to.
+ALLOWED = {
+    "cards.js": {'path.split(".")': PATHS},
+    "cards/candidates.js": {'name.replaceAll("_", " ")': NAMES, ".split(/\\s+/)": TYPED},
+    "cards/choose.js": {'name.replaceAll("_", " ")': NAMES, "value.split(/;|,\\s+/)": TYPED},
+    "cards/duty.js": {'path.split(".")': PATHS, 'name.replaceAll("_", " ")': NAMES},
+    "cards/hand_over.js": {'name.replaceAll("_", " ")': NAMES},
+    "cards/log_columns.js": {'name.replaceAll("_", " ")': NAMES, 'name.split(".")': PATHS,
+                             'last.replaceAll("_", " ")': NAMES},
+    "cards/log_parts.js": {"const OF_SHELLS = ": "a command line", "const SPECIAL = ": "a command line",
+                           "SPECIAL.test(word)": "a command line"},
+    "cards/motion.js": {'distance?.replace(/^[-−]/, "")': TYPED, 'input.value.split(";")': TYPED},
+    "cards/option_fields.js": {"typed.split(": TYPED, "entry.split(/=(.*)/s, 2)": TYPED},
+    "cards/over_input.js": {'path.split(".")': PATHS},
+    "cards/segments.js": {".test(typed)": TYPED},
+    "checks.js": {'name.replaceAll("_", " ")': NAMES},
+    "compare.js": {'reason.replaceAll("_", " ")': NAMES, 'row.slot.replaceAll("_", " ")': NAMES},
+    "consequences.js": {'path.split(".")': PATHS},
+    "designs.js": {"const NOT_IN_FILES = ": ADDRESSES, "file?.replace(": ADDRESSES,
+                   "replaceAll(NOT_IN_FILES": ADDRESSES, 'path.split(".")': PATHS, 'one.split(".")': PATHS},
+    "dom.js": {'/[",\\n]/.test(text)': "a cell of CSV"},
+    "downloads.js": {"address.replace(": ADDRESSES},
+    "drawing.js": {'words.split(" ")': "lines that are broken at blanks"},
+    "fields.js": {"const BARE = ": TYPED, "BARE.exec(typed)": TYPED, 'name.replaceAll("_", " ")': NAMES,
+                  'path.replaceAll(".", "-")': PATHS},
+    "form.js": {'where.split(".")': PATHS},
+    "help.js": {'path.split(".")': PATHS, "documentation.replace(": ADDRESSES},
+    "history.js": {"this.replace(fragment)": "an entry of the history"},
+    "keeping.js": {"fragment.replace(": ADDRESSES, 'key.split(".")': PATHS},
+    "main.js": {"entries.replace(fragment)": "an entry of the history"},
+    "messages.js": {'path.split(".")': PATHS},
+    "needs.js": {'place.split(".")': PATHS},
+    "operating_point.js": {'path.replaceAll(".", "-")': PATHS},
+    "plot.js": {'name.replaceAll("_", " ")': NAMES},
+    "results.js": {"replaceAll(/[._]/g": NAMES},
+    "schema.js": {'$ref?.split("/")': PATHS, 'path.split(".")': PATHS},
+    "server.js": {'.split("\\n")': "lines of JSON"},
+    "state.js": {"fragment.replace(": ADDRESSES, 'key.split(".")': PATHS, '"").split(" ")': ADDRESSES,
+                 'path.split(".")': PATHS, ".test(text.trim())": TYPED},
+    "stiffness.js": {'path.split(".")': PATHS, 'path.replace(".", "-")': PATHS},
+    "symbols.js": {"tex.replace(": "TeX of a symbol", ".exec(text)": "TeX of a symbol"},
+    "texts.js": {"const PLACEHOLDER = ": "places of values in a template", "pattern.replace(PLACEHOLDER": "the same",
+                 "digits.replace(": NUMBERS, "path=/; max-age": "an attribute of a cookie"},
+    "units.js": {"const NUMBER = ": TYPED, "const COMMA = ": TYPED, "const LEADING = ": TYPED, '".": /': TYPED,
+                 '",": /': TYPED, "text.replace(COMMA": TYPED, "/[1-9]/.test(before)": TYPED,
+                 "plain.replace(LEADING": TYPED, '.replaceAll("\\u': TYPED, ".replace(/[\\uff01": TYPED,
+                 "text.replace(LEADING": TYPED, "GROUPS[other].test(number)": TYPED, "number.replace(/[.,]/g": TYPED,
+                 "number.replaceAll(mark": TYPED, "NUMBER.exec(": TYPED, "toExponential()": NUMBERS,
+                 "written.replace(": NUMBERS, "/e(\\d+)/": NUMBERS},
+}  # fmt: skip
+
+
+def parsed(script):
+    """The lines of a script that take a text apart."""
+    code = _COMMENT.sub(lambda comment: re.sub(r"[^\n]", "", comment[0]), script)
+    return [line.strip() for line in code.splitlines() if _CALL.search(line) or _EXPRESSION.search(line)]
+
+
+@pytest.mark.parametrize("line", [
+    'const found = words.replace(/\\[(\\w+)\\]/g, "");', "const BETWEEN = /(, |; )/;", 'english.split(", ")',
+    "if (/beyond/.test(problem)) return;", "return /x/;", "words.match(pattern)", "new RegExp(clause)",
+])  # fmt: skip
+def test_what_is_found(line):
+    assert parsed(f"  {line}\n") == [line]
+    assert parsed(f"/* {line} */\n  // {line}\n") == []
+
+
+def test_no_script_takes_a_text_apart():
+    found = {
+        name: [line for line in parsed(script) if not any(one in line for one in ALLOWED.get(name, {}))]
+        for name, script in SCRIPTS.items()
+    }
+    assert {name: lines for name, lines in found.items() if lines} == {}
+
+
+def test_what_is_allowed_is_there():
+    """An exception that nothing needs any more goes."""
+    unused = defaultdict(list)
+    for name, entries in ALLOWED.items():
+        lines = parsed(SCRIPTS.get(name, ""))
+        for one in entries:
+            if not any(one in line for line in lines):
+                unused[name].append(one)
+    assert unused == {}
