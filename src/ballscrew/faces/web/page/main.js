@@ -19,7 +19,7 @@ import { followMenu, text } from "./texts.js";
 import * as units from "./units.js";
 import { fill, vocabulary } from "./vocabulary.js";
 
-/** @typedef {import("./store.js").Change} Change */
+/** @typedef {import("./store.js").StateChange} StateChange */
 
 const LONGEST_QUOTE = 40;
 /** The calibration of the button: that of both of its numbers, to the vendor whose rows are shown beside it. */
@@ -139,7 +139,7 @@ function showAgain() {
 
 function addListeners() {
   store.addEventListener("change", (event) => {
-    const change = /** @type {Change} */ (event);
+    const change = /** @type {StateChange} */ (event);
     change.waitUntil(follow(change.about));
   });
   followMenu(select("language"));

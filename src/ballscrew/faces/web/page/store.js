@@ -12,7 +12,7 @@ import { initial } from "./state.js";
  */
 
 /** A change of the state, as a listener is told of it. It is done when all is that has to be waited for. */
-export class Change extends Event {
+export class StateChange extends Event {
   /** @type {Promise<unknown>[]} */
   #work = [];
 
@@ -65,7 +65,7 @@ class Store extends EventTarget {
 
   /** @param {About} about */
   #tell(about) {
-    const event = new Change(about);
+    const event = new StateChange(about);
     this.dispatchEvent(event);
     return event.done();
   }
