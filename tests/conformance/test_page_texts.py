@@ -36,7 +36,7 @@ ALLOWED = {
     "cards/over_input.js": {'path.split(".")': PATHS},
     "cards/segments.js": {".test(typed)": TYPED},
     "checks.js": {'name.replaceAll("_", " ")': NAMES},
-    "compare.js": {'reason.replaceAll("_", " ")': NAMES, 'row.slot.replaceAll("_", " ")': NAMES},
+    "compare.js": {'row.slot.replaceAll("_", " ")': NAMES},
     "consequences.js": {'path.split(".")': PATHS},
     "designs.js": {"const NOT_IN_FILES = ": ADDRESSES, "file?.replace(": ADDRESSES,
                    "replaceAll(NOT_IN_FILES": ADDRESSES, 'path.split(".")': PATHS, 'one.split(".")': PATHS},

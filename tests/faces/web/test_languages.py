@@ -34,6 +34,7 @@ from ballscrew.faces.web.vocabulary import OPTIONS
 from ballscrew.physics.friction.law_names import coefficients
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import QUADRANTS
+from ballscrew.physics.friction.validity import NUT_CONDITIONS
 from ballscrew.physics.sizing.installation import Ends
 from ballscrew.questions.axis.compute import SPRINGS
 from ballscrew.questions.duty.compute import OF_BATH
@@ -52,7 +53,7 @@ OTHERS = [name for name in languages.texts() if name != "en"]
 SCRIPTS = {file.name: file.read_text(encoding="utf-8") for file in PAGE.rglob("*.js")}
 #: Texts whose English stands at their source in Python: annotations of fields, and names of the vocabulary.
 OF_PYTHON = (
-    "cause.", "fault.", "field.", "mechanism.", "message.", "option.", "quantity.", "record.", "sentence.", "start.",
+    "cause.", "fault.", "field.", "mechanism.", "message.", "option.", "quantity.", "record.", "start.",
     "unit.",
 )  # fmt: skip
 #: Comments and patterns, which are skipped; then strings, and templates, of which what is computed is left out.
@@ -164,6 +165,14 @@ def test_every_name_is_translated(name):
     labels |= {key.removeprefix("fit.number.") for key in texts if key.startswith("fit.number.")}
     assert len(named()) > 60
     assert {path for path in named() if path.rpartition(".")[2] not in labels} == set()
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_every_condition_has_a_name(name):
+    """Of the warnings of a run, which the page shows with their names."""
+    wanted = {f"record.validity.{reason}" for reason in NUT_CONDITIONS}
+    wanted |= {f"record.{one}" for one in ("run.preload_above_rating", "model.power_balance", "verdict.preload_lost")}
+    assert wanted - languages.texts()[name].keys() == set()
 
 
 @pytest.mark.parametrize("name", list(languages.texts()))

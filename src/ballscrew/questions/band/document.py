@@ -7,7 +7,7 @@ from typing import Any
 
 from ballscrew.basis import units
 from ballscrew.basis.quantities import Quantity, quantities_of
-from ballscrew.basis.records import Measured, Message, Record, documents
+from ballscrew.basis.records import Measured, Message, Named, Record, documents
 from ballscrew.cases.case_files.case_file import Case
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.uncertainty.bands import OutputBand
@@ -173,7 +173,7 @@ def warnings(report: BandReport) -> list[Record]:
                 "{percent}% {name}: {condition}",
                 {
                     "percent": Measured(100 * share),
-                    "name": Message(reason),
+                    "name": Named(f"validity.{reason}", reason),
                     "condition": NUT_CONDITIONS[reason].message,
                 },
             )

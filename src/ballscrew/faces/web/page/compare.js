@@ -164,7 +164,7 @@ function alongOf(run) {
 /** @param {ComparedRow} row */
 function validity({ counts, valid, not_valid_because: reasons }) {
   if (counts === false) return text("models.printed");
-  return valid ? text("chart.yes") : reasons.map((reason) => reason.replaceAll("_", " ")).join(", ");
+  return valid ? text("chart.yes") : reasons.map((reason) => nameOf({ id: `validity.${reason}` })).join(", ");
 }
 
 /** @param {number | null} change */

@@ -17,7 +17,7 @@ export function labelOf(path) {
 }
 
 /**
- * The name of a field, a law or a number of a fit; a bare name is that of the first section that has such a field.
+ * The name of a field, a law, a number of a fit or a condition of validity; a bare name is that of the first section that has such a field.
  *
  * @param {string} path
  */
@@ -25,7 +25,7 @@ function nameOf(path) {
   const name = path.slice(path.lastIndexOf(".") + 1);
   const sections = [...Object.keys(SECTIONS), ...Object.keys(OF_CARDS)];
   const keys = [path, name, ...sections.map((section) => `${section}.${name}`)].map((one) => `field.${one}.label`);
-  return [...keys, `fit.number.${name}`].reduceRight((other, key) => textOr(key, other), words(name));
+  return [`record.${path}`, ...keys, `fit.number.${name}`].reduceRight((other, key) => textOr(key, other), words(name));
 }
 
 /**

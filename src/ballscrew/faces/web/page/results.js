@@ -73,7 +73,7 @@ function isOfContact(record) {
 /**
  * The name of a verdict or a warning in words.
  *
- * @param {VerdictRecord} record
+ * @param {{ id: string }} record
  */
 export function nameOf({ id }) {
   return textOr(`record.${id}`, id.slice(id.indexOf(".") + 1).replaceAll(/[._]/g, " "));
