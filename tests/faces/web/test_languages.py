@@ -29,6 +29,8 @@ from ballscrew.cases.schema.case_schema import LAWS, json_schema
 from ballscrew.cases.screw_tables.nut_kinds import NUTS
 from ballscrew.engine.evaluation.outputs import inputs_of
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE, TORQUE_DRIFT, TORQUE_OFFSET
+from ballscrew.exports.targets import TARGETS
+from ballscrew.exports.targets import options_of as options_of_target
 from ballscrew.faces.web import languages
 from ballscrew.faces.web.vocabulary import OPTIONS
 from ballscrew.physics.friction.law_names import coefficients
@@ -103,6 +105,8 @@ NAMES = {
     "computed from the geometry (ISO 3408-5)", "installation", "limits.running_time",
     "static_load_rating", "dynamic_load_rating", "maximum_pressure",
     *SPRINGS, *(fields_of(Surroundings)[name].info.meaning for name in OF_DEFAULTS),
+    *(target.meaning for target in TARGETS.values()),
+    *(option.meaning for name in TARGETS for option in options_of_target(name).values()),
     "Stribeck, viscous and load", "efficiency pair", "10 tests", "a year", "1000 h",
 }  # fmt: skip
 #: Fields of a record that are no text.

@@ -2,10 +2,10 @@
 
 import * as designs from "../designs.js";
 import { element, scrolling, table } from "../dom.js";
-import { said } from "../messages.js";
+import { said, translated } from "../messages.js";
 import { save } from "../saving.js";
 import { get } from "../server.js";
-import { ofServer, text, textOr } from "../texts.js";
+import { text, textOr } from "../texts.js";
 import * as units from "../units.js";
 import { button, caseFile, commandLine, faultLines } from "./log_parts.js";
 import { question } from "./question.js";
@@ -75,11 +75,11 @@ export function setUp(holder) {
 
   function showOptions() {
     const target = chosen();
-    /** @param {string} kind @param {string} name @param {string} label @param {string} example @param {object} more */
-    const field = (kind, name, label, example, more = {}) => {
+    /** @param {string} kind @param {string} name @param {string} label @param {string} example */
+    const field = (kind, name, label, example) => {
       const id = `hand-over-${kind}-${name}`;
       const input = element("input", { type: "text", id, name, placeholder: example, "data-kind": kind });
-      return element("p", {}, element("label", { for: id, ...more }, label), element("br"), input);
+      return element("p", {}, element("label", { for: id }, label), element("br"), input);
     };
     options.replaceChildren(
       ...Object.entries(RANGES).map(([name, example]) =>
@@ -90,7 +90,7 @@ export function setUp(holder) {
           text("hand_over.usual"),
         ),
       ),
-      ...(target?.options ?? []).map((one) => field("option", one.name, one.meaning, one.default, ofServer)),
+      ...(target?.options ?? []).map((one) => field("option", one.name, translated(one.meaning), one.default)),
     );
   }
 
@@ -101,7 +101,7 @@ export function setUp(holder) {
       const found = await get("targets");
       targets = found.targets;
       select.replaceChildren(
-        ...targets.map(({ name, meaning }) => element("option", { value: name, ...ofServer }, `${name}: ${meaning}`)),
+        ...targets.map(({ name, meaning }) => element("option", { value: name }, `${name}: ${translated(meaning)}`)),
       );
       showOptions();
     }
