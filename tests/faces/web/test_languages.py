@@ -66,6 +66,8 @@ _TOKEN = re.compile(
 _COMPUTED = re.compile(r"\$\{[^{}]*(?:\{[^{}]*\}[^{}]*)*\}")
 #: A literal that reads like a sentence or a label: two words.
 _WORDS = re.compile(r"[A-Za-z]{2,}[,:;]? [a-z]{2,}")
+#: A section of a case file.
+_SECTION = re.compile(r"\[[a-z_.]+\]")
 #: Two words that nobody reads: classes of elements, units, selectors, and a defect of the page.
 CODES = {
     "(prefers-color-scheme: dark)", "card-start whole-width", "chart low", "field given", "field start given",
@@ -202,6 +204,15 @@ def test_records_are_templates():
     """Every verdict, check and warning is a message: none is a text that was put together."""
     assert len(records()) > 85
     assert {record.where: record.untold for record in records() if record.untold} == {}
+
+
+@pytest.mark.parametrize("name", list(languages.texts()))
+def test_the_page_names_no_section_of_a_file(name):
+    """``[lubricant]`` stands in files: who sees a form reads a text of its own, and no script looks for it."""
+    of_faults = {one for fault in faults() for one in fault.templates}  # files have faults that name their sections
+    of_files = {one for one in of_page() - of_faults if _SECTION.search(one)}
+    assert len(of_files) > 5
+    assert {one for one in of_files if _SECTION.search(said(name).get(one, one))} == set()
 
 
 def test_no_template_is_put_together():
