@@ -5,7 +5,7 @@ import { element, scrolling, table } from "../dom.js";
 import { said } from "../messages.js";
 import { watch } from "../plot.js";
 import { save } from "../saving.js";
-import { ask, linesOf, sendJson } from "../server.js";
+import { ask, linesOf, Problem, sendJson } from "../server.js";
 import { ofServer, text } from "../texts.js";
 import * as units from "../units.js";
 import { vocabulary } from "../vocabulary.js";
@@ -126,7 +126,10 @@ export function setUp(holder) {
       if (asked !== key) return;
       asked = "";
       seen = undefined;
-      inspected.replaceChildren(element("p", { class: "warning", ...ofServer }, linesOf(error).join("; ")));
+      const faults = error instanceof Problem ? error.faults : [];
+      inspected.replaceChildren(
+        ...(faults.length ? faultLines(faults) : [element("p", { class: "warning" }, linesOf(error).join("; "))]),
+      );
     }
     fit.compare(body());
   }
