@@ -1,4 +1,8 @@
-"""The state of the page is in one place: no module of its JavaScript has variables, and none is handed listeners."""
+"""The state of the page is in one place: no module of its JavaScript has variables, and none is handed listeners.
+
+What a card holds while it is open (the log that was dropped, columns given by hand) is in the functions that set it up,
+and not looked for here.
+"""
 
 import re
 from collections.abc import Iterator

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import ast
 import re
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
@@ -28,11 +29,14 @@ class Change(NamedTuple):
     end: int
     before: str
     after: str
+    #: Which of the same changes in its function it is, from 1.
+    number: int = 1
 
     @property
     def key(self) -> str:
-        """What it is known by, while lines above it come and go."""
-        return f"{self.file} {self.function}: {_one_line(self.before)} -> {_one_line(self.after)}"
+        """What it is known by, while other functions come and go: no other change of the package has it."""
+        number = f" ({self.number})" if self.number > 1 else ""
+        return f"{self.file} {self.function}: {_one_line(self.before)} -> {_one_line(self.after)}{number}"
 
     def apply(self, text: str) -> str:
         """The file with the change."""
@@ -67,9 +71,13 @@ _DESCRIBE = (
 def changes_of(file: Path, name: str) -> list[Change]:
     """All changes of a file of Python or JavaScript, in its order. ``name`` is its path below ``src/ballscrew``."""
     source = file.read_text(encoding="utf-8")
-    if file.suffix == ".js":
-        return list(_of_script(source, name))
-    return sorted(_Finder(source, name).found, key=lambda change: (change.start, change.end, change.after))
+    found = _of_script(source, name) if file.suffix == ".js" else _Finder(source, name).found
+    count = Counter[str]()
+    changes: list[Change] = []
+    for change in sorted(found, key=lambda one: (one.start, one.end, one.after)):
+        count[change.key] += 1
+        changes.append(change._replace(number=count[change.key]))
+    return changes
 
 
 class _Finder:
@@ -167,6 +175,12 @@ _SCRIPT = {
     " + ": " - ", " - ": " + ", " * ": " / ", " / ": " * ", "true": "false", "false": "true", ".some(": ".every(",
     ".every(": ".some(", "Math.min": "Math.max", "Math.max": "Math.min",
 }  # fmt: skip
+#: Functions of a module, and methods of its classes, which are two columns further in.
+_FUNCTIONS = re.compile(
+    r"^(?:export )?(?:async )?function (\w+)"
+    r"|^  (?!(?:if|for|while|switch|return)\b)(?:static |async |get |set )*(#?\w+)\(.*\{$",
+    re.MULTILINE,
+)
 _CHANGED = "|".join(map(re.escape, sorted(_SCRIPT, key=len, reverse=True)))
 _TOKENS = re.compile(f"(?P<passed>{_PASSED})|{_CHANGED}", re.DOTALL | re.MULTILINE)
 
@@ -174,9 +188,9 @@ _TOKENS = re.compile(f"(?P<passed>{_PASSED})|{_CHANGED}", re.DOTALL | re.MULTILI
 def _of_script(source: str, name: str) -> Iterator[Change]:
     for match in _TOKENS.finditer(source):
         if match["passed"] is None:
-            function = re.findall(r"^(?:export )?(?:async )?function (\w+)", source[: match.start()], re.MULTILINE)
+            function = _FUNCTIONS.findall(source[: match.start()])
             line = source.count("\n", 0, match.start()) + 1
-            yield Change(name, "".join(function[-1:]), line, *match.span(), match[0], _SCRIPT[match[0]])
+            yield Change(name, "".join(map("".join, function[-1:])), line, *match.span(), match[0], _SCRIPT[match[0]])
 
 
 _NAMED = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef

@@ -226,12 +226,13 @@ def noticed(change: Change, tests: Sequence[str], copy: Path, seconds: float) ->
 
 
 def reached_in(room: str) -> Reached:
-    """The tests of each line of a room: measured once for its sources and tests as they are."""
+    """The tests of each line of a room: measured once for its sources and tests as they are, and what tests share."""
     paths = [ROOT / "tests" / test for test in ROOMS[room].tests if (ROOT / "tests" / test).exists()]
     digest = hashlib.sha256()
+    tests = [*paths, ROOT / "tests" / "support", *sorted((ROOT / "tests").rglob("conftest.py"))]
     for file in (
         *files_of(room),
-        *(one for path in paths for one in sorted(path.rglob("*.py") if path.is_dir() else [path])),
+        *(one for path in tests for one in sorted(path.rglob("*.py") if path.is_dir() else [path])),
     ):
         digest.update(file.read_bytes())
     kept = WORK / f"{room}-{digest.hexdigest()[:16]}.json"

@@ -155,7 +155,7 @@ def listed(messages: Iterable[Message]) -> Message:
 
 
 class FilledText(str):
-    """English text that keeps the message it was filled from: a text wherever one is asked for, as a note of a log.
+    """English text that keeps the message it was filled from: a text wherever one is asked for.
 
     The page shows the message. So messages of ``zope.i18nmessageid`` are texts, too.
     """

@@ -55,7 +55,7 @@ def test_the_same_body_at_another_address_is_another_question(asked, paper):
 
 
 def test_the_last_ones_are_kept():
-    kept = KeptAnswers(most_bytes=10, largest=4)
+    kept = KeptAnswers(most_bytes=1010, largest=4)  # each takes 500 beside its own
     one, two, three, large = (Question("/band", bytes([number])) for number in range(4))
     for question in (one, two):
         kept.keep(question, b"1234")

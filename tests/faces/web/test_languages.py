@@ -28,7 +28,9 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.cases.schema.case_schema import LAWS, json_schema
 from ballscrew.cases.screw_tables.nut_kinds import NUTS
 from ballscrew.engine.evaluation.outputs import inputs_of
+from ballscrew.evidence.calibration.baselines import EFFICIENCY_PAIR, STRIBECK
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE, TORQUE_DRIFT, TORQUE_OFFSET
+from ballscrew.evidence.service.condition_records import OF_TESTS, SPANS
 from ballscrew.exports.targets import TARGETS
 from ballscrew.exports.targets import options_of as options_of_target
 from ballscrew.faces.web import languages
@@ -109,7 +111,7 @@ NAMES = {
     *SPRINGS, *(fields_of(Surroundings)[name].info.meaning for name in OF_DEFAULTS),
     *(target.meaning for target in TARGETS.values()),
     *(option.meaning for name in TARGETS for option in options_of_target(name).values()),
-    "Stribeck, viscous and load", "efficiency pair", "10 tests", "a year", "1000 h",
+    STRIBECK, EFFICIENCY_PAIR, OF_TESTS[0], *SPANS,
 }  # fmt: skip
 #: Fields of a record that are no text.
 OF_RECORDS = ("id", "subject")

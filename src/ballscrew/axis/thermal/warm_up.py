@@ -115,12 +115,15 @@ def _integrated(
     def power(temperatures: Numbers) -> Power:
         return network.power(temperatures) if works else 0.0
 
+    of_caller = np.geterr()
+
     def rate(_: float, state: Numbers) -> Numbers:
         temperatures = state[:n]
-        friction = power(temperatures)
-        heating = (given + network.source * friction - A @ temperatures) / C
-        generated = friction + (float(np.sum(of_bearings)) if works else 0.0)
-        lost = float(network.losses @ (temperatures - network.outside))
+        with np.errstate(**of_caller):
+            friction = power(temperatures)
+            heating = (given + network.source * friction - A @ temperatures) / C
+            generated = friction + (float(np.sum(of_bearings)) if works else 0.0)
+            lost = float(network.losses @ (temperatures - network.outside))
         return np.concatenate([heating, [generated, lost]])
 
     # the friction's own slope is left to the iterations of the solver: it is small against the conductances
@@ -129,10 +132,11 @@ def _integrated(
     slope[n + 1, :n] = network.losses
 
     def leaves(_: float, state: Numbers) -> float:
-        return 1.0 if network.inside(state[:n]) else -1.0
+        with np.errstate(**of_caller):
+            return 1.0 if network.inside(state[:n]) else -1.0
 
     leaves.terminal = True  # pyright: ignore[reportFunctionMemberAccess]  (the solver reads it there)
-    # the solver subtracts rows of its table that nothing was written to yet, and what lies there may be any number
+    # the solver, and it alone, subtracts rows of its table that nothing was written to yet: any number may lie there
     with np.errstate(invalid="ignore", over="ignore"):
         found = solve_ivp(
             rate,

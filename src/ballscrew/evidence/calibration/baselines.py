@@ -24,6 +24,8 @@ from ballscrew.evidence.calibration.robust import (
 
 #: Speeds of Stribeck that are tried, as shares of the largest speed of the log.
 STRIBECK_SHARES = np.geomspace(0.002, 1.0, 25)
+#: The two descriptions, as people read them.
+STRIBECK, EFFICIENCY_PAIR = "Stribeck, viscous and load", "efficiency pair"
 _MAXIMUM_ITERATIONS, _TOLERANCE = 50, 1e-7
 
 
@@ -90,8 +92,7 @@ def stribeck(conditions: Conditions, torque: Vector) -> Baseline:
     found, _ = robust_linear(columns(conditions, speed), rest)
     names = ("coulomb_torque", "torque_per_load", "stribeck_torque", "viscous_torque_coefficient")
     coefficients = {**dict(zip(names, found.tolist(), strict=False)), "stribeck_speed": speed}
-    words, numbers = "Stribeck, viscous and load", found.size + 1
-    return Baseline(words, coefficients, numbers, lambda rows: torque_of(rows, speed, found))
+    return Baseline(STRIBECK, coefficients, found.size + 1, lambda rows: torque_of(rows, speed, found))
 
 
 def efficiency_pair(conditions: Conditions, torque: Vector) -> Baseline:
@@ -109,7 +110,7 @@ def efficiency_pair(conditions: Conditions, torque: Vector) -> Baseline:
     found, _ = robust_linear(columns(conditions), rest)
     coefficients = {"efficiency": 1 / (1 + found[0]), "back_driving_efficiency": 1 - found[1]}
     return Baseline(
-        "efficiency pair",
+        EFFICIENCY_PAIR,
         {name: float(value) for name, value in coefficients.items()},
         found.size,
         lambda rows: rows.weights[0] * rows.ideal_torque + columns(rows) @ found,

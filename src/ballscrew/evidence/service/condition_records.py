@@ -30,8 +30,9 @@ from ballscrew.physics.components.materials import TEMPERATURE
 LARGEST_FACTOR = 1.5
 #: So many equal torques in a row are said, and so many kelvin between the first tests and the last.
 REPEATED, DIFFERENCE = 4, 5.0
-#: Seconds of the time that a trend is of.
-_SPANS = {"a year": 365.25 * 86400, "1000 h": 3.6e6}
+#: What a trend is of: seconds, and where no times are known a number of tests.
+SPANS = {"a year": 365.25 * 86400, "1000 h": 3.6e6}
+OF_TESTS = ("10 tests", 10.0)
 _POINTS = 41
 _ZERO_CELSIUS = 273.15
 _OF_TESTS = Message("so in the test that starves the most")
@@ -328,10 +329,10 @@ def _preload(made: Condition) -> Record:
 def span_of(made: Condition) -> tuple[str, float]:
     """What a trend is given for, and how much time or how many tests that is: years, 1000 h or ten tests."""
     if made.per == "test":
-        return "10 tests", 10.0
+        return OF_TESTS
     whole = made.states[-1].time - made.states[0].time
-    name = "a year" if whole > _SPANS["a year"] / 4 else "1000 h"
-    return name, _SPANS[name]
+    name = "a year" if whole > SPANS["a year"] / 4 else "1000 h"
+    return name, SPANS[name]
 
 
 def _of_trend(made: Condition) -> list[Record]:

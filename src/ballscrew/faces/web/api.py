@@ -18,7 +18,7 @@ from ballscrew.cases.schema.case_schema import json_schema
 from ballscrew.cases.screw_tables import catalogue as rows
 from ballscrew.faces.report.heading import Heading
 from ballscrew.faces.report.options import ReportOptions
-from ballscrew.faces.web import answers_api, documents, file_api, job_api, limits, log_api, openapi, vocabulary
+from ballscrew.faces.web import answers_api, documents, file_api, job_api, limits, log_api, memory, openapi, vocabulary
 from ballscrew.faces.web.bodies import (
     AxisBody,
     BandBody,
@@ -38,6 +38,7 @@ from ballscrew.faces.web.bodies import (
 from ballscrew.faces.web.endpoint_parts import (
     as_bytes,
     as_json,
+    cancellable,
     computed_once,
     heavy,
     kept,
@@ -424,4 +425,5 @@ async def report(
         found = report_bytes(case, written, done, min(fewest) if fewest else None, heading, beside)
         return Response(found, media_type=KINDS[kind])
 
-    return await heavy(request, work)
+    # not kept: it may have the date of today
+    return await cancellable(request, queue_of(request).heavy(memory.releasing(work)))

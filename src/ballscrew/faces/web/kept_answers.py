@@ -1,7 +1,8 @@
 """Answers that are kept for a while: a page that is loaded again, or a step back in it, asks for what was computed.
 
-An answer follows from the body of its request and the data of the package alone: random numbers have the same seed each
-time. So the same request has the same answer, for whoever sends it.
+An answer in JSON follows from the body of its request and the data of the package alone: random numbers have the same
+seed each time. So the same request has the same answer, for whoever sends it. A report, which may have the date of
+today, is made anew.
 """
 
 from __future__ import annotations
@@ -11,6 +12,8 @@ from typing import NamedTuple
 
 #: Bytes of all answers that are kept, and of the largest one.
 MOST_BYTES, LARGEST = 16_000_000, 1_000_000
+#: Bytes that an answer takes beside its own: its question, and its place.
+_BESIDE = 500
 
 
 class Question(NamedTuple):
@@ -40,7 +43,7 @@ class KeptAnswers:
         if len(answer) > self._largest or question in self._found:
             return
         self._found[question] = answer
-        self._bytes += len(answer)
+        self._bytes += len(answer) + _BESIDE
         while self._bytes > self._most:
             _, oldest = self._found.popitem(last=False)
-            self._bytes -= len(oldest)
+            self._bytes -= len(oldest) + _BESIDE

@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 from ballscrew.basis import units
+from ballscrew.basis.errors import Fault
 from ballscrew.basis.quantities import Quantity, quantities_of
 from ballscrew.basis.records import Measured, Message, Named, Record, documents
 from ballscrew.cases.case_files.case_file import Case
@@ -87,9 +88,7 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
     records += _full_bath(torque.both.high, report.flooded_torque)
     if case.fit:
         log, off = case.fit.get("log"), case.fit.get("holdout_rms")
-        message = _CALIBRATED.of(
-            log=str(log) if log else Message("a log"), off=Message("an unknown torque") if off is None else str(off)
-        )
+        message = _CALIBRATED.of(log=str(log) if log else Message("a log"), off=_torque_in_file(off, quantity))
         records.append(units.record(message, id="band.calibrated", subject="model"))
     if float(case.operation.axial_load) != 0:
         share = band.self_locking_share
@@ -192,3 +191,11 @@ def warnings(report: BandReport) -> list[Record]:
 
 def _share(name: str, subject: str, message: Message, value: float) -> Record:
     return units.record(message, id=name, subject=subject, severity="warning", holds=False, value=value, limit=0.0)
+
+
+def _torque_in_file(text: Any, quantity: Quantity) -> Measured | Message | str:
+    """A torque as a calibrated case has it, with its digits; what is no torque stays as it is written."""
+    if text is None:
+        return Message("an unknown torque")
+    found = units.parse("calibration.holdout_rms", text, quantity)
+    return str(text) if isinstance(found, Fault) else units.measured(found, quantity, 6)

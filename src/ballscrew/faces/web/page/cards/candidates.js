@@ -5,7 +5,7 @@ import { element } from "../dom.js";
 import { draw, layout, watch } from "../plot.js";
 import { LETTERS } from "../state.js";
 import { store } from "../store.js";
-import { text, textOr } from "../texts.js";
+import { ofServer, text, textOr } from "../texts.js";
 import * as units from "../units.js";
 
 /** Candidates in the list before more are asked for. */
@@ -164,7 +164,7 @@ export function candidates(holder, found) {
   const x = axis("choose-x", "choose.across", "loss");
   const y = axis("choose-y", "choose.up", known.includes("inertia") ? "inertia" : known[0]);
   holder.replaceChildren(
-    element("p", { class: "small" }, [.../** @type {string[]} */ (found.need.assumed ?? []), ...notes].join("; ")),
+    element("p", { class: "small", ...ofServer }, [.../** @type {string[]} */ (found.need.assumed ?? []), ...notes].join("; ")),
     filter.fields,
     words,
     element("p", { class: "small" }, text("choose.order", { first: names[0], names: names.join(", ") })),
