@@ -30,11 +30,14 @@ from ballscrew.cases.screw_tables.nut_kinds import NUTS
 from ballscrew.engine.evaluation.outputs import inputs_of
 from ballscrew.evidence.calibration.baselines import EFFICIENCY_PAIR, STRIBECK
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE, TORQUE_DRIFT, TORQUE_OFFSET
+from ballscrew.evidence.calibration.torque_conventions import CONVENTIONS
 from ballscrew.evidence.service.condition_records import OF_TESTS, SPANS
 from ballscrew.exports.targets import TARGETS
 from ballscrew.exports.targets import options_of as options_of_target
 from ballscrew.faces.web import languages
 from ballscrew.faces.web.vocabulary import OPTIONS
+from ballscrew.files.torque_logs.cleaning import GAPS, RAMPS, REPEATED, REST, THINNED
+from ballscrew.files.torque_logs.reading import CUT_OFF, UNREADABLE
 from ballscrew.physics.friction.law_names import coefficients
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import QUADRANTS
@@ -43,6 +46,7 @@ from ballscrew.physics.sizing.installation import Ends
 from ballscrew.questions.axis.compute import SPRINGS
 from ballscrew.questions.duty.compute import OF_BATH
 from ballscrew.questions.optimise.need_schema import json_schema as need_schema
+from ballscrew.questions.select.candidates import LENGTH_OF_STROKE
 from ballscrew.questions.shared.options import options_of
 from ballscrew.questions.warm_up.compute import AT_END, AT_START, OF_DEFAULTS
 from ballscrew.questions.warm_up.self_heating import GIVEN, WARM
@@ -111,7 +115,8 @@ NAMES = {
     *SPRINGS, *(fields_of(Surroundings)[name].info.meaning for name in OF_DEFAULTS),
     *(target.meaning for target in TARGETS.values()),
     *(option.meaning for name in TARGETS for option in options_of_target(name).values()),
-    STRIBECK, EFFICIENCY_PAIR, OF_TESTS[0], *SPANS,
+    STRIBECK, EFFICIENCY_PAIR, OF_TESTS[0], *SPANS, LENGTH_OF_STROKE,
+    GAPS, REST, RAMPS, THINNED, REPEATED, UNREADABLE, CUT_OFF, *(one.description for one in CONVENTIONS),
 }  # fmt: skip
 #: Fields of a record that are no text.
 OF_RECORDS = ("id", "subject")

@@ -7,6 +7,7 @@ import json
 import httpx
 
 from ballscrew.basis.output.json_text import plain
+from ballscrew.basis.records import message_of
 from ballscrew.faces.web import server as servers
 from ballscrew.faces.web.request_queue import RequestQueue
 from ballscrew.questions.select.compute import select
@@ -25,7 +26,11 @@ NEED = {
 def test_the_answer_is_the_document_of_the_command(server):
     found = server.post("select", {"need": NEED, "words": "rexroth 32x10"})
     assert found.status_code == 200, found.text[:500]
-    assert found.json() == json.loads(json.dumps(plain(document(select(NEED, words="rexroth 32x10")))))
+    selection = select(NEED, words="rexroth 32x10")
+    answer = found.json()
+    noted = [message_of(one).document() for one in (*selection.need.notes, *selection.notes)]
+    assert answer.pop("display") == json.loads(json.dumps({"notes": noted}))
+    assert answer == json.loads(json.dumps(plain(document(selection))))
 
 
 def test_candidates_come_one_by_one(server):

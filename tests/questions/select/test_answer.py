@@ -5,6 +5,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis import units
 from ballscrew.basis.quantities import quantities_of
+from ballscrew.faces.web.documents import selection
 from ballscrew.questions.select import document, table
 from ballscrew.questions.select.answer import BrakeOfNeed, MotorTorque, OfMotion, OneCandidate, OneObjective
 from ballscrew.questions.select.compute import Plan, plan
@@ -54,7 +55,7 @@ def test_torques_of_motor_and_brake_are_on_every_face():
 
 
 def test_answers_are_valid_by_their_schema(found):
-    answer = document.document(found)
+    answer = selection(found)
     Select.model_validate(answer)
     assert ("duty" in answer["candidates"][0]) == found.need.moves
 

@@ -262,7 +262,7 @@ async def select(request: Request) -> Response:
                 complete=options.complete, done=done,
                 found_one=lambda one: done.row(as_bytes(selection_documents.row_document(one))),
             )  # fmt: skip
-        return as_json(selection_documents.document(found))
+        return as_json(documents.selection(found))
 
     return await heavy(request, work)
 

@@ -18,6 +18,8 @@ from ballscrew.questions.check import compute as checks
 from ballscrew.questions.check import document as check_documents
 from ballscrew.questions.run import compute as runs
 from ballscrew.questions.run import document as run_documents
+from ballscrew.questions.select import document as selection_documents
+from ballscrew.questions.select.compute import Selection
 from ballscrew.questions.warm_up.compute import WarmUpReport
 
 #: Runs that are kept: who has asked for the numbers of a case often asks for its drawing or its checks next.
@@ -64,6 +66,11 @@ def texts(said: Sequence[Message]) -> list[str]:
 def messages(said: Sequence[Message | str]) -> list[dict[str, Any]]:
     """Messages, or texts that keep theirs, as the page fills them."""
     return [message_of(one).document() for one in said]
+
+
+def selection(found: Selection) -> dict[str, Any]:
+    """The document of a selection, with its notes as messages."""
+    return {**selection_documents.document(found), "display": {"notes": messages([*found.need.notes, *found.notes])}}
 
 
 def check(found: runs.Run, notes: Sequence[str] = ()) -> dict[str, Any]:

@@ -11,6 +11,7 @@ from pathlib import PurePosixPath
 from typing import Any
 
 from ballscrew.basis import units
+from ballscrew.basis.records import Measured, Message
 from ballscrew.cases.case_files import fitted_case
 from ballscrew.cases.case_files.case import Case
 from ballscrew.exports.export import Export
@@ -39,10 +40,24 @@ def fit(case: Case, tables: Mapping[str, Any], report: FitReport) -> dict[str, A
             "trade_off": units.filled(trade_off),
             "next_test": texts(test),
         },
-        "display": {"trade_off": trade_off.document(), "next_test": messages(test)},
+        "display": {
+            "trade_off": trade_off.document(),
+            "next_test": messages(test),
+            "rows": messages(_of_rows(report)),
+        },
         "picture": fit_points.of_fit(report.model),
         "calibrated": {"toml": calibrated, "case": tomllib.loads(calibrated)},
     }
+
+
+def _of_rows(report: FitReport) -> list[Message | str]:
+    """What was left out of the log and why, what is to be said of it, and what its torque was read as."""
+    rows = report.model.rows
+    left_out = [
+        Message("{reason}: {count}", {"reason": Message(reason), "count": Measured(count)})
+        for reason, count in rows.log.left_out.items()
+    ]
+    return [*left_out, *rows.log.notes, Message(rows.convention.description)]
 
 
 def service(case: Case, report: ServiceReport) -> dict[str, Any]:

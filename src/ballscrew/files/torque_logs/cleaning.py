@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from ballscrew.basis.errors import Fault, InputError, fault_of
 from ballscrew.basis.quantities import within_bounds
-from ballscrew.basis.records import Message
+from ballscrew.basis.records import FilledText, Measured, Message, Named
+from ballscrew.basis.units import filled_text
 from ballscrew.files.torque_logs.log_rows import INERTIA, REQUIRED, LogRows, quantities
 from ballscrew.files.torque_logs.motion import CLEAR, Floats, motion_of, runs_in
 from ballscrew.files.torque_logs.repeats import repeated_rows
@@ -22,6 +23,8 @@ Log = TypeVar("Log", bound=LogRows)
 #: Reasons for leaving rows out.
 GAPS, REST, RAMPS, THINNED = "a value is missing or impossible", "at rest", "speed changes", "thinned"
 REPEATED = "repeats an earlier row"
+_SORTED = filled_text("rows were not in the order of time: sorted")
+_INERTIA_NOT_USED = filled_text("the inertia is not used: a torque of friction has no share of it")
 #: Fewer rows than these tell nothing; fewer than those tell little.
 LEAST_ROWS, FEW_ROWS = 3, 30
 #: A log that is longer is thinned to so many rows before anything but its acceleration is looked at.
@@ -83,7 +86,8 @@ def without_gaps(log: Log, names: Collection[str]) -> Log:
                 Fault("log", Message("has no {name} in any row", {"name": name.replace("_", " ")}), "", remedy)
             )
     log = dataclasses.replace(log, **dict.fromkeys(empty))
-    log = log.with_notes(*(f"no row has a {name}: the column is not used" for name in empty))
+    notes = (filled_text("no row has a {name}: the column is not used", name=Named(name, name)) for name in empty)
+    log = log.with_notes(*notes)
     return log.select(complete_rows(columns, len(log)), GAPS)
 
 
@@ -103,19 +107,24 @@ def without_repeats(log: Log) -> Log:
     again = repeated_rows([values for name, values in log.columns.items() if name != "time"], log.time)
     if not again.any():
         return log
-    told = f"{np.count_nonzero(again)} of {len(log)} rows repeat earlier ones, one after the other: counted once"
-    return log.select(~again, REPEATED).with_notes(told)
+    note = filled_text(
+        "{again} of {rows} rows repeat earlier ones, one after the other: counted once",
+        again=Measured(int(np.count_nonzero(again))), rows=Measured(len(log)),
+    )  # fmt: skip
+    return log.select(~again, REPEATED).with_notes(note)
 
 
 def in_order(log: Log) -> Log:
     """In the order of time, with its motion; a log without time is left as it is."""
     if log.time is None:
-        return log.with_notes("no time: rows under acceleration cannot be told from the others, and all stay")
+        return log.with_notes(
+            filled_text("no time: rows under acceleration cannot be told from the others, and all stay")
+        )
     if log.motion is not None or not len(log):
         return log
     runs = runs_in(log.time)
     if runs is None:
-        log = log.select(np.argsort(log.time, kind="stable")).with_notes("rows were not in the order of time: sorted")
+        log = log.select(np.argsort(log.time, kind="stable")).with_notes(_SORTED)
     elif runs > 1:
         log = log.with_notes(describe_runs(runs))
     time = np.asarray(log.time)
@@ -129,13 +138,16 @@ def of_settings(log: Log) -> Log:
     jumps = np.abs(log.motion.bend) > _JUMP * _largest_speed(log)
     if np.mean(jumps) <= _JUMPING:
         return log
-    told = "speeds jump from row to row: every row is taken as a reading at a steady speed"
-    return dataclasses.replace(log, motion=None).with_notes(told)
+    note = filled_text("speeds jump from row to row: every row is taken as a reading at a steady speed")
+    return dataclasses.replace(log, motion=None).with_notes(note)
 
 
-def describe_runs(runs: int) -> str:
+def describe_runs(runs: int) -> FilledText:
     """The note on a log whose time begins anew."""
-    return f"time begins anew {runs - 1} times: read as {runs} logs, one after the other"
+    return filled_text(
+        "time begins anew {times} times: read as {runs} logs, one after the other",
+        times=Measured(runs - 1), runs=Measured(runs),
+    )  # fmt: skip
 
 
 def moving(log: LogRows) -> NDArray[np.bool_]:
@@ -166,8 +178,9 @@ def without_ramps(log: Log, inertia: float | None) -> Log:
     """
     turns = moving(log)
     if log.motion is None or not turns.any():
-        told = inertia is not None and log.motion is None
-        return log.with_notes("the inertia is not used, for it takes a trace of the speed over time" if told else "")
+        if inertia is None or log.motion is not None:
+            return log
+        return log.with_notes(filled_text("the inertia is not used, for it takes a trace of the speed over time"))
     used = inertia if inertia and log.kind != "friction" else None
     if used is not None:
         limit = least = _INERTIA_SHARE * float(np.median(np.abs(log.torque[turns]))) / used
@@ -177,17 +190,19 @@ def without_ramps(log: Log, inertia: float | None) -> Log:
     known = np.isfinite(slope)
     change, noise = np.where(known, slope, 0.0), np.where(known, deviation, 0.0)
     bound = np.maximum(limit, CLEAR * noise)
-    notes = ["the inertia is not used: a torque of friction has no share of it"] if inertia and used is None else []
+    notes = [_INERTIA_NOT_USED] if inertia and used is None else []
     if used is None:
         usual = CLEAR * _quarter(np.abs(change[turns])) / _QUARTER
         if usual > _RESTLESS * np.median(bound):
-            notes.append("the speed hardly rests: rows at steady speed cannot be told from others; give the inertia")
+            notes.append(
+                filled_text("the speed hardly rests: rows at steady speed cannot be told from others; give the inertia")
+            )
         bound = np.maximum(bound, usual)
     else:
         # what is lost in the noise of the speed would only add to that of the torque
         taken_off = np.where(CLEAR * noise > limit, 0.0, used * change)
         log = dataclasses.replace(log, torque=log.torque - taken_off)
-        notes.append("the torque that accelerates the inertia is taken off")
+        notes.append(filled_text("the torque that accelerates the inertia is taken off"))
     hides = (noise > _HIDING * np.median(noise[turns])) & (CLEAR * noise > least)
     return log.select(~(turns & (hides | (np.abs(change) > bound))), RAMPS).with_notes(*notes)
 
@@ -204,26 +219,26 @@ def thinned(log: Log, most: int) -> Log:
     return log.select(keep, THINNED).with_notes(describe_thinning(most))
 
 
-def describe_thinning(most: int) -> str:
+def describe_thinning(most: int) -> FilledText:
     """The note on a log that is too long."""
-    return f"longer than {most} rows: thinned evenly at random"
+    return filled_text("longer than {most} rows: thinned evenly at random", most=Measured(most))
 
 
-def data_warnings(log: LogRows) -> list[str]:
+def data_warnings(log: LogRows) -> list[FilledText]:
     """Warnings about effects that a log cannot identify."""
-    found: list[str] = []
+    found: list[FilledText] = []
     if len(log) < FEW_ROWS:
-        found.append(f"{len(log)} rows are few: expect wide intervals")
+        found.append(filled_text("{rows} rows are few: expect wide intervals", rows=Measured(len(log))))
     if _one_setting(np.abs(log.axial_load)):
-        found.append("one axial load only: what depends on the load cannot be told")
+        found.append(filled_text("one axial load only: what depends on the load cannot be told"))
     if _one_setting(np.abs(log.screw_speed)):
-        found.append("one speed only: what depends on the speed cannot be told")
+        found.append(filled_text("one speed only: what depends on the speed cannot be told"))
     if not (log.forward.any() and log.backward.any()):
-        found.append("one direction only: friction cannot be told from an offset of the torque")
+        found.append(filled_text("one direction only: friction cannot be told from an offset of the torque"))
     if log.temperature is None:
-        found.append("no temperature: the oil is taken to be as warm as in the case")
+        found.append(filled_text("no temperature: the oil is taken to be as warm as in the case"))
     elif float(np.ptp(log.temperature)) < 1.0:
-        found.append("one temperature only: what depends on the temperature cannot be told")
+        found.append(filled_text("one temperature only: what depends on the temperature cannot be told"))
     return found
 
 

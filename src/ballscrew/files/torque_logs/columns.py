@@ -9,14 +9,14 @@ from __future__ import annotations
 import dataclasses
 import datetime
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, message_of, nearest, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.basis.records import Message, UnitName, Value
+from ballscrew.basis.records import FilledText, Message, UnitName, Value
 from ballscrew.files.tables import decimals
 from ballscrew.files.tables.headings import (
     NEEDS_UNIT,
@@ -82,7 +82,17 @@ _HINTS = ("actual", "actual value", "act", "measured", "filtered", "ist", "Istwe
 _PLACES = ("oil", "nut", "screw", "Öl", "Mutter", "Spindel")
 TEMPERATURE, LOAD = "temperature", "axial_load"
 #: The note on a log without a column of the load.
-NO_LOAD = 'no column of the load: 0 N in every row; give --column axial_load="your heading [N]" if there is one'
+
+
+def columns_not_used(names: Iterable[str]) -> FilledText:
+    """The note on columns of a table that nothing takes."""
+    return units.filled_text("columns not used: {names}", names=", ".join(names))
+
+
+#: The note on a log without a column of the load.
+NO_LOAD = units.filled_text(
+    'no column of the load: 0 N in every row; give --column axial_load="your heading [N]" if there is one'
+)
 #: The columns that a torque may be in, the one that says most first, and what the torque then is.
 TORQUES: Mapping[str, Kind] = {
     "friction_torque": "friction", "drive_torque": "drive", "torque": "unknown", "current": "drive",

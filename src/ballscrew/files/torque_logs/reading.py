@@ -15,10 +15,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.basis.errors import LINES_AT_MOST, Fault, InputError, raise_if_any
-from ballscrew.basis.records import Message
+from ballscrew.basis.records import Measured, Message
+from ballscrew.basis.units import filled_text
 from ballscrew.files.tables.sheets import unreadable
 from ballscrew.files.torque_logs.cleaning import HELD
-from ballscrew.files.torque_logs.columns import NO_LOAD, TEMPERATURE, TORQUES, Layout, layout, temperatures_among
+from ballscrew.files.torque_logs.columns import (
+    NO_LOAD,
+    TEMPERATURE,
+    TORQUES,
+    Layout,
+    columns_not_used,
+    layout,
+    temperatures_among,
+)
 from ballscrew.files.torque_logs.log_rows import REQUIRED
 from ballscrew.files.torque_logs.motion import Floats
 from ballscrew.files.torque_logs.numbers import NumberReader
@@ -82,19 +91,42 @@ def _read(
     _check_factors(place, *factors)
     log, numbers, rates = _gathered(place, source.pieces(place, chunk), factors, keep_going, held)
     digest = source.digest()
-    notes = [f"columns not used: {', '.join(place.unused)}"] if place.unused else []
+    notes = [columns_not_used(place.unused)] if place.unused else []
     notes += [NO_LOAD] if place.assumes_no_load else []
     if TEMPERATURE not in place.headings and (others := temperatures_among(place.unused)):
-        notes.append(f"if {others[0]} is the temperature of the oil, give --column temperature={others[0]}")
+        notes.append(
+            filled_text(
+                "if {column} is the temperature of the oil, give --column temperature={column}", column=others[0]
+            )
+        )
     if numbers.errors:
         kinds, count = ", ".join(sorted(numbers.errors)), sum(numbers.errors.values())
-        notes.append(f"{count} cells hold errors of a spreadsheet ({kinds}): they count as missing")
+        notes.append(
+            filled_text(
+                "{count} cells hold errors of a spreadsheet ({kinds}): they count as missing",
+                count=Measured(count), kinds=kinds,
+            )
+        )  # fmt: skip
     if rates is not None:
-        told = "the speed is that of the position over the time, from straight lines through "
-        chosen = f", as the noise in the first {held} allows" if rates.rows > held else ""
-        notes.append(f"{told}{2 * rates.lines.half_width + 1} rows{chosen}")
+        through = Measured(2 * rates.lines.half_width + 1)
+        notes.append(
+            filled_text(
+                "the speed is that of the position over the time, from straight lines through {through} rows, "
+                "as the noise in the first {held} allows",
+                through=through, held=Measured(held),
+            )
+            if rates.rows > held
+            else filled_text(
+                "the speed is that of the position over the time, from straight lines through {through} rows",
+                through=through,
+            )
+        )  # fmt: skip
     if source.empty_bytes:
-        notes.append(f"the file ends with {source.empty_bytes} empty bytes, which are left out")
+        notes.append(
+            filled_text(
+                "the file ends with {count} empty bytes, which are left out", count=Measured(source.empty_bytes)
+            )
+        )
     if done is not None:
         size = size_of(file)
         done(size, size)

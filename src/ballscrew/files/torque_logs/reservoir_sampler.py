@@ -13,6 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ballscrew.basis.records import Measured
+from ballscrew.basis.units import filled_text
 from ballscrew.files.torque_logs import cleaning
 from ballscrew.files.torque_logs.log_rows import REQUIRED, Kind
 from ballscrew.files.torque_logs.motion import SCALES, SHORTEST_RUN, Floats, Motion, joined, motion_of
@@ -100,7 +102,12 @@ class ReservoirSampler:
         line, keys = columns.pop("line"), columns.pop("key")
         motion = found.motion
         if self._out_of_order or (self._runs > 1 and self.rows < SHORTEST_RUN * self._runs):
-            notes.append(f"rows are not in the order of time, and too many to sort (over {self._held}): sort the file")
+            notes.append(
+                filled_text(
+                    "rows are not in the order of time, and too many to sort (over {held}): sort the file",
+                    held=Measured(self._held),
+                )
+            )  # fmt: skip
             columns.pop("time")
             motion = None
         elif self._runs > 1:

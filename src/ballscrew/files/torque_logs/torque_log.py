@@ -13,14 +13,16 @@ import numpy as np
 from ballscrew.basis.errors import Fault, InputError, accepts_units, closest, nearest, raise_if_any, without_unit
 from ballscrew.basis.quantities import MomentOfInertia
 from ballscrew.basis.records import Message
+from ballscrew.basis.units import filled_text
 from ballscrew.files.torque_logs import cleaning
+from ballscrew.files.torque_logs.columns import columns_not_used
 from ballscrew.files.torque_logs.log_rows import OPTIONAL, REQUIRED, TORQUES, LogRows, quantities, seconds
 from ballscrew.files.torque_logs.motion import Floats
 
 #: A median temperature below this is one in °C given as one in kelvin: no ball screw is so cold.
 _COLDEST = 150.0
 #: The note on data without a load.
-NO_LOAD = "no axial load: 0 N in every row"
+NO_LOAD = filled_text("no axial load: 0 N in every row")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -68,7 +70,7 @@ def _log_of(data: Any) -> TorqueLog:
     size = max((array.size for array in arrays.values() if array.ndim), default=1)
     arrays = {name: np.full(size, array) if array.ndim == 0 else array for name, array in arrays.items()}
     log = TorqueLog(**arrays, kind=TORQUES[named.torques[0]], assumes_no_load=named.without_load)
-    not_used = f"columns not used: {', '.join(named.others)}" if named.others else ""
+    not_used = columns_not_used(named.others) if named.others else ""
     return log.with_notes(not_used, NO_LOAD if named.without_load else "")
 
 

@@ -22,6 +22,7 @@ class FitDisplay(Closed):
 
     trade_off: Message
     next_test: list[Message]
+    rows: list[Message] = Field(description="rows left out and why, notes of the log, and what its torque was read as")
 
 
 class Calibrated(Closed):

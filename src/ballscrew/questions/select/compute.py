@@ -11,9 +11,11 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
+from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Duration
 from ballscrew.basis.records import Message
+from ballscrew.basis.units import filled_text
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.compiler.kernels import kernel as kernels
@@ -154,8 +156,11 @@ def select(
     ready = _prepared(need, rows, words, objectives, settings, keep_going=keep_going)
     asked, every, table = ready.need, ready.variants, ready.table
     if "running_time" not in asked.tables.get("limits", {}):
-        hours = f"{USUAL_LIFE / 3600:,.0f} h"
-        asked = asked.with_note(f"no life was asked for: what lives less than {hours} is ranked after the others")
+        note = filled_text(
+            "no life was asked for: what lives less than {hours} h is ranked after the others",
+            hours=units.grouped(round(USUAL_LIFE / 3600)),
+        )
+        asked = asked.with_note(note)
     recorded = _worth_recording(asked, every)
 
     def work(variant: Variant) -> Candidate:
@@ -170,7 +175,7 @@ def select(
     # a variant that no maker could build, such as a preload beyond its rating, is left out of the shipped rows, too
     found = each({one.label: one for one in every}, work, keep_going=keep_going or table is None, done=done)
     if asked.length_is_stroke:  # each candidate says its own length
-        asked = asked.with_note(f"unsupported length: {LENGTH_OF_STROKE}")
+        asked = asked.with_note(filled_text("unsupported length: {words}", words=Message(LENGTH_OF_STROKE)))
     candidates = list(found.found.values())
     return Selection(
         asked, ready.objectives, ranked(candidates, ready.objectives), [*ready.notes, *found.notes], found.interrupted
@@ -238,8 +243,9 @@ def _prepared(
         raise InputError(Fault("need.price_index", "no such row", ", ".join(unknown), "names are those of the rows"))
     every = list(variants(asked, chosen, table))
     if any(assumes_preload(asked, one) for one in every):
-        note = (
-            f"preloads of {', '.join(USUAL_PRELOADS)} of the dynamic load rating where a row lists none: none was given"
+        note = filled_text(
+            "preloads of {shares} of the dynamic load rating where a row lists none: none was given",
+            shares=", ".join(USUAL_PRELOADS),
         )
         asked = asked.with_note(note)
     if len(every) > MOST_VARIANTS:

@@ -15,6 +15,7 @@ from ballscrew.basis import units
 from ballscrew.basis.errors import MISSING, Fault, InputError, closest, nearest, raise_if_any
 from ballscrew.basis.quantities import Quantity, fields_of
 from ballscrew.basis.records import Message
+from ballscrew.basis.units import filled_text
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.schema.case_schema import read_table, sections
 from ballscrew.cases.schema.fields import section_of
@@ -270,7 +271,7 @@ def _need(tables: dict[str, Any], folder: Path, name: str, faults: list[Fault], 
     tables.pop("optimise", None)
     tables.pop("sweep", None)
     if "bodies" not in tables:
-        notes.append("elastic bodies of screw and nut of a usual size, as none were given")
+        notes.append(filled_text("elastic bodies of screw and nut of a usual size, as none were given"))
     try:
         names = objectives_named(
             USUAL_OBJECTIVES if objectives is None else _texts("need.objectives", objectives, faults), "need.objectives"
@@ -284,7 +285,12 @@ def _need(tables: dict[str, Any], folder: Path, name: str, faults: list[Fault], 
     required = Requirements(**values)
     by_stroke = _installation(tables, required, notes)
     if required.accuracy:
-        notes.append(f"grade {required.accuracy} of ISO 3408-3 is not judged: no row lists its grades; ask the maker")
+        notes.append(
+            filled_text(
+                "grade {grade} of ISO 3408-3 is not judged: no row lists its grades; ask the maker",
+                grade=required.accuracy,
+            )
+        )  # fmt: skip
     if objectives is None and prices:
         names = (*names, "price_index")
     return Need(
@@ -353,10 +359,10 @@ def _oils(tables: dict[str, Any], notes: list[str], faults: list[Fault]) -> list
             named += [{key: name} if key == "grade" or "oil_file" in table else _one_oil(name) for name in found]
     if not named and not any(key in table for key in _OIL):
         named = [{"grade": GRADE}]
-        notes.append(f"oil {GRADE}: none was given")
+        notes.append(filled_text("oil {grade}: none was given", grade=GRADE))
     if "temperature" not in table and "viscosity" not in table:
         table["temperature"] = TEMPERATURE
-        notes.append(f"oil at {TEMPERATURE}: no temperature was given")
+        notes.append(filled_text("oil at {temperature}: no temperature was given", temperature=TEMPERATURE))
     tables.pop("lubricant", None)
     return [{**table, **oil} for oil in named] or [table]
 
@@ -382,13 +388,18 @@ def _installation(tables: dict[str, Any], required: Requirements, notes: list[st
     """Whether a stroke stands for the unsupported length: where none is given, if the ends are known."""
     table = tables.get("installation")
     if required.stroke is None and table is None:
-        notes.append(f"inertia: that of a shaft of {USUAL_LENGTH:g} m, to compare diameters; no length was given")
+        notes.append(
+            filled_text(
+                "inertia: that of a shaft of {length}, to compare diameters; no length was given",
+                length=units.in_unit(USUAL_LENGTH, "m"),
+            )
+        )  # fmt: skip
     if required.stroke is None or (isinstance(table, dict) and "unsupported_length" in table):
         return False
     if isinstance(table, dict) and "ends" in table:
         tables["installation"] = {**table, "unsupported_length": f"{required.stroke!r} m"}
         return True
     if table is None:
-        notes.append("inertia: that of the stroke alone; give the length of the shaft")
-        notes.append("buckling and critical speed are not judged: give the ends of the shaft")
+        notes.append(filled_text("inertia: that of the stroke alone; give the length of the shaft"))
+        notes.append(filled_text("buckling and critical speed are not judged: give the ends of the shaft"))
     return False

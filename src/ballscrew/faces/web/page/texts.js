@@ -54,9 +54,6 @@ export function localised(digits) {
   return digits.replace(".", POINT);
 }
 
-/** Attributes of an element whose words the server makes, which are English: a screen reader pronounces them so. */
-export const ofServer = language === "en" ? {} : { lang: "en" };
-
 /** True where the language has a decimal comma. */
 export const hasComma = POINT === ",";
 

@@ -6,7 +6,7 @@ import { said } from "../messages.js";
 import { watch } from "../plot.js";
 import { save } from "../saving.js";
 import { ask, linesOf, Problem, sendJson } from "../server.js";
-import { ofServer, text } from "../texts.js";
+import { text } from "../texts.js";
 import * as units from "../units.js";
 import { vocabulary } from "../vocabulary.js";
 import * as charts from "./calibrate_charts.js";
@@ -173,11 +173,10 @@ export function setUp(holder) {
     answer = found;
     system = units.currentSystem();
     const { rows, display } = found;
-    const left = Object.entries(rows.left_out).map(([reason, count]) => `${reason}: ${count}`);
     words.replaceChildren(
       ...lines(found.verdicts, []),
       element("p", {}, text("calibrate.rows", { used: rows.used, read: rows.read, held: rows.held_out })),
-      element("p", { class: "small", ...ofServer }, [...left, ...rows.notes, rows.torque].join("; ")),
+      element("p", { class: "small" }, display.rows.map(said).join("; ")),
       estimates(found),
       ...lines([], found.warnings),
       element("p", {}, said(display.trade_off)),

@@ -2,10 +2,11 @@
 
 import * as designs from "../designs.js";
 import { element } from "../dom.js";
+import { said } from "../messages.js";
 import { draw, layout, watch } from "../plot.js";
 import { LETTERS } from "../state.js";
 import { store } from "../store.js";
-import { ofServer, text, textOr } from "../texts.js";
+import { text, textOr } from "../texts.js";
 import * as units from "../units.js";
 
 /** Candidates in the list before more are asked for. */
@@ -114,7 +115,7 @@ export function asTheyCome(holder, rows) {
  * @param {Select} found
  */
 export function candidates(holder, found) {
-  const { candidates: all, notes } = found;
+  const { candidates: all } = found;
   const known = Object.keys(OBJECTIVES).filter((name) => all.some((one) => Number.isFinite(numberOf(one, name))));
   const names = found.objectives.map(({ name }) => objective(name));
   const list = element("div", {});
@@ -164,7 +165,7 @@ export function candidates(holder, found) {
   const x = axis("choose-x", "choose.across", "loss");
   const y = axis("choose-y", "choose.up", known.includes("inertia") ? "inertia" : known[0]);
   holder.replaceChildren(
-    element("p", { class: "small", ...ofServer }, [.../** @type {string[]} */ (found.need.assumed ?? []), ...notes].join("; ")),
+    element("p", { class: "small" }, found.display.notes.map(said).join("; ")),
     filter.fields,
     words,
     element("p", { class: "small" }, text("choose.order", { first: names[0], names: names.join(", ") })),
