@@ -609,7 +609,7 @@ def test_without_the_extra_it_says_what_to_install(monkeypatch, tmp_path):
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name in ("typst", "jinja2") else known(name))
     for kind, needed in (("pdf", "typst"), ("html", "jinja2")):
         with pytest.raises(InputError, match=rf'--to: needs {needed} .* · pip install "ballscrew\[report\]"'):
-            command.report(ROOT / "examples" / "feed_drive.toml", tmp_path / f"x.{kind}")
+            command.report(ROOT / "examples" / "feed_drive.toml", tmp_path / f"x.{kind}", written={})
 
 
 def test_a_run_does_not_wait_for_what_only_a_report_needs():
