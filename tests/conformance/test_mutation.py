@@ -60,6 +60,23 @@ def test_every_change_of_a_file_has_a_name_of_its_own_and_is_python(changes):
         assert ast.dump(ast.parse(one.apply(text))) != ast.dump(ast.parse(text)), one.key
 
 
+def test_tests_of_a_statement_are_those_of_its_lines_and_all_that_share_a_fixture(changes, tmp_path):
+    spec = importlib.util.spec_from_file_location("mutation_mutate", TOOLS / "mutate.py")
+    mutate = importlib.util.module_from_spec(spec)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(TOOLS)
+        spec.loader.exec_module(mutate)
+    (one,) = found(changes, tmp_path, "a = f(\n  b\n  + c\n)\nd = e")
+    assert (one.statement, one.line) == (1, 3)
+    reached = mutate.Reached(
+        {"part.py": {1: ["test_f"], 2: ["fixture f"], 5: ["test_of_another"]}},
+        {"test_f": 1.0, "fixture f": 4.0, "test_g": 0.5, "test_of_another": 3.0},
+        {"fixture f": ["test_f", "test_g"]},
+    )
+    assert reached.of(one) == (["test_g", "test_f"], 5.0)
+    assert reached.of(one._replace(statement=4, line=4)) == (["test_g", "test_f", "test_of_another"], 8.0)
+
+
 def test_a_file_that_is_another_by_now_is_not_changed(changes, tmp_path):
     (one,) = found(changes, tmp_path, "a = b + c")
     with pytest.raises(ValueError, match=r"part\.py is another"):

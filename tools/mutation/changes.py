@@ -29,6 +29,8 @@ class Change(NamedTuple):
     end: int
     before: str
     after: str
+    #: First line of the statement that it stands in.
+    statement: int
     #: Which of the same changes in its function it is, from 1.
     number: int = 1
 
@@ -91,6 +93,7 @@ class _Finder:
         for line in lines:
             self._starts.append(self._starts[-1] + len(line))
         self.found: list[Change] = []
+        self._statement = 1
         self._visit(ast.parse(source), ())
 
     def _place(self, line: int, column: int) -> int:
@@ -102,6 +105,9 @@ class _Finder:
     def _visit(self, node: ast.AST, inside: tuple[str, ...]) -> None:
         if _describes(node):
             return
+        before = self._statement
+        if isinstance(node, ast.stmt):
+            self._statement = node.lineno
         if isinstance(node, ast.expr):
             for start, end, after in self._of(node):
                 self._add(inside, start, end, after)
@@ -118,10 +124,13 @@ class _Finder:
         if isinstance(node, ast.If | ast.IfExp) and not isinstance(node.test, ast.Compare | ast.BoolOp | ast.UnaryOp):
             start, end = self._span(node.test)
             self._add(inside, start, end, f"not ({self.source[start:end]})")
+        self._statement = before
 
     def _add(self, inside: tuple[str, ...], start: int, end: int, after: str) -> None:
         line = self.source.count("\n", 0, start) + 1
-        self.found.append(Change(self.name, ".".join(inside), line, start, end, self.source[start:end], after))
+        self.found.append(
+            Change(self.name, ".".join(inside), line, start, end, self.source[start:end], after, self._statement)
+        )
 
     def _of(self, node: ast.expr) -> Iterator[tuple[int, int, str]]:
         match node:
@@ -190,7 +199,9 @@ def _of_script(source: str, name: str) -> Iterator[Change]:
         if match["passed"] is None:
             function = _FUNCTIONS.findall(source[: match.start()])
             line = source.count("\n", 0, match.start()) + 1
-            yield Change(name, "".join(map("".join, function[-1:])), line, *match.span(), match[0], _SCRIPT[match[0]])
+            yield Change(
+                name, "".join(map("".join, function[-1:])), line, *match.span(), match[0], _SCRIPT[match[0]], line
+            )
 
 
 _NAMED = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef

@@ -1,10 +1,12 @@
 """A plugin of pytest: what is run in each test, its fixtures included, counts for the function of the test.
 
+What a fixture runs that several tests share counts for all of them, not for the first alone.
 Lines of Python are counted by coverage, functions of the page's JavaScript by the browser.
 """
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import time
@@ -17,6 +19,10 @@ import coverage
 import pytest
 
 _SECONDS: dict[str, float] = defaultdict(float)
+#: Tests of each fixture that they share.
+_SHARED: dict[str, set[str]] = defaultdict(set)
+#: What lines count for: a test, and the fixtures that are being made.
+_CONTEXTS: list[str] = []
 #: Tests by file below ``src/ballscrew`` and line.
 _SCRIPTS: dict[str, dict[int, set[str]]] = defaultdict(lambda: defaultdict(set))
 #: Counters of the pages that are open.
@@ -48,15 +54,47 @@ def pytest_configure() -> None:
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object]:
     """Count lines for the test, without the values of its parameters."""
-    test = item.nodeid.partition("[")[0]
-    measured = coverage.Coverage.current()
-    if measured is not None:
-        measured.switch_context(test)
-    started = time.perf_counter()
-    try:
+    with _counted(_test(item)):
         return (yield)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_fixture_setup(
+    fixturedef: pytest.FixtureDef[Any], request: pytest.FixtureRequest
+) -> Generator[None, object, object]:
+    """Count lines of a fixture that is made once for several tests."""
+    if fixturedef.scope == "function":
+        return (yield)
+    name = f"fixture {fixturedef.argname} of {fixturedef.baseid}"
+    for item in request.session.items:
+        if fixturedef.argname in getattr(item, "fixturenames", ()) and item.nodeid.startswith(fixturedef.baseid):
+            _SHARED[name].add(_test(item))
+    with _counted(name):
+        return (yield)
+
+
+@contextlib.contextmanager
+def _counted(name: str) -> Generator[None]:
+    """Count lines and seconds for a name, and afterwards for the one before."""
+    measured = coverage.Coverage.current()
+    before, started = _CONTEXTS[-1:], time.perf_counter()
+    _CONTEXTS.append(name)
+    if measured is not None:
+        measured.switch_context(name)
+    try:
+        yield
     finally:
-        _SECONDS[test] += time.perf_counter() - started
+        _CONTEXTS.pop()
+        seconds = time.perf_counter() - started
+        _SECONDS[name] += seconds
+        for other in before:
+            _SECONDS[other] -= seconds
+        if measured is not None:
+            measured.switch_context("".join(before))
+
+
+def _test(item: pytest.Item) -> str:
+    return item.nodeid.partition("[")[0]
 
 
 @pytest.hookimpl(wrapper=True)
@@ -66,7 +104,7 @@ def pytest_runtest_call(item: pytest.Item) -> Generator[None, object, object]:
         return (yield)
     finally:
         for counter in _COUNTERS:
-            _add(counter, item.nodeid.partition("[")[0])
+            _add(counter, _test(item))
 
 
 def _add(counter: Any, test: str) -> None:
@@ -88,7 +126,8 @@ def _add(counter: Any, test: str) -> None:
 
 def pytest_sessionfinish() -> None:
     """Write what each test takes, and which lines of scripts it reaches."""
-    Path(os.environ["SECONDS_OF_TESTS"]).write_text(json.dumps(_SECONDS), encoding="utf-8")
+    measured = {"seconds": _SECONDS, "shared": {name: sorted(tests) for name, tests in _SHARED.items()}}
+    Path(os.environ["SECONDS_OF_TESTS"]).write_text(json.dumps(measured), encoding="utf-8")
     if "SCRIPTS_REACHED" in os.environ:
         found = {name: {line: sorted(tests) for line, tests in each.items()} for name, each in _SCRIPTS.items()}
         Path(os.environ["SCRIPTS_REACHED"]).write_text(json.dumps(found), encoding="utf-8")

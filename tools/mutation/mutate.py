@@ -28,6 +28,7 @@ from typing import NamedTuple
 
 import coverage
 from changes import Change, changes_of
+from warm_process import run_pytest
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
@@ -37,7 +38,7 @@ WORK = ROOT / "out" / "mutation"
 NOT_CHANGED = ("__init__.py", "text.py", "figure.py", "report.py", "response.py", "options.py", "answer.py")
 #: A run of tests that takes so many times as long as they do, and so many seconds more, has noticed the change.
 LONGER, SECONDS_MORE = 4.0, 60.0
-PYTEST = ("-m", "pytest", "-n0", "-q", "-p", "no:randomly")
+PYTEST = ("-n0", "-q", "-p", "no:randomly")
 
 
 class Room(NamedTuple):
@@ -75,17 +76,25 @@ ROOMS = {
 class Reached(NamedTuple):
     """The tests that reach each line, and how long each of them takes."""
 
-    #: Tests by file below ``src/ballscrew`` and line.
+    #: Tests, and fixtures that several tests share, by file below ``src/ballscrew`` and line.
     tests: Mapping[str, Mapping[int, Sequence[str]]]
     seconds: Mapping[str, float]
+    #: The tests of each fixture.
+    shared: Mapping[str, Sequence[str]]
 
-    def of(self, change: Change) -> list[str]:
-        """The tests that can notice a change, the quickest first; of a line of the import, all of its file."""
+    def of(self, change: Change) -> tuple[list[str], float]:
+        """The tests that can notice a change, the quickest first, and their seconds.
+
+        Of a line that is run while the module is imported, all tests of its file.
+        """
         lines = self.tests.get(change.file, {})
-        found = set(lines.get(change.line, ()))
+        # a statement of several lines is not counted on each of them
+        found = {test for line in range(change.statement, change.line + 1) for test in lines.get(line, ())}
         if not found:
             found = {test for tests in lines.values() for test in tests}
-        return sorted(found, key=lambda test: self.seconds.get(test, 0.0))
+        seconds = sum(self.seconds.get(one, 0.0) for one in found)
+        tests = {test for one in found for test in self.shared.get(one, (one,))}
+        return sorted(tests, key=lambda test: self.seconds.get(test, 0.0)), seconds
 
 
 class Outcome(NamedTuple):
@@ -167,12 +176,12 @@ def run(sample: Sequence[tuple[str, Change]]) -> list[Outcome]:
     def judged(room: str, change: Change) -> Outcome:
         if change.key in equivalent:
             return Outcome(room, change, "equivalent", equivalent[change.key])
-        tests = reached[room].of(change)
+        tests, seconds = reached[room].of(change)
         if not tests:
             return Outcome(room, change, "not reached")
         copy = copies.get()
         try:
-            test = noticed(change, tests, copy, sum(reached[room].seconds.get(one, 0.0) for one in tests))
+            test = noticed(change, tests, copy, seconds)
         finally:
             copies.put(copy)
         return Outcome(room, change, "survived" if test is None else "killed", test or "")
@@ -203,22 +212,17 @@ def noticed(change: Change, tests: Sequence[str], copy: Path, seconds: float) ->
     file.write_text(change.apply(original), encoding="utf-8")
     stamp = file.stat().st_mtime + random.Random(change.key).randrange(10_000, 1_000_000)
     os.utime(file, (stamp, stamp))  # a file of the same length and second would be run as it was compiled before
-    # Python finds this copy before the one that is installed, in the processes that tests start, too
-    environment = {**os.environ, "PYTHONPATH": str(copy)}
-    command = [*PYTEST, "-x", "-p", "no:cacheprovider", "--no-header", "--tb=no", "-rfE"]
+    options = (*PYTEST, "-x", "--assert=plain", "-p", "no:cacheprovider", "--no-header", "--tb=no", "-rfE")
     try:
-        ended = subprocess.run(
-            [sys.executable, *command, *tests], cwd=ROOT, env=environment, capture_output=True, text=True,
-            timeout=LONGER * seconds + SECONDS_MORE, check=False,
-        )  # fmt: skip
-    except subprocess.TimeoutExpired:
-        return "takes too long"
+        ended = run_pytest((*options, *tests), copy, LONGER * seconds + SECONDS_MORE)
     finally:
         file.write_text(original, encoding="utf-8")
         os.utime(file, (stamp + 1, stamp + 1))
-    if ended.returncode == 0:
+    if ended.code == 0:
         return None
-    lines = [line for line in ended.stdout.splitlines() if line.startswith(("FAILED", "ERROR"))]
+    if ended.code is None:
+        return "takes too long"
+    lines = [line for line in ended.printed.splitlines() if line.startswith(("FAILED", "ERROR"))]
     return lines[0] if lines else "the tests do not start"
 
 
@@ -231,6 +235,7 @@ def reached_in(room: str) -> Reached:
     digest = hashlib.sha256()
     tests = [*paths, ROOT / "tests" / "support", *sorted((ROOT / "tests").rglob("conftest.py"))]
     for file in (
+        HERE / "contexts.py",
         *files_of(room),
         *(one for path in tests for one in sorted(path.rglob("*.py") if path.is_dir() else [path])),
     ):
@@ -240,7 +245,7 @@ def reached_in(room: str) -> Reached:
         kept.write_text(json.dumps(measured(room, paths)), encoding="utf-8")
     found = json.loads(kept.read_text(encoding="utf-8"))
     lines = {name: {int(line): tests for line, tests in each.items()} for name, each in found["tests"].items()}
-    return Reached(lines, found["seconds"])
+    return Reached(lines, found["seconds"], found["shared"])
 
 
 def measured(room: str, paths: Sequence[Path]) -> dict[str, object]:
@@ -255,7 +260,7 @@ def measured(room: str, paths: Sequence[Path]) -> dict[str, object]:
         environment["SCRIPTS_REACHED"], include = str(WORK / "scripts.json"), str(HERE)
     measure = ["-m", "coverage", "run", f"--rcfile={os.devnull}", f"--include={include}"]
     ended = subprocess.run(
-        [sys.executable, *measure, *PYTEST, "-p", "contexts", "--tb=short", *map(str, paths)], cwd=ROOT,
+        [sys.executable, *measure, "-m", "pytest", *PYTEST, "-p", "contexts", "--tb=short", *map(str, paths)], cwd=ROOT,
         env=environment, capture_output=True, text=True, check=False,
     )  # fmt: skip
     if ended.returncode:
@@ -263,14 +268,14 @@ def measured(room: str, paths: Sequence[Path]) -> dict[str, object]:
     tests: dict[str, dict[int, list[str]]] = defaultdict(dict)
     if room == "page":
         tests.update(json.loads((WORK / "scripts.json").read_text(encoding="utf-8")))
-        return {"tests": tests, "seconds": json.loads(seconds.read_text(encoding="utf-8"))}
+        return {"tests": tests, **json.loads(seconds.read_text(encoding="utf-8"))}
     found = coverage.CoverageData(str(data))
     found.read()
     for file in found.measured_files():
         name = Path(file).relative_to(SOURCE).as_posix()
         for line, contexts in found.contexts_by_lineno(file).items():
             tests[name][line] = sorted(filter(None, contexts))
-    return {"tests": tests, "seconds": json.loads(seconds.read_text(encoding="utf-8"))}
+    return {"tests": tests, **json.loads(seconds.read_text(encoding="utf-8"))}
 
 
 def equivalents() -> dict[str, str]:
