@@ -1,0 +1,205 @@
+"""The condition of a nut whose torque is a product of powers: every number of it worked out by hand."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.optimize import least_squares
+from scipy.stats import norm
+
+import ballscrew as bs
+from ballscrew.evidence.service.condition_parts import REPEATABILITY, USUAL
+from support import power_law
+from support.power_law import MODEL, PER_KELVIN, SPEED, P, S, torque_of
+from support.service_logs import OIL, SCREW, WARM
+
+Z = norm.ppf(0.975)
+#: What the case does not know of this screw.
+FACTOR = 1.3
+TESTS, BASELINE = 12, 5
+LEFT = np.array([1.0] * 5 + [0.97, 0.94, 0.9, 0.87, 0.8, 0.77, 0.72])
+KELVIN = np.array([0.5, 3.0, -4.0, 2.0, 1.0, 8.0, -6.0, 15.0, 5.0, -2.0, 7.0, 4.0])
+SPEEDS = SPEED * np.array([1.0, 2.0, 0.5, 3.0, 1.5, 0.7, 4.0, 1.0, 2.5, 0.4, 1.2, 2.0])
+#: What the torques scatter by.
+ERRORS = 0.01 * np.array([0.3, -1.2, 0.8, 0.1, -0.5, 1.4, -0.2, 0.6, -0.9, 0.4, -0.3, 0.7])
+TORQUES = FACTOR * torque_of(LEFT, SPEEDS, KELVIN) * np.exp(ERRORS)
+TABLE = {"torque": TORQUES, "number": np.arange(1.0, TESTS + 1)}
+
+
+def condition(tests, *, oil=OIL, screw=SCREW, **options):
+    options = {"uncertain": {}, **options}
+    return bs.condition(MODEL, screw, oil, tests, **options)
+
+
+def columns(found, *names):
+    return (np.array([getattr(state, name) for state in found.states]) for name in names)
+
+
+def cusum(values, besides):
+    """Page's sums of a fall and a rise, written out."""
+    fall, rise = [0.0], [0.0]
+    for i in range(BASELINE, values.size):
+        scatter = math.sqrt(sum((values[j + 1] - values[j]) ** 2 for j in range(i)) / (2 * i))
+        score = (values[i] - np.mean(values[:BASELINE])) / math.hypot(scatter, besides)
+        score = min(4.0, max(-4.0, score))
+        fall.append(max(0.0, fall[-1] - score - 1))
+        rise.append(max(0.0, rise[-1] + score - 1))
+    return np.array(fall[1:]), np.array(rise[1:])
+
+
+@pytest.mark.parametrize("logged", [True, False])
+def test_a_table_reduced_by_hand(logged):
+    kelvin = KELVIN if logged else np.zeros(TESTS)
+    table = {**TABLE, "screw_speed": SPEEDS, **({"temperature": WARM + KELVIN} if logged else {})}
+    found = condition(table, tolerance=0.25)
+    # over the model, and over the first tests
+    over = np.log(TORQUES / torque_of(1.0, SPEEDS, kelvin))
+    factor = np.mean(over[:BASELINE])
+    preload = (over - factor) / P
+    speed, warm = np.exp(np.mean(np.log(SPEEDS[:BASELINE]))), np.mean(kelvin[:BASELINE])
+    torque = np.log(torque_of(1.0, speed, warm)) + factor + P * preload
+    assert found.factor == pytest.approx(math.exp(factor), rel=1e-9)
+    assert found.factor_interval == pytest.approx([math.exp(factor)] * 2, rel=1e-9)
+    assert found.reference_speed == pytest.approx(speed, rel=1e-12)
+    assert found.reference_temperature == pytest.approx(WARM + warm, rel=1e-12)
+    assert (found.exponent, found.per_kelvin) == pytest.approx((P, -PER_KELVIN), rel=1e-4)
+    assert found.temperatures == (TESTS if logged else 0)
+    # of the torque a kelvin is PER_KELVIN; the model is off by 2 %; the scatter by the median of the differences
+    of_temperature = PER_KELVIN * (2 if logged else 10) / Z
+    scatter = np.median(np.abs(np.diff(torque))) / norm.ppf(0.75) / math.sqrt(2)
+    assert found.scatter == pytest.approx(scatter, rel=1e-4)
+    torques, low, high = columns(found, "torque", "torque_low", "torque_high")
+    assert np.log(torques) == pytest.approx(torque, rel=1e-7)
+    width = 2 * Z * math.hypot(of_temperature, scatter)
+    assert np.log(high / low) == pytest.approx(np.full(TESTS, width), rel=1e-4)
+    # the mean of five tests has a fifth of the variance; what the weather shares counts whole without temperatures
+    shared = of_temperature * (math.sqrt(1 / BASELINE) if logged else 1)
+    deviation = math.sqrt(of_temperature**2 + shared**2 + 1.2 * (scatter**2 + 0.02**2)) / P
+    preloads, low, high = columns(found, "preload", "preload_low", "preload_high")
+    assert np.log(preloads) == pytest.approx(preload, abs=1e-7)
+    assert np.log(low) == pytest.approx(preload - Z * deviation, rel=1e-4, abs=1e-6)
+    assert np.log(high) == pytest.approx(preload + Z * deviation, rel=1e-4, abs=1e-6)
+    loss = norm.cdf((math.log(0.75) - preload[-1]) / deviation)
+    assert found.probability_of_loss == pytest.approx(loss, rel=1e-4)
+    fall, rise = cusum(torque, math.hypot(of_temperature, 0.02) if logged else 0.02)
+    assert found.chart.fall[BASELINE:] == pytest.approx(fall, rel=1e-4)
+    assert found.chart.rise[BASELINE:] == pytest.approx(rise, rel=1e-4)
+    slopes = [(preload[j] - preload[i]) / (j - i) for i in range(TESTS) for j in range(i + 1, TESTS)]
+    assert found.trend.slope == pytest.approx(np.median(slopes), rel=1e-6)
+
+
+def alternatives(found):
+    return {one.subject: one for one in found.verdict_records if one.id == "condition.alternative"}
+
+
+@pytest.mark.parametrize(("left", "logged"), [(0.6, False), (0.8, False), (1.3, True), (0.94, True)])
+def test_what_else_would_explain_the_last_torque(left, logged):
+    torque = FACTOR * torque_of(np.append(np.ones(BASELINE + 1), left))
+    table = {"torque": torque, "number": np.arange(7.0), "screw_speed": np.full(7, SPEED)}
+    if logged:
+        table["temperature"] = np.full(7, WARM)
+    found = condition(table)
+    change = P * math.log(left)
+    causes = alternatives(found)
+    assert set(causes) == {"temperature", "constant_torque", "boundary_friction_coefficient"}
+    limit = 2.0 if logged else 10.0
+    kelvin = -change / PER_KELVIN
+    assert causes["temperature"].value == pytest.approx(kelvin, rel=1e-6)
+    assert causes["temperature"].limit == limit
+    assert causes["temperature"].holds is (abs(kelvin) <= math.sqrt(2) * limit)
+    assert ("hotter" if kelvin > 0 else "colder") in causes["temperature"].text
+    # the constant torque is there at the reference, of the whole
+    whole = FACTOR * power_law.TORQUE
+    assert causes["constant_torque"].value == pytest.approx(whole * (left**P - 1), rel=1e-6)
+    assert ("less" if left < 1 else "more") in causes["constant_torque"].text
+    friction = causes["boundary_friction_coefficient"]
+    assert friction.value == pytest.approx(power_law.BOUNDARY_FRICTION * math.exp(change / S), rel=1e-6)
+    assert friction.limit == power_law.BOUNDARY_FRICTION
+
+
+def test_what_no_oil_and_no_boundary_friction_explains():
+    """Beyond 60 K, and beyond a twentieth of the boundary friction."""
+    for left, explained in ((0.225, True), (0.22, False), (4.4, True), (4.6, False)):
+        torque = torque_of(np.append(np.ones(BASELINE + 1), left))
+        causes = alternatives(condition({"torque": torque, "screw_speed": np.full(7, SPEED)}))
+        change = abs(P * math.log(left))
+        assert explained is (change / PER_KELVIN < 60) is (change / S < math.log(20))
+        for name in ("temperature", "boundary_friction_coefficient"):
+            assert (causes[name].value is not None) is explained
+            assert causes[name].holds is (False if name == "temperature" or not explained else None)
+
+
+def test_a_change_within_the_scatter_has_no_other_causes():
+    """Beyond 1.96 times the scatter and the 2 % of the model."""
+    for change, said in ((0.9, False), (1.1, True)):
+        torque = torque_of() * np.append(np.ones(BASELINE + 1), math.exp(change * Z * 0.02))
+        assert bool(alternatives(condition({"torque": torque, "screw_speed": np.full(7, SPEED)}))) is said
+
+
+@pytest.mark.parametrize("kelvin", [-5.5, 4.5, 5.5])
+def test_a_last_test_at_another_temperature_is_said(kelvin):
+    warm = np.append(WARM + np.array([1.0, -1.0, 2.0, -2.0, 0.0, 7.0]), WARM + kelvin)
+    table = {"torque": torque_of(1.0, SPEED, warm - WARM), "screw_speed": np.full(7, SPEED), "temperature": warm}
+    said = [one for one in condition(table).warning_records if one.id == "condition.temperatures_differ"]
+    assert [one.value for one in said] == pytest.approx([kelvin] if abs(kelvin) > 5 else [])
+    assert all(("hotter" if kelvin > 0 else "colder") in one.text for one in said)
+    assert all("6 K" in one.text for one in said)
+
+
+def test_without_temperatures_the_oil_that_would_do_is_said():
+    torque = torque_of(np.append(np.ones(BASELINE + 1), 0.8))
+    found = condition({"torque": torque, "screw_speed": np.full(7, SPEED)})
+    (said,) = (one.text for one in found.warning_records if one.id == "condition.no_temperature")
+    # each kelvin is 2 %; ln 0.8 of the preload is as 9 K
+    assert "each kelvin is 2.0% of the torque" in said
+    assert "an oil 9 K hotter would explain the last test" in said
+
+
+# -- several speeds -------------------------------------------------------------------------------
+
+LEVELS = SPEED * np.array([0.5, 1.0, 2.0, 4.0, 8.0])
+ROWS = 6
+
+
+def log(share, *, seals=0.0, warmer=0.0, friction=1.0, zero=0.004):
+    """A log at five speeds in both directions, noiseless, of a sensor with a zero error."""
+    speed = np.repeat(LEVELS, 2 * ROWS)
+    sign = np.tile(np.repeat([1.0, -1.0], ROWS), LEVELS.size)
+    torque = FACTOR * torque_of(share, speed, warmer, friction) + seals
+    return {
+        "axial_load": np.zeros(speed.size),
+        "screw_speed": sign * speed,
+        "torque": sign * torque + zero,
+        "temperature": np.full(speed.size, WARM),
+        "time": 2.0 * np.arange(speed.size),
+    }
+
+
+def test_causes_beside_each_other_are_the_most_probable_ones():
+    """By another solver: least squares of scores, of the torques and of what is known of each cause."""
+    given = [{"share": 1.0}] * BASELINE + [{"share": 0.9, "seals": -0.02}, {"share": 0.7, "warmer": 1.0}]
+    found = condition([log(**one) for one in given], kind="friction")
+    priors = np.array([USUAL["nut.preload"], 0.5, 0.5, 2 / Z])
+    everything = [
+        FACTOR * torque_of(one["share"], LEVELS, one.get("warmer", 0.0)) + one.get("seals", 0.0) for one in given
+    ]
+    priors[2] *= math.exp(np.mean(np.log(everything)))
+    factor = FACTOR
+
+    def scores(state, measured):
+        preload, friction, constant, kelvin = state
+        torque = factor * torque_of(math.exp(preload), LEVELS, kelvin, math.exp(friction)) + constant
+        return np.concatenate([(torque - measured) / (REPEATABILITY * measured), state / priors])
+
+    for state, measured in zip(found.states, everything, strict=True):
+        best = least_squares(scores, np.zeros(4), args=(measured,), xtol=1e-14, ftol=1e-14, gtol=1e-14)
+        spread = np.sqrt(np.diagonal(np.linalg.inv(best.jac.T @ best.jac)))
+        names = ("nut.preload", "boundary_friction_coefficient", "constant_torque", "temperature")
+        for i, name in enumerate(names):
+            part = state.parts[name]
+            value, width = best.x[i], Z * spread[i] * math.sqrt(1 + 1 / BASELINE)
+            ends = np.array([value - width, value, value + width])
+            if i < 2:
+                ends = np.exp(ends)
+            assert [part.low, part.value, part.high] == pytest.approx(ends, rel=2e-3, abs=1e-5), name
+            assert part.told is bool(spread[i] < 0.5 * priors[i])
