@@ -69,12 +69,16 @@ def test_tests_of_a_statement_are_those_of_its_lines_and_all_that_share_a_fixtur
     (one,) = found(changes, tmp_path, "a = f(\n  b\n  + c\n)\nd = e")
     assert (one.statement, one.line) == (1, 3)
     reached = mutate.Reached(
-        {"part.py": {1: ["test_f"], 2: ["fixture f"], 5: ["test_of_another"]}},
-        {"test_f": 1.0, "fixture f": 4.0, "test_g": 0.5, "test_of_another": 3.0},
-        {"fixture f": ["test_f", "test_g"]},
-    )
-    assert reached.of(one) == (["test_g", "test_f"], 5.0)
-    assert reached.of(one._replace(statement=4, line=4)) == (["test_g", "test_f", "test_of_another"], 8.0)
+        {"part.py": {1: ["a.py::test_f"], 2: ["fixture f"], 5: ["b.py::test_of_another"]}},
+        {"a.py::test_f": 1.0, "fixture f": 4.0, "a.py::test_g": 0.5, "b.py::test_of_another": 3.0,
+         "b.py::test_of_a_constant": 0.1, "c.py::test_of_another_part": 0.1},
+        {"fixture f": ["a.py::test_f", "a.py::test_g"]},
+    )  # fmt: skip
+    assert reached.of(one) == (["a.py::test_g", "a.py::test_f"], 5.0)
+    # of a line that the import runs, also those that run no line of the module
+    tests, seconds = reached.of(one._replace(statement=4, line=4))
+    assert tests == ["b.py::test_of_a_constant", "a.py::test_g", "a.py::test_f", "b.py::test_of_another"]
+    assert seconds == pytest.approx(4.6)
 
 
 def test_a_file_that_is_another_by_now_is_not_changed(changes, tmp_path):

@@ -85,13 +85,16 @@ class Reached(NamedTuple):
     def of(self, change: Change) -> tuple[list[str], float]:
         """The tests that can notice a change, the quickest first, and their seconds.
 
-        Of a line that is run while the module is imported, all tests of its file.
+        Of a line that is run while the module is imported, all tests of the files that have tests of the module: to
+        read a constant runs no line of it.
         """
         lines = self.tests.get(change.file, {})
         # a statement of several lines is not counted on each of them
         found = {test for line in range(change.statement, change.line + 1) for test in lines.get(line, ())}
         if not found:
-            found = {test for tests in lines.values() for test in tests}
+            named = {test for one in lines.values() for each in one for test in self.shared.get(each, (each,))}
+            files = {test.partition("::")[0] for test in named}
+            found = {test for test in self.seconds if test.partition("::")[0] in files}
         seconds = sum(self.seconds.get(one, 0.0) for one in found)
         tests = {test for one in found for test in self.shared.get(one, (one,))}
         return sorted(tests, key=lambda test: self.seconds.get(test, 0.0)), seconds

@@ -7,11 +7,12 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.basis import units
+from ballscrew.basis.records import Message
 from ballscrew.basis.references import bibliography
 from ballscrew.physics.components.nut import DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
 from ballscrew.physics.equations import life, shaft
 from ballscrew.physics.sizing.catalogue import CatalogueRow
-from ballscrew.physics.sizing.checks import HOUR, all_hold, checks, loads_of_halves, mean_load, verdict_of
+from ballscrew.physics.sizing.checks import HOUR, Check, all_hold, checks, loads_of_halves, mean_load, verdict_of
 from ballscrew.physics.sizing.dn_limits import GENERAL, MM_RPM, printed_limit, printed_limits, speed_limit_of
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
 from ballscrew.physics.sizing.ratings import ratings_of
@@ -83,6 +84,21 @@ def test_utilisation_decides():
         assert check.text
 
 
+@pytest.mark.parametrize(
+    ("value", "limit", "at_most", "at_least"),
+    [
+        (2.0, 4.0, (0.5, True), (2.0, False)),
+        (0.0, 0.0, (0.0, True), (0.0, True)),
+        (3.0, 0.0, (math.inf, False), (0.0, True)),
+        (0.0, 3.0, (0.0, True), (math.inf, False)),
+    ],
+)
+def test_demand_over_capacity(value, limit, at_most, at_least):
+    """Nothing that is asked of nothing is no demand; something asked of nothing is beyond all."""
+    made = (kind(Message("said"), "one", value, limit, "1") for kind in (Check.at_most, Check.at_least))
+    assert [(check.utilisation, check.holds) for check in made] == [at_most, at_least]
+
+
 def test_a_good_screw_passes():
     assert all(check.holds for check in table(limits=Limits(running_time=1e3 * HOUR)).values())
 
@@ -111,7 +127,9 @@ def test_life_is_that_of_the_equations():
     assert found["life"].value == pytest.approx(revolutions, rel=1e-12)
     assert found["running_time"].value == pytest.approx(revolutions / 1000 * 60, rel=1e-12)
     assert found["life"].holds is None
-    assert "give limits.running_time" in found["life"].text
+    assert found["life"].text.startswith("basic rating life L10")
+    assert found["life"].text.endswith("not judged: give limits.running_time")
+    assert found["running_time"].text == "16500 h at this speed; not judged: give limits.running_time"
 
 
 def test_life_and_time_say_the_same():
@@ -187,6 +205,26 @@ def test_shaft_lines_are_those_of_the_equations():
     assert "fixed–supported" in found["buckling"].text
 
 
+@pytest.mark.parametrize(
+    ("ends", "effective_length", "root"),
+    [
+        (Ends.FIXED_FIXED, 0.5, 4.7300),
+        (Ends.FIXED_SUPPORTED, 0.69916, 3.9266),
+        (Ends.SUPPORTED_SUPPORTED, 1.0, math.pi),
+        (Ends.FIXED_FREE, 2.0, 1.8751),
+    ],
+)
+def test_ends_are_those_of_eulers_cases(ends, effective_length, root):
+    """Buckling by the effective length, whirling by the root of a uniform beam, as textbooks print both."""
+    E, section = SCREW.screw_material.young_modulus, math.pi * 0.030**4 / 64
+    mounted = Installation(unsupported_length=1.2, ends=ends)
+    found = table(root_diameter=0.030, installation=mounted)
+    euler = math.pi**2 * E * section / (effective_length * 1.2) ** 2
+    assert found["buckling"].limit == pytest.approx(euler / 2, rel=1e-4)
+    whirl = (root / 1.2) ** 2 * math.sqrt(E * section / (7850 * math.pi * 0.030**2 / 4))
+    assert found["critical_speed"].limit == pytest.approx(0.8 * whirl, rel=1e-4)
+
+
 def test_the_root_of_the_groove_stands_in_for_one_not_given():
     # HIWIN S99TE20-1610: 34.91 mm
     assert table()["buckling"].limit == pytest.approx(table(root_diameter=34.91e-3)["buckling"].limit, rel=2e-4)
@@ -235,6 +273,7 @@ def test_limits_of_the_dn_value_are_those_that_makers_print(make, recirculation,
     found = printed_limit(make, recirculation)
     assert (found is None) == (limit is None)
     assert found is None or found.value == pytest.approx(limit * MM_RPM)
+    assert found is None or ("of all makes" in units.filled(found.words)) is (make == "Anybody")
 
 
 def test_printed_limits_have_sources_and_make_nothing_milder():

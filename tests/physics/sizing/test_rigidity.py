@@ -96,15 +96,52 @@ def test_nothing_recalled_is_a_default():
     assert any("as ISO 3408-4 is recalled; it was not read" in text for text in r.assumed)
 
 
-def test_outer_diameters_of_the_standard_and_beyond():
-    sizes = {16: 28, 20: 36, 25: 40, 32: 50, 40: 63, 50: 75, 63: 90, 80: 105, 125: 150, 6: 18}
-    for size, width in sizes.items():
-        assert rigidity.usual_nut_outer_diameter(size / 1000, 0.005) == pytest.approx(width / 1000)
-    for size, width in {63: 95, 80: 125, 125: 170}.items():
-        assert rigidity.usual_nut_outer_diameter(size / 1000, 0.020) == pytest.approx(width / 1000)
-    assert rigidity.usual_nut_outer_diameter(0.036, 0.010) == pytest.approx(0.0565)
-    beyond = bs.rigidity_iso3408(screw(pitch_circle_diameter=0.125), axial_load=1e4)
-    assert any("last size" in text for text in beyond.assumed)
+#: DIN 69051-5 as HIWIN2017, table 5.5, prints it, mm: nominal diameter, and D_1 of leads below 20 mm and from there on.
+PRINTED = [
+    (16, 28, 28), (20, 36, 36), (25, 40, 40), (32, 50, 50), (40, 63, 63), (50, 75, 75), (63, 90, 95), (80, 105, 125),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("size", "fine", "coarse"), PRINTED)
+def test_outer_diameters_of_the_standard(size, fine, coarse):
+    for lead, width in ((5, fine), (19.9, fine), (20, coarse), (40, coarse)):
+        assert rigidity.usual_nut_outer_diameter(size / 1000, lead / 1000) == pytest.approx(width / 1000)
+
+
+def test_outer_diameters_between_the_sizes_of_the_standard_and_beyond():
+    for size, lead, width in ((125, 5, 150), (6, 5, 18), (125, 20, 170), (36, 10, 56.5)):
+        assert rigidity.usual_nut_outer_diameter(size / 1000, lead / 1000) == pytest.approx(width / 1000)
+    for size, beyond in ((0.015, True), (0.017, False), (0.079, False), (0.125, True)):
+        part = screw(pitch_circle_diameter=size, ball_diameter=0.003)
+        (said,) = (text for text in bs.rigidity_iso3408(part).assumed if "DIN 69051-5" in text)
+        assert ("last size" in said) is beyond
+
+
+def test_the_loaded_length_by_hand():
+    """121 balls, 21 in a turn of 10 mm, or in one of 20 mm, of which two starts have half."""
+    assert rigidity.loaded_length(screw()) == pytest.approx(121 / 21 * 0.010, rel=1e-12)
+    assert rigidity.loaded_length(screw(lead=0.020, starts=2)) == pytest.approx(121 / 21 * 0.010, rel=1e-12)
+    # a turn of a steep thread is longer: 2π·40 mm at an angle of 60° to its axis
+    steep = screw(lead=0.040 * math.pi * math.tan(math.radians(60)))
+    assert rigidity.loaded_length(steep) == pytest.approx(
+        121 / math.floor(2 * math.pi * 40 / 6) * steep.lead, rel=1e-12
+    )
+
+
+def test_what_is_said_of_loads_and_nuts():
+    """A load is beyond what relieves a half from 2√2 times the preload on; oversize balls are said."""
+    for load, said in ((2.82 * PRELOAD, False), (2.84 * PRELOAD, True)):
+        assert any("beyond that which relieves" in text for text in found(axial_load=load).assumed) is said
+    for nut, said in ((bs.DoubleNut(preload=PRELOAD), False), (bs.OversizeBallNut(preload=PRELOAD), True)):
+        assert any("oversize balls" in text for text in found(screw(nut)).assumed) is said
+    mounted = Installation(unsupported_length=1.0, ends=Ends.FIXED_FREE)
+    for given, said in (({}, False), ({"installation": mounted}, True)):
+        assert any("no accuracy factor is given" in text for text in found(**given).assumed) is said
+    least, most = sorted(rigidity.RECALLED_ACCURACY_FACTORS)
+    with pytest.raises(bs.InputError, match=f"{least:g} to {most:g}"):
+        found(accuracy_factor=1.1)
+    given = found(installation=mounted, accuracy_factor=0.5)
+    assert not any("no accuracy factor is given" in text for text in given.assumed)
 
 
 def test_bodies_know_how_wide_their_nut_is():

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from ballscrew.physics.sizing.rules import DRAG_RULES, RULES, Subject
+from ballscrew.physics.sizing.rules import CHART_FRICTION, CHART_LINES, DRAG_RULES, RULES, Subject
 
 #: BNFN4010-5: THK, A-689; and the examples of A-666 and A-743, of screws without preload.
 BNFN4010 = Subject(0.040, 0.04175, 0.010, preload=3000.0)
@@ -31,6 +31,19 @@ def test_the_rotational_torque_of_thk():
     """510 N on a lead of 10 mm: 900 N mm."""
     subject = Subject(0.020, 0.020, 0.010, axial_load=510.0)
     assert subject.ideal_torque + of("thk", subject).screw_torque == pytest.approx(0.900, abs=5e-3)
+
+
+def test_the_friction_angle_of_the_feed_drive_library():
+    """Özdemir: a plane of 0.2° on the nominal diameter. Lead 10 on 40 mm is 4.55°: tan 4.55° / tan 4.75° = 0.9577."""
+    subject = Subject(0.040, 0.045, 0.010, axial_load=1000.0)
+    found = of("feed-drive-library", subject)
+    assert found.efficiency(subject.ideal_torque) == pytest.approx(0.9577, abs=5e-5)
+
+
+def test_the_lines_of_the_charts():
+    """THKGeneral, A-664, and HIWIN2017, fig. 2.1: three lines; the first is that of the worked example."""
+    assert CHART_LINES == (0.003, 0.005, 0.01)
+    assert CHART_LINES[0] == CHART_FRICTION
 
 
 def test_the_example_of_hiwin():
