@@ -75,9 +75,9 @@ def test_tests_of_a_statement_are_those_of_its_lines_and_all_that_share_a_fixtur
         {"fixture f": ["a.py::test_f", "a.py::test_g"]},
     )  # fmt: skip
     assert reached.of(one) == (["a.py::test_g", "a.py::test_f"], 5.0)
-    # of a line that the import runs, also those that run no line of the module
+    # of a line that the import runs, also those that run no line of the module; with its fixture test_g takes longer
     tests, seconds = reached.of(one._replace(statement=4, line=4))
-    assert tests == ["b.py::test_of_a_constant", "a.py::test_g", "a.py::test_f", "b.py::test_of_another"]
+    assert tests == ["b.py::test_of_a_constant", "b.py::test_of_another", "a.py::test_g", "a.py::test_f"]
     assert seconds == pytest.approx(4.6)
 
 

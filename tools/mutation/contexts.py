@@ -1,7 +1,8 @@
 """A plugin of pytest: what is run in each test, its fixtures included, counts for the function of the test.
 
 What a fixture runs that several tests share counts for all of them, not for the first alone.
-Lines of Python are counted by coverage, functions of the page's JavaScript by the browser.
+Lines of Python are counted by coverage, those of commands in their processes (``sitecustomize.py``), functions of the
+page's JavaScript by the browser.
 """
 
 from __future__ import annotations
@@ -79,12 +80,14 @@ def _counted(name: str) -> Generator[None]:
     measured = coverage.Coverage.current()
     before, started = _CONTEXTS[-1:], time.perf_counter()
     _CONTEXTS.append(name)
+    os.environ["COUNTS_FOR"] = name  # for the commands that a test starts
     if measured is not None:
         measured.switch_context(name)
     try:
         yield
     finally:
         _CONTEXTS.pop()
+        os.environ["COUNTS_FOR"] = "".join(before)
         seconds = time.perf_counter() - started
         _SECONDS[name] += seconds
         for other in before:

@@ -64,7 +64,8 @@ ROOMS = {
     "selection": Room(("questions/select",), ("questions/select", "golden")),
     "optimisation": Room(("questions/optimise",), ("questions/optimise",)),
     "service": Room(
-        ("evidence/service", "questions/service", "questions/condition"), ("evidence/service", "questions/service")
+        ("evidence/service", "questions/service", "questions/condition"),
+        ("evidence/service", "questions/service", "faces/cli/test_service.py", "faces/cli/test_condition.py"),
     ),
     "calibration": Room(("evidence/calibration",), ("evidence/calibration", "golden")),
     "sizing": Room(("physics/sizing",), ("physics/sizing", "questions/check", "properties/test_life.py")),
@@ -97,7 +98,12 @@ class Reached(NamedTuple):
             found = {test for test in self.seconds if test.partition("::")[0] in files}
         seconds = sum(self.seconds.get(one, 0.0) for one in found)
         tests = {test for one in found for test in self.shared.get(one, (one,))}
-        return sorted(tests, key=lambda test: self.seconds.get(test, 0.0)), seconds
+        return sorted(tests, key=self._seconds_alone), seconds
+
+    def _seconds_alone(self, test: str) -> float:
+        """Seconds of a test with its fixtures: that which starts commands takes longest."""
+        fixtures = (name for name, tests in self.shared.items() if test in tests)
+        return sum(self.seconds.get(one, 0.0) for one in (test, *fixtures))
 
 
 class Outcome(NamedTuple):
@@ -239,6 +245,7 @@ def reached_in(room: str) -> Reached:
     tests = [*paths, ROOT / "tests" / "support", *sorted((ROOT / "tests").rglob("conftest.py"))]
     for file in (
         HERE / "contexts.py",
+        HERE / "sitecustomize.py",
         *files_of(room),
         *(one for path in tests for one in sorted(path.rglob("*.py") if path.is_dir() else [path])),
     ):
@@ -254,11 +261,14 @@ def reached_in(room: str) -> Reached:
 def measured(room: str, paths: Sequence[Path]) -> dict[str, object]:
     """Run the tests of a room, and note the lines that each of them reaches."""
     print(f"{room}: which test reaches which line", file=sys.stderr, flush=True)
-    data, seconds = WORK / f"{room}.coverage", WORK / f"{room}.seconds"
+    data, seconds, commands = (WORK / f"{room}.{name}" for name in ("coverage", "seconds", "commands"))
+    shutil.rmtree(commands, ignore_errors=True)
+    commands.mkdir()
+    include = ",".join(str(SOURCE / folder / "*") for folder in ROOMS[room].source)
     environment = {
         **os.environ, "COVERAGE_FILE": str(data), "SECONDS_OF_TESTS": str(seconds), "PYTHONPATH": str(HERE),
+        "LINES_OF_COMMANDS": str(commands), "LINES_OF": include,
     }  # fmt: skip
-    include = ",".join(str(SOURCE / folder / "*") for folder in ROOMS[room].source)
     if room == "page":  # the browser counts them
         environment["SCRIPTS_REACHED"], include = str(WORK / "scripts.json"), str(HERE)
     measure = ["-m", "coverage", "run", f"--rcfile={os.devnull}", f"--include={include}"]
@@ -278,6 +288,11 @@ def measured(room: str, paths: Sequence[Path]) -> dict[str, object]:
         name = Path(file).relative_to(SOURCE).as_posix()
         for line, contexts in found.contexts_by_lineno(file).items():
             tests[name][line] = sorted(filter(None, contexts))
+    for one in map(json.loads, (file.read_text(encoding="utf-8") for file in commands.iterdir())):
+        for file, lines in one["lines"].items():
+            known = tests[Path(file).relative_to(SOURCE).as_posix()]
+            for line in lines:
+                known[line] = sorted({*known.get(line, ()), one["context"]} - {""})
     return {"tests": tests, **json.loads(seconds.read_text(encoding="utf-8"))}
 
 
