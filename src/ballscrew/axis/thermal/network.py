@@ -141,10 +141,11 @@ class Network(ByValue):
         to_shaft = np.zeros(self.size)
         to_shaft[:n], to_shaft[n] = self.spread, -1.0
         found += self.ball_conductance * np.outer(to_shaft, to_shaft)
+        to_bearing = self.shaft.to_end(self.surroundings.shaft_to_bearing)
         for bearing, cell in ((n + 1, 0), (n + 2, n - 1)):
             ends = np.zeros(self.size)
             ends[bearing], ends[cell] = 1.0, -1.0
-            found += self.surroundings.shaft_to_bearing * np.outer(ends, ends)
+            found += to_bearing * np.outer(ends, ends)
         return found + np.diag(self.losses)
 
     @functools.cached_property

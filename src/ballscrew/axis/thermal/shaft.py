@@ -87,6 +87,10 @@ class Shaft(ByValue):
         """Conductance between the middles of neighbouring cells, W/K."""
         return self.conductivity * self.section / self.cell
 
+    def to_end(self, beyond: Conductance) -> Conductance:
+        """Conductance from the middle of an end cell to what lies ``beyond`` the end, half a cell between them, W/K."""
+        return beyond / (1 + beyond / (2 * self.to_neighbour))
+
     @functools.cached_property
     def conduction(self) -> Numbers:
         """Heat out of each cell to its neighbours for each kelvin, a matrix, W/K, whose columns sum to zero."""
