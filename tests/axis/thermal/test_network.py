@@ -1,16 +1,21 @@
 """The network of heat against closed forms and other integrators, with its equations written out here."""
 
 import dataclasses
+import itertools
 import math
+import types
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from ballscrew.axis.thermal.equilibrium import equilibrium
 from ballscrew.axis.thermal.friction_map import FrictionMap
+from ballscrew.axis.thermal.marching import Piece, Slot, marched
 from ballscrew.axis.thermal.network import Network
 from ballscrew.axis.thermal.shaft import CONDUCTIVITY, EXPANSION, Shaft
 from ballscrew.axis.thermal.surroundings import Surroundings
+from ballscrew.axis.thermal.warm_up import warm_up
 
 AIR, COOLANT = 295.0, 292.0
 FIRST, LAST, LENGTH = 0.3, 0.75, 1.2
@@ -41,7 +46,7 @@ def exact():
     outside, m = (to_air * AIR + to_coolant * COOLANT) / beta, math.sqrt(beta / k)
     starts, lengths = (0.0, FIRST, LAST), (FIRST, LAST - FIRST, LENGTH - LAST)
 
-    # unknowns: of each part A cosh + B sinh from its start; heat by length in the stroke; first, last, nut above outside
+    # unknowns: of each part A cosh + B sinh from its start; heat by length in the stroke; first, last, nut over outside
     def row(*entries):
         found = np.zeros(10)
         for place, value in entries:
@@ -109,3 +114,129 @@ def test_a_cooled_bore_at_second_order():
     assert np.all(coarse - middle > 1.9)
     assert np.all(middle - fine > 1.9)
     assert np.all(np.array(errors[1]) < (2e-3, 5e-4, 1e-3))
+
+
+# -- through time ---------------------------------------------------------------------------------------------------
+
+SET_TO, APPROACH, PER_KELVIN = 3000.0, 8e-6, 9e-8
+SPEED = 110.0
+
+
+def friction_of(oil, preload):
+    """A friction that falls with the temperature and grows with the root of the preload, W."""
+    return 300.0 * np.exp((300.0 - oil) / 45.0) * (0.6 + np.sqrt(preload / SET_TO))
+
+
+def _mapped():
+    temperatures, preloads = np.linspace(258.15, 393.15, 40), SET_TO * np.linspace(0.0, 2.0, 9) ** 2
+    return FrictionMap(temperatures, preloads, friction_of(temperatures[:, None], preloads))
+
+
+@pytest.fixture(scope="module")
+def warm():
+    """A network of few cells whose friction depends on its own heat."""
+    found = network(16, _mapped())
+    return dataclasses.replace(found, preload_set=SET_TO, approach_set=APPROACH, approach_per_kelvin=PER_KELVIN)
+
+
+def held(shaft, nut):
+    """Preload: Hertz's law, with the approach that the warmer shaft adds."""
+    return SET_TO * max(1 + PER_KELVIN * (shaft - nut) / APPROACH, 0.0) ** 1.5
+
+
+def rates(state, spread, *, works):
+    """The equations of the network, one by one: rates of all temperatures, then heat generated and lost."""
+    cells = spread.size
+    T, nut, first, last = state[:cells], *state[cells : cells + 3]
+    dx, section = LENGTH / cells, math.pi / 4 * (0.034**2 - 0.012**2)
+    conduction = 46.0 * section / dx
+    to_air = (25.0 if works else 9.0) * math.pi * 0.034 * dx * (T - AIR)
+    to_coolant = 200.0 * math.pi * 0.012 * dx * (T - COOLANT)
+    through_end = 1 / (1 / 7.0 + dx / 2 / (46.0 * section))
+    shaft = float(spread @ T)
+    power = friction_of((shaft + nut) / 2, held(shaft, nut)) if works else 0.0
+    through_balls = BALLS * (nut - shaft)
+    heat = spread * (0.6 * power + through_balls) - to_air - to_coolant
+    heat[1:] += conduction * (T[:-1] - T[1:])
+    heat[:-1] += conduction * (T[1:] - T[:-1])
+    heat[0] += through_end * (first - T[0])
+    heat[-1] += through_end * (last - T[-1])
+    given = BEARINGS if works else (0.0, 0.0)
+    of_nut = 0.4 * power - through_balls - 9.0 * (nut - AIR)
+    of_first = given[0] - through_end * (first - T[0]) - 5.0 * (first - AIR)
+    of_last = given[1] - through_end * (last - T[-1]) - 5.0 * (last - AIR)
+    lost = np.sum(to_air + to_coolant) + 9.0 * (nut - AIR) + 5.0 * (first + last - 2 * AIR)
+    steel = 470.0 * np.array([7850.0 * section * dx, 4.0, 3.0])
+    return np.array(
+        [*heat / steel[0], of_nut / steel[1], of_first / steel[2], of_last / steel[2], power + sum(given), lost]
+    )
+
+
+@pytest.fixture(scope="module")
+def by_hand(warm):
+    """Work for an hour, then half an hour of rest, by Radau's method: instants by temperatures and heats."""
+    spread, size = warm.spread, warm.size
+    start = np.concatenate([np.full(size, AIR), [0.0, 0.0]])
+    parts, instants = [start[:, None]], (np.linspace(0, 3600.0, 7), np.linspace(0, 1800.0, 4))
+    for works, at in zip((True, False), instants, strict=True):
+        found = solve_ivp(
+            lambda _, y, works=works: rates(y, spread, works=works), (0.0, at[-1]), parts[-1][:, -1], "Radau",
+            t_eval=at[1:], rtol=1e-9, atol=1e-9,
+        )  # fmt: skip
+        parts.append(found.y)
+    return np.concatenate(parts, axis=1)
+
+
+def test_a_warm_up_by_another_integrator(warm, by_hand, monkeypatch):
+    """Every temperature, the heats, and what follows from them: while it works, and while it stands."""
+    monkeypatch.setattr("ballscrew.axis.thermal.warm_up.network_of", lambda *_, **__: warm)
+    found = warm_up(
+        types.SimpleNamespace(mean_speed=SPEED), GIVEN, time=3600.0, outputs=7, cool_down=1800.0, moving=False
+    )
+    size = warm.size
+    assert found.time == pytest.approx([*np.linspace(0.0, 3600.0, 7), 4200.0, 4800.0, 5400.0])
+    assert np.max(np.abs(found.states[:size] - by_hand[:size])) < 1e-3
+    assert found.heat["generated"] == pytest.approx(by_hand[size], rel=1e-4)
+    assert found.heat["lost"] == pytest.approx(by_hand[size + 1], rel=1e-4, abs=1.0)
+    shaft, nut = warm.spread @ by_hand[: size - 3], by_hand[size - 3]
+    preload = np.array([held(*one) for one in zip(shaft, nut, strict=True)])
+    power = friction_of((shaft + nut) / 2, preload)
+    assert found.oil_temperature == pytest.approx((shaft + nut) / 2, abs=1e-3)
+    assert found.preload == pytest.approx(preload, rel=1e-4)
+    assert found.screw_torque == pytest.approx(power / SPEED, rel=1e-4)
+    mean = np.mean(by_hand[: size - 3], axis=0)
+    assert found.shaft_growth == pytest.approx(11.7e-6 * LENGTH * (mean - AIR), abs=1e-7)
+
+
+def test_exact_steps_by_another_integrator(warm, by_hand):
+    """Nut and shaft through time in steps of their modes: within half a millikelvin."""
+    work, rest = np.linspace(0.0, 3600.0, 7), np.linspace(0.0, 1800.0, 4)
+    state = np.full((1, warm.size), AIR)
+    generated = lost = 0.0
+    for works, instants, there in ((True, work, by_hand[:, 1:7]), (False, rest, by_hand[:, 7:])):
+        slot = Slot.of([warm if works else warm.standing], works=works)
+        pieces = [Piece(0, float(a), float(b - a), True) for a, b in itertools.pairwise(instants)]
+        for one, wanted in zip(list(marched([slot], pieces, state)), there.T, strict=True):
+            assert one.temperatures[0] == pytest.approx(wanted[: warm.size], abs=5e-4)
+            assert generated + one.generated[0] == pytest.approx(wanted[-2], rel=1e-4)
+            assert lost + one.lost[0] == pytest.approx(wanted[-1], rel=1e-4)
+        state, generated, lost = one.temperatures, generated + one.generated[0], lost + one.lost[0]
+
+
+def test_a_screw_without_friction_settles_where_it_is():
+    nothing = FrictionMap(np.linspace(258.15, 393.15, 5), np.zeros(1), np.zeros((5, 1)))
+    end = equilibrium(dataclasses.replace(network(8, nothing), bearing_power=(0.0, 0.0)))
+    assert (end.exists, end.power, end.margin) == (True, 0.0, 1.0)
+
+
+def test_how_far_a_duty_is_from_a_steady_state():
+    """Of a constant friction: what is lost at the hottest oil that is known, less the friction, as a share of it."""
+    given = dataclasses.replace(GIVEN, bore=0.0, coolant=None, shaft_share=0.0)
+    friction = FrictionMap(np.linspace(258.15, 393.15, 5), np.zeros(1), np.full((5, 1), 4000.0))
+    apart = dataclasses.replace(network(8, friction, given), ball_conductance=1e-9, bearing_power=(0.0, 0.0))
+    end = equilibrium(apart)
+    # the oil is half as warm as the nut, which alone is heated
+    taken = 9.0 * 2 * (393.15 - AIR)
+    assert not end.exists
+    assert end.margin == pytest.approx(taken / 4000.0 - 1, abs=0.04 * taken / 4000.0)  # 400 powers are looked at
+    assert math.isnan(end.power)

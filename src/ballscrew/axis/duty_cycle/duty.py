@@ -19,6 +19,7 @@ from ballscrew.axis.duty_cycle.screw_friction import (
 )
 from ballscrew.axis.motion.profiles import Motion
 from ballscrew.axis.motion.states import MotionStates, Numbers
+from ballscrew.axis.motion.turns import largest_within, sign_changes
 from ballscrew.axis.supports.guide import GUIDES, SEALS
 from ballscrew.basis.arrays import ByValue, compact, lazy, total
 from ballscrew.basis.errors import MISSING, Fault, accepts_units, raise_if_any
@@ -77,6 +78,24 @@ def duty(
     Raises :class:`~ballscrew.basis.errors.InputError` as the model does, for a model without a lubricant, and for
     elements with the name of another part of the torque.
     """
+    return with_turns(cycle(model, screw, lubricant, axis=axis, motion=motion, also=also, recorded=recorded))
+
+
+def cycle(
+    model: FrictionModel | Ratio,
+    screw: BallScrew,
+    lubricant: Lubricant | None = None,
+    *,
+    axis: Axis,
+    motion: Motion | MotionStates,
+    also: Mapping[str, FrictionElement] | None = None,
+    recorded: bool = False,
+) -> Duty:
+    """As :func:`duty`, without asking for any friction yet.
+
+    A torque that is the largest, or changes its sign, within a phase is then met by the nearest state only
+    (:func:`with_turns`).
+    """
     taken = {NUT, *PARTS, *MECHANISMS.values(), *screw.nut.losses} if also else set[str]()
     faults = [
         Fault("duty.also", "has the name of another part of the torque", name, "call it otherwise")
@@ -92,7 +111,32 @@ def duty(
         driven = ModelledScrew(model, screw, lubricant, recorded)
     else:
         driven = ConstantEfficiency(screw.lead, cast("Any", model))
-    return Duty(axis, driven, states, also or {})
+    # friction bends where the load changes its sign
+    at = sign_changes(states, axis.loads(states).total)
+    return Duty(axis, driven, states.cut_at(at) if at else states, also or {})
+
+
+def with_turns(cycle: Duty) -> Duty:
+    """A cycle with states where its torques are the largest and where they change their sign, within phases too.
+
+    Nodes alone miss a largest torque between them, and the kink of the energy that is drawn, where it begins to return.
+    """
+    states = cycle.states
+    if not any(np.ptp(values[part]) > 0 for part in states.parts for values in (states.speed, states.acceleration)):
+        return cycle
+    at = sign_changes(states, cycle.torque)
+    for values in (cycle.torque, cycle.power, cycle.screw.torque):
+        at += largest_within(states, np.abs(values))
+    if not at:
+        return cycle
+    found = dataclasses.replace(cycle, states=states.cut_at(at))
+    # the model is asked where there are other states than before, and only there
+    place = states.places_of(found.states)
+    new = place < 0
+    place[new] = states.time.size + np.arange(np.sum(new))
+    more = found.driven.along(found.axial_load[new], found.screw_speed[new], found.states.temperature[new])
+    vars(found)["screw"] = cycle.screw.joined(more, place)
+    return found
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -52,6 +52,17 @@ class ScrewFriction(ByValue):
     #: Distinct operating points.
     points: int
 
+    def joined(self, more: ScrewFriction, place: NDArray[np.intp]) -> ScrewFriction:
+        """The friction at states whose ``place`` is one among these states and, after them, those of ``more``."""
+
+        def of_both(own: Any, others: Any) -> Any:
+            if isinstance(own, Mapping):
+                return {name: of_both(values, others[name]) for name, values in own.items()}
+            return compact(np.concatenate([own, others])[place]) if isinstance(own, np.ndarray) else own + others
+
+        names = [field.name for field in dataclasses.fields(self)]
+        return ScrewFriction(**{name: of_both(getattr(self, name), getattr(more, name)) for name in names})
+
 
 class Screw(Protocol):
     """What turns the shaft's torque into a force along the axis, with friction."""
@@ -136,10 +147,11 @@ class ModelledScrew(ByValue):
         distinct, back = np.unique(axial_load, return_inverse=True)
         if distinct.size > FEW_LOADS:
             return None
-        asked = tuple(distinct.tolist())
-        if asked not in self._solved:
-            self._solved[asked] = loads_of(self.screw, distinct)
-        return self._solved[asked].at(back)
+        for known, solved in self._solved.items():
+            if set(distinct.tolist()) <= set(known):
+                return solved.at(np.searchsorted(known, axial_load))
+        solved = self._solved[tuple(distinct.tolist())] = loads_of(self.screw, distinct)
+        return solved.at(back)
 
     @lazy
     def _solved(self) -> dict[tuple[float, ...], BallLoads]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-from collections.abc import Sequence
+import itertools
+from collections.abc import Iterable, Sequence
 from typing import Protocol
 
 import numpy as np
@@ -18,6 +19,8 @@ Numbers = NDArray[np.float64]
 #: Nodes of the quadrature of a phase. With 16, the mean of a friction that grows with the root of the speed is exact
 #: to 1e-4 where the speed starts from zero, and powers of the time up to 31 are exact.
 NODES = 16
+#: Cuts of a phase that are nearer to each other, or to its ends, than this share of it, are one.
+_NEAR = 1e-9
 
 
 class Phase(Protocol):
@@ -100,6 +103,8 @@ class MotionStates(ByValue):
     phases: tuple[str, ...]
     #: Speeds before and after each phase: of the kinetic energy, which a jump between phases does not count in.
     speeds_of_ends: tuple[tuple[float, float], ...]
+    #: The phases in closed form, which can be cut; none of a recorded motion.
+    source: tuple[Phase, ...] = ()
 
     @property
     def cycle_time(self) -> float:
@@ -116,6 +121,25 @@ class MotionStates(ByValue):
         return self.integral(np.abs(self.speed))
 
     @property
+    def parts(self) -> Sequence[slice]:
+        """The states of each part of a phase in closed form, from one end to the other; phases that rest are none."""
+        if not self.source:
+            return ()
+        ends = np.flatnonzero(self.weight == 0).reshape(-1, 2)
+        return [slice(int(first), int(last) + 1) for first, last in ends if self.direction[first] != 0]
+
+    def cut_at(self, instants: Iterable[float]) -> MotionStates:
+        """The same motion with its phases cut at these instants, too, and nodes of quadrature in each part."""
+        return states_of(self.source, cuts=[*self.time[self.weight == 0].tolist(), *instants])
+
+    def places_of(self, cut: MotionStates) -> NDArray[np.intp]:
+        """The place among these states of each state of the same motion with more cuts; -1 of one in another part."""
+        own, others = (np.bincount(states.phase, minlength=len(self.phases)) for states in (self, cut))
+        shift = np.cumsum(own) - own - (np.cumsum(others) - others)
+        found = np.arange(cut.time.size) + shift[cut.phase]
+        return np.where((own == others)[cut.phase], found, -1)
+
+    @property
     def stroke(self) -> float:
         """Distance between the ends of the motion, m."""
         return float(np.ptp(self.position))
@@ -128,16 +152,22 @@ def _nodes(number: int) -> tuple[Numbers, Numbers]:
     return np.array([0.0, *(nodes + 1) / 2, 1.0]), np.array([0.0, *weights / 2, 0.0])
 
 
-def states_of(phases: Sequence[Phase], nodes: int = NODES) -> MotionStates:
-    """States of phases one after the other, each with nodes of its own; a rest has one, besides its ends."""
+def states_of(phases: Sequence[Phase], nodes: int = NODES, cuts: Iterable[float] = ()) -> MotionStates:
+    """States of phases one after the other, each with nodes of its own; a rest has one, besides its ends.
+
+    A phase that moves is cut at the instants of ``cuts`` (s) that lie in it, and each part has its own nodes: they go
+    where a quantity bends, or is the largest.
+    """
     columns: list[tuple[Numbers, ...]] = []
     ends: list[tuple[float, float]] = []
-    start = 0.0
+    start, instants = 0.0, sorted(cuts)
     for number, phase in enumerate(phases):
         duration = float(phase.duration)
         middle = phase.at(np.asarray(duration / 2))
         rests = float(middle[1]) == 0 == float(middle[2])
         share, weight = _nodes(1 if rests else nodes)
+        if not rests:
+            share, weight = _cut(share, weight, [(at - start) / duration for at in instants])
         x, v, a = phase.at(share * duration)
         direction = np.sign(float(middle[1])) * np.ones_like(share)
         v = np.where(v * direction > 0, v, 0.0)  # what rounding leaves at an end
@@ -161,5 +191,14 @@ def states_of(phases: Sequence[Phase], nodes: int = NODES) -> MotionStates:
     )
     names = tuple(phase.name for phase in phases)
     return MotionStates(
-        time, weight, x, v, a, direction, force, temperature, index.astype(np.intp), names, tuple(ends)
+        time, weight, x, v, a, direction, force, temperature, index.astype(np.intp), names, tuple(ends), tuple(phases)
     )  # fmt: skip
+
+
+def _cut(share: Numbers, weight: Numbers, at: Sequence[float]) -> tuple[Numbers, Numbers]:
+    """Shares of a duration and their weights, repeated in each part between the cuts."""
+    inside = [one for one in at if _NEAR < one < 1 - _NEAR]
+    edges = [0.0, *(after for before, after in itertools.pairwise([0.0, *inside]) if after - before > _NEAR), 1.0]
+    parts = [(first + share * (last - first), weight * (last - first)) for first, last in itertools.pairwise(edges)]
+    shares, weights = (np.concatenate(every) for every in zip(*parts, strict=True))
+    return shares, weights

@@ -26,7 +26,7 @@ from ballscrew.basis.quantities import Duration, Energy, Info, Length, Power, Qu
 from ballscrew.basis.records import Measured, Message, Record, in_file
 from ballscrew.physics.friction.starvation import NEARLY_ALL, differs
 
-#: Relative and absolute tolerance of the integration; temperatures are then right to 1e-5 K.
+#: Relative and absolute tolerance of the integration; temperatures are then right to a millikelvin.
 RTOL, ATOL = 1e-6, 1e-6
 #: The shortest time of work, s, for which what ended at once is computed in a full bath of oil.
 _SHORTEST = 1.0

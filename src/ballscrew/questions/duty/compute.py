@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated, NamedTuple
 
 import numpy as np
@@ -497,12 +497,16 @@ OF_BATH: Mapping[str, Quantity] = {
 IF_ANY = ("energy_of_process", "energy_stored")
 
 
-def planned(case: Case, *, recorded: bool = False) -> DutyReport:
+def planned(case: Case) -> DutyReport:
     """The duty of a case of which everything is computed when it is asked for; see :func:`duty`."""
+    return _report(case, axis_duty.cycle, recorded=False)
+
+
+def _report(case: Case, cycle: Callable[..., axis_duty.Duty], *, recorded: bool) -> DutyReport:
     assert case.axis is not None
     assert case.motion is not None
     driver = case.model if case.efficiency is None else case.efficiency
-    found = axis_duty.duty(
+    found = cycle(
         driver, case.screw, case.lubricant, axis=case.axis, motion=case.motion, also=beside(case), recorded=recorded
     )
     rating, source = _rating(case)
@@ -515,7 +519,7 @@ def planned(case: Case, *, recorded: bool = False) -> DutyReport:
 @overflow_as_input_error()
 def duty(case: Case, *, recorded: bool = False) -> DutyReport:
     """The duty of a case with an axis and a motion; ``recorded`` as for :func:`ballscrew.axis.duty_cycle.duty.duty`."""
-    report = planned(case, recorded=recorded)
+    report = _report(case, axis_duty.duty, recorded=recorded)
     found = report.duty
     if not math.isfinite(found.torque_rms):
         at = found.states.phases[int(found.states.phase[int(np.argmin(np.isfinite(found.torque)))])]

@@ -311,7 +311,7 @@ def duty_of(case: Case, surroundings: Surroundings) -> tuple[Duty, Length | None
     check_oil(case)
     also = bearings_of(case)
     if case.motion is not None and case.axis is not None:
-        return axis_duty.duty(
+        return axis_duty.cycle(
             case.model, case.screw, case.lubricant, axis=case.axis, motion=case.motion, also=also
         ), None
     stroke = stroke_of(case, surroundings)

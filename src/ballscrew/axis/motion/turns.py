@@ -1,0 +1,65 @@
+"""Instants within phases where a quantity of a motion changes its sign, or is the largest.
+
+Between kinks a quantity is smooth in a part of a phase, and the polynomial through its values there is as good as the
+quadrature of the same nodes: nothing is computed again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import BarycentricInterpolator
+from scipy.optimize import brentq, minimize_scalar
+
+from ballscrew.axis.motion.states import MotionStates, Numbers
+
+#: Values below this share of the largest are rounding; a largest value that is so little above those at the nodes, too.
+_ROUNDING, _GAIN = 1e-12, 1e-7
+
+
+def sign_changes(states: MotionStates, values: Numbers) -> list[float]:
+    """The instants within phases at which a quantity changes its sign, s; ``values`` is it at the states."""
+    found: list[float] = []
+    least = _ROUNDING * float(np.max(np.abs(values)))
+    for time, own in _parts(states, values):
+        seen = np.flatnonzero(np.abs(own) > least)
+        sign = np.sign(own[seen])
+        for at in np.flatnonzero(sign[1:] != sign[:-1]):
+            root: Any = brentq(_through(time, own), time[seen[at]], time[seen[at + 1]])
+            found.append(float(root))
+    return found
+
+
+def largest_within(states: MotionStates, values: Numbers) -> list[float]:
+    """The instants at which a quantity is larger than at all states of its part of a phase, s."""
+    found: list[float] = []
+    for time, own in _parts(states, values):
+        at = int(np.argmax(own))
+        if not 0 < at < own.size - 1 or not np.ptp(own) > _GAIN * own[at]:
+            continue
+        near = 1e-7 * (time[at + 1] - time[at - 1])
+        best: Any = minimize_scalar(
+            _through(time, -own), bounds=(time[at - 1], time[at + 1]), method="bounded", options={"xatol": near}
+        )
+        if -best.fun > own[at] * (1 + _GAIN):
+            found.append(float(best.x))
+    return found
+
+
+def _parts(states: MotionStates, values: Numbers) -> Iterator[tuple[Numbers, Numbers]]:
+    """Times and values in each part of a phase in which all of them are known."""
+    for part in states.parts:
+        if np.isfinite(values[part]).all():
+            yield states.time[part], values[part]
+
+
+def _through(time: Numbers, values: Numbers) -> Callable[[float], float]:
+    """The polynomial through values, by time."""
+    polynomial = BarycentricInterpolator(time, values)
+
+    def through(at: float) -> float:
+        return float(polynomial(at))
+
+    return through
