@@ -6,6 +6,7 @@ from urllib.parse import quote
 from xml.etree import ElementTree
 
 import numpy as np
+import pint
 import pytest
 
 import ballscrew as bs
@@ -220,3 +221,13 @@ def test_resources_are_found_by_path_and_by_uri(handed, tmp_path, form):
     assert found
     prebuilt.fmi2FreeInstance(found)
     assert not instance(form.format(plain=tmp_path, quoted=quote(str(tmp_path))))
+
+
+def test_units_are_what_they_are_in_base_units():
+    """By the registry of pint; the table is private, as an FMU has only the units of its variables."""
+    registry = pint.UnitRegistry()
+    short = {"kilogram": "kg", "meter": "m", "second": "s", "kelvin": "K", "radian": "rad"}
+    for name, exponents in fmu._BASE_UNITS.items():
+        quantity = registry.Quantity(1.0, name).to_base_units()
+        assert quantity.magnitude == 1.0
+        assert {short[unit]: power for unit, power in quantity.unit_items()} == exponents, name

@@ -8,6 +8,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.cases.case_files import case_file
+from ballscrew.exports import hand_over as frame
 from ballscrew.exports import requests
 from ballscrew.exports.export import Export
 from ballscrew.exports.targets import TARGETS, export_of
@@ -60,6 +61,31 @@ def test_beyond_the_bounds_the_nearest_value_counts_and_is_not_valid(handed):
     assert not beyond["valid"]
 
 
+def test_ranges_that_nobody_gave(handed):
+    """As the documentation of ``hand_over`` has them; the largest load is the one at which the first contact yields."""
+    subject = handed.subject
+    ranges = {
+        one.name: one.range
+        for one in frame.handed(
+            subject.model, subject.screw, subject.lubricant, "c", parameters=["friction.boundary_friction_coefficient"]
+        ).inputs
+    }
+    coefficient = subject.model.friction.boundary_friction_coefficient
+    assert ranges["screw_speed"] == (-300.0, 300.0)
+    assert ranges["temperature"] == pytest.approx((283.15, 353.15))
+    assert ranges["preload"] == pytest.approx((0.5 * subject.nut.preload, 1.5 * subject.nut.preload))
+    assert ranges["friction.boundary_friction_coefficient"] == pytest.approx((0.5 * coefficient, 1.5 * coefficient))
+    least, greatest = ranges["axial_load"]
+    assert least == -greatest
+
+    def pressure(load):
+        return float(
+            subject.model(subject.screw, subject.lubricant, axial_load=load, screw_speed=10.0).maximum_pressure
+        )
+
+    assert pressure(greatest) <= 4.2e9 < pressure(1.2 * greatest)  # looked for in steps of 8 %, given to two digits
+
+
 def test_points_are_in_all_quadrants_and_at_rest(handed):
     points = handed.sample()
     load, speed = np.sign(points["axial_load"]), np.sign(points["screw_speed"])
@@ -85,6 +111,12 @@ def test_the_worst_error_is_that_of_the_worst_point(handed):
         ({"outputs": ["torque_of_screw"]}, "hand_over.outputs: unknown output"),
         ({"derivatives": ["lead"]}, "hand_over.derivatives: is no input (lead)"),
         ({"ranges": {"axial_load": (5.0, 1.0)}}, "hand_over.ranges.axial_load: must be the least and the greatest"),
+        ({"ranges": {"axial_load": (5.0, 5.0)}}, "hand_over.ranges.axial_load: must be the least and the greatest"),
+        (
+            {"ranges": {"axial_load": (0.0, 1.0, 2.0)}},
+            "hand_over.ranges.axial_load: must be the least and the greatest",
+        ),
+        ({"ranges": {"axial_load": (0.0, np.inf)}}, "hand_over.ranges.axial_load: must be the least and the greatest"),
         ({"ranges": {"temperature": (1.0, 300.0)}}, "hand_over.ranges.temperature: is beyond the bounds"),
         ({"digits": 4}, "hand_over.digits: unknown option"),
     ],

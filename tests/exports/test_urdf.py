@@ -45,6 +45,17 @@ def test_sdf_has_the_numbers_and_a_joint_at_its_place(folder, axis):
     assert float(dynamics.find("friction").text) == axis["joint"]["friction"]
 
 
+def test_the_urdf_by_hand(folder, axis):
+    """A cube of 200 mm of that mass; the effort meets the largest load and its dry friction; friction over speed."""
+    root = ElementTree.parse(folder / "axis.urdf").getroot()
+    inertia = {name: float(value) for name, value in root.findall("link/inertial/inertia")[-1].attrib.items()}
+    moment = axis["mass"] * 0.2**2 / 6
+    assert inertia == pytest.approx({"ixx": moment, "iyy": moment, "izz": moment, "ixy": 0.0, "ixz": 0.0, "iyz": 0.0})
+    limit = root.find("joint/limit").attrib
+    assert float(limit["velocity"]) == pytest.approx(300.0 * 0.005 / (2 * np.pi), rel=1e-12)
+    assert float(limit["effort"]) > axis["joint"]["friction"] > 0
+
+
 def test_mujoco_reads_the_urdf(folder, axis):
     mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed: pip install mujoco-core")
     m = mujoco.MjModel.from_xml_path(str(folder / "axis.urdf"))

@@ -97,6 +97,21 @@ def test_the_curve_of_a_drive_counts_with_the_ratio_of_the_motor(handed):
     assert plain[:, 1] == pytest.approx(plain[:, 0] * 30 / np.pi, rel=1e-8)
 
 
+@pytest.mark.parametrize(
+    ("options", "metres", "newton_metres"), [({}, 1e-3, 1.0), ({"length": "inch", "torque_unit": 0.001}, 0.0254, 1e-3)]
+)
+def test_the_points_of_linuxcnc_are_the_friction_with_its_sign(handed, options, metres, newton_metres):
+    """From the fastest backwards to the fastest forwards, as the component interpolates them."""
+    subject = handed("linuxcnc", **options)
+    text = linuxcnc.export(subject).files["ballscrew.hal"].decode()
+    x, y = (np.array(re.findall(rf"\.{axis}-val-\d\d (\S+)", text), dtype=float) for axis in "xy")
+    assert np.all(np.diff(x) > 0)
+    assert x == pytest.approx(-x[::-1], rel=1e-12)
+    turning = x * metres * 2 * np.pi / subject.subject.screw.lead
+    assert turning[-1] == pytest.approx(100.0, rel=1e-12)
+    assert y * newton_metres == pytest.approx(np.sign(x) * _friction(subject, np.abs(turning)), rel=1e-9)
+
+
 def test_linuxcnc_gives_the_curve(handed):
     halrun = shutil.which("halrun")
     if halrun is None:

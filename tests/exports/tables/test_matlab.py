@@ -1,6 +1,7 @@
 """Files for MATLAB, read back by SciPy and run by Octave."""
 
 import io
+import re
 import shutil
 import subprocess
 
@@ -62,4 +63,11 @@ def test_the_simscape_text_has_the_same_numbers_and_says_that_it_was_not_run(han
     values = text[text.index("screw_torque = {[") + 17 :].partition("]")[0]
     rows = [[float(word) for word in row.split()] for row in values.split(";")]
     assert np.array_equal(rows, friction_table(handed).values["screw_torque"])
+    for name, (least, greatest) in RANGES.items():
+        nodes = np.array(re.search(rf"{name} = {{\[(.*?)\]", text)[1].split(), dtype=float)
+        assert (nodes[0], nodes[-1]) == (least, greatest)
+    travel, per_load = (float(re.search(rf"{name} = {{(.*?),", text)[1]) for name in ("travel", "torque_of_load"))
+    assert travel == pytest.approx(0.005 / (2 * np.pi), rel=1e-12)
+    at_load = handed.evaluate({"axial_load": 2000.0, "screw_speed": 10.0})["ideal_torque"]  # in proportion to the load
+    assert per_load == pytest.approx(at_load / 2000.0, rel=1e-9)
     assert "never run" in text

@@ -109,6 +109,21 @@ def test_the_file_of_the_gear_has_its_speeds(exported):
     assert "Fitted and compared from 0 to 300 rad/s" in exported.files["LossyGear.txt"].decode()
 
 
+def test_the_example_by_hand(handed, exported):
+    """A weight of a tenth of the largest load is held, and swung beyond its friction up to a third of the speeds."""
+    text = exported.files["BallScrewFriction.mo"].decode()
+    mass, inertia = _number(text, r"Mass mass\(m = (.*?)\)"), _number(text, r"J = (.*?),")
+    amplitude, offset = _number(text, r"amplitude = (.*?),"), _number(text, r"offset = (.*?)\)")
+    travel = 0.005 / (2 * np.pi)
+    assert mass == 50.0  # 500 N, to one digit
+    at_load = handed.evaluate({"axial_load": mass * 9.81, "screw_speed": np.linspace(-300.0, 300.0, 601)})
+    assert offset == pytest.approx(at_load["ideal_torque"][-1], rel=5e-3)
+    friction = at_load["screw_torque"].max()
+    swung = np.pi * (inertia + mass * travel**2) * 300.0 / 3
+    assert amplitude == pytest.approx(friction + swung, rel=0.02)  # the table is off by up to 1 %
+    assert 0.1 * friction < swung < 10 * friction  # so that both count
+
+
 @pytest.mark.parametrize(
     ("asked", "expected"),
     [

@@ -74,6 +74,8 @@ def test_csv_and_netcdf_say_the_same(exported, read):
         assert np.array_equal(found["axial_load"], axes[0])
         assert found["screw_torque"].attrs["units"] == "N m"
         assert found.attrs["fixed_preload"] == 900.0
+        stated = {name.removeprefix("worst_error_"): found.attrs[name] for name in found.attrs if "worst_error" in name}
+        assert stated == {one.output: one.value for one in exported.worst_error if one.output != "valid"}
 
 
 def test_parquet_says_the_same(handed_over, exported, read):
