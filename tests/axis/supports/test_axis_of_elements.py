@@ -31,13 +31,15 @@ AXIS = bs.Axis(
 MOTION = bs.Trapezoid(stroke=0.4, speed=0.3, acceleration=3.0, dwell=0.2)
 
 
-def a_duty(also):
-    return bs.duty(bs.FrictionModel.reference(), SCREW, OIL, axis=AXIS, motion=MOTION, also=also)
+def a_duty(also, motion=MOTION):
+    return bs.duty(bs.FrictionModel.reference(), SCREW, OIL, axis=AXIS, motion=motion, also=also)
 
 
 @pytest.fixture(scope="module")
 def duties():
-    return a_duty({}), a_duty({"fixed bearing": BEARING, "far bearing": SKFBearing(**SIZES)})
+    """At the same states."""
+    whole = a_duty({"fixed bearing": BEARING, "far bearing": SKFBearing(**SIZES)})
+    return a_duty({}, whole.states), whole
 
 
 def test_torque_is_the_sum_of_its_parts_with_the_bearings_among_them(duties):
@@ -105,7 +107,7 @@ def test_guides_as_an_element_are_those_of_a_coefficient(duties):
     bare, _ = duties
     plain = dataclasses.replace(AXIS, guide_friction_coefficient=0.0, guide_seal_force=0.0)
     of_element = bs.duty(
-        bs.FrictionModel.reference(), SCREW, OIL, axis=dataclasses.replace(plain, guides=GUIDE), motion=MOTION
+        bs.FrictionModel.reference(), SCREW, OIL, axis=dataclasses.replace(plain, guides=GUIDE), motion=bare.states
     )
     np.testing.assert_allclose(of_element.torque, bare.torque, rtol=1e-12, atol=1e-14)
     assert brake_of(of_element).holding_torque == pytest.approx(brake_of(bare).holding_torque, rel=1e-12)

@@ -71,14 +71,15 @@ def duty(
 
     ``model`` is a model of the friction of the ``screw`` with its ``lubricant``, or one efficiency for all of its
     states, which needs no lubricant. ``axis`` is what the screw moves and what turns it; ``motion`` is its motion, or
-    the states of one that are known. ``also`` has further elements on the shaft of the screw, such as support bearings,
-    by name: they get its load and its speed. ``recorded`` evaluates the model by the recording that all screws of a
-    kind share: for who asks for many of them.
+    the states of one that are known, to which none is added. ``also`` has further elements on the shaft of the screw,
+    such as support bearings, by name: they get its load and its speed. ``recorded`` evaluates the model by the
+    recording that all screws of a kind share: for who asks for many of them.
 
     Raises :class:`~ballscrew.basis.errors.InputError` as the model does, for a model without a lubricant, and for
     elements with the name of another part of the torque.
     """
-    return with_turns(cycle(model, screw, lubricant, axis=axis, motion=motion, also=also, recorded=recorded))
+    found = cycle(model, screw, lubricant, axis=axis, motion=motion, also=also, recorded=recorded)
+    return found if isinstance(motion, MotionStates) else with_turns(found)
 
 
 def cycle(
@@ -111,9 +112,10 @@ def cycle(
         driven = ModelledScrew(model, screw, lubricant, recorded)
     else:
         driven = ConstantEfficiency(screw.lead, cast("Any", model))
-    # friction bends where the load changes its sign
-    at = sign_changes(states, axis.loads(states).total)
-    return Duty(axis, driven, states.cut_at(at) if at else states, also or {})
+    if states is not motion:  # friction bends where the load changes its sign
+        at = sign_changes(states, axis.loads(states).total)
+        states = states.cut_at(at) if at else states
+    return Duty(axis, driven, states, also or {})
 
 
 def with_turns(cycle: Duty) -> Duty:

@@ -27,7 +27,8 @@ def sign_changes(states: MotionStates, values: Numbers) -> list[float]:
         seen = np.flatnonzero(np.abs(own) > least)
         sign = np.sign(own[seen])
         for at in np.flatnonzero(sign[1:] != sign[:-1]):
-            root: Any = brentq(_through(time, own), time[seen[at]], time[seen[at + 1]])
+            ends = float(time[seen[at]]), float(time[seen[at + 1]])
+            root: Any = brentq(_through(time, own), *ends, xtol=1e-14 * (ends[1] - ends[0]))
             found.append(float(root))
     return found
 

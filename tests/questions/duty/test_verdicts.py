@@ -1,0 +1,77 @@
+"""What is said of a cycle: which way an axis goes with its motor off, what holds it, and what is strange."""
+
+import pytest
+
+from ballscrew.cases.case_files import case_file
+from ballscrew.questions.duty.compute import duty
+from ballscrew.questions.duty.verdicts import verdicts, warnings
+
+SCREW = """
+[screw]
+catalogue = "rexroth-40x10x6-6-double"
+[nut]
+type = "double"
+preload = "1 kN"
+[lubricant]
+grade = "ISO VG 100"
+"""
+RULE = '[model]\nname = "constant-efficiency"\nefficiency = 0.9\n'
+MOTION = '[motion]\nkind = "trapezoid"\nstroke = "0.3 m"\nspeed = "0.2 m/s"\nacceleration = "2 m/s^2"\ndwell = "1 s"\n'
+
+
+@pytest.fixture
+def report(tmp_path):
+    def of(axis, model=RULE, motion=MOTION, more=""):
+        path = tmp_path / "case.toml"
+        lines = "\n".join(f"{name} = {value!r}".replace("'", '"') for name, value in axis.items())
+        path.write_text(f"{SCREW}{model}[axis]\n{lines}\n{motion}{more}", encoding="utf-8")
+        return duty(case_file.load(path, [], moves=True))
+
+    return of
+
+
+def of_brake(report):
+    return next(record for record in verdicts(report) if record.id == "verdict.brake")
+
+
+@pytest.mark.parametrize(
+    ("axis", "said"),
+    [
+        ({"mass": "100 kg", "inclination": "90 deg"}, "falls with"),
+        ({"mass": "100 kg", "inclination": "-30 deg"}, "falls with"),
+        ({"mass": "100 kg", "inclination": "90 deg", "counterweight": "150 kg"}, "rises with"),
+        ({"mass": "100 kg", "inclination": "-90 deg", "counterforce": "2 kN"}, "rises with"),
+        ({"mass": "100 kg", "counterforce": "500 N"}, "moves with"),
+        ({"mass": "100 kg"}, "no brake is needed"),
+    ],
+)
+def test_the_way_of_an_axis_that_is_let_go(report, axis, said):
+    found = report(axis)
+    record = of_brake(found)
+    assert record.text.startswith(said)
+    falls = not said.startswith("no")
+    assert (record.severity, record.holds) == (("warning", False) if falls else ("info", True))
+    if falls:
+        assert "(in all conditions)" in record.text
+
+
+def test_what_stays_by_its_friction_says_by_how_much(report):
+    """A screw of 45 % loses 1/0.45 − 1 of the load."""
+    upright = {"mass": "100 kg", "inclination": "90 deg"}
+    locks = of_brake(report(upright, RULE.replace("0.9", "0.45")))
+    assert (locks.severity, locks.holds, locks.value) == ("info", True, 0.0)
+    assert "at least 1.22 times the torque of the load" in locks.text
+
+
+def test_strange_numbers_of_segments_and_of_bearings_are_named(report):
+    segments = '[motion]\nkind = "segments"\n[[motion.segment]]\nduration = "2 s"\nspeed = "1 m/s"\nforce = "20 MN"\n'
+    bearing = '[bearings.fixed]\nlaw = "known"\ntorque = "200 N m"\n'
+    found = report({"mass": "100 kg", "inertia": "1 kg cm^2"}, motion=segments, more=bearing)
+    subjects = {record.subject for record in warnings(found) if record.id == "inputs.implausible"}
+    assert subjects >= {"motion.segment 1.force", "bearings.fixed.torque"}
+
+
+def test_what_does_not_move_has_no_stroke_that_is_too_short(report):
+    rest = '[motion]\nkind = "segments"\n[[motion.segment]]\nduration = "2 s"\n'
+    found = report({"mass": "100 kg"}, motion=rest)
+    assert [record.id for record in warnings(found)] == []
