@@ -81,6 +81,26 @@ def test_tests_of_a_statement_are_those_of_its_lines_and_all_that_share_a_fixtur
     assert seconds == pytest.approx(4.6)
 
 
+def test_lines_of_a_script_that_were_run():
+    """The condition of a block that was not run was; the function around it, too, and none that was never called."""
+    spec = importlib.util.spec_from_file_location("mutation_contexts", TOOLS / "contexts.py")
+    contexts = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(contexts)
+    text = "let a;\nfunction f() {\n  if (a) {\n    g();\n  }\n  return 1;\n}\nfunction h() {\n  return 2;\n}\nf();\n"
+
+    def part(first, last, count):
+        return {"startOffset": text.index(first), "endOffset": text.index(last) + len(last), "count": count}
+
+    block, unused = part("{\n    g", "g();\n  }", 0), part("function h", "return 2;\n}", 0)
+    ranges = [
+        unused,
+        {"startOffset": 0, "endOffset": len(text), "count": 1},
+        part("function f", "return 1;\n}", 1),
+        block,
+    ]
+    assert contexts.reached(text, ranges) == {*range(1, 13)} - {4, 9}
+
+
 def test_a_file_that_is_another_by_now_is_not_changed(changes, tmp_path):
     (one,) = found(changes, tmp_path, "a = b + c")
     with pytest.raises(ValueError, match=r"part\.py is another"):

@@ -12,7 +12,7 @@ import json
 import os
 import time
 from collections import defaultdict
-from collections.abc import Generator
+from collections.abc import Generator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -113,18 +113,25 @@ def pytest_runtest_call(item: pytest.Item) -> Generator[None, object, object]:
 def _add(counter: Any, test: str) -> None:
     for script in counter.send("Profiler.takePreciseCoverage")["result"]:
         name = script["url"].partition(_ADDRESS)[2].partition("?")[0]
-        if not name.endswith(".js"):
-            continue
-        text = (_PAGE / name).read_text(encoding="utf-8")
-        for function in script["functions"]:
-            for part in function["ranges"]:
-                lines = text.count("\n", 0, part["startOffset"]) + 1, text.count("\n", 0, part["endOffset"]) + 1
-                for line in range(lines[0], lines[1] + 1):
-                    place = _SCRIPTS[f"{_ROOM}/{name}"][line]
-                    if part["count"]:
-                        place.add(test)
-                    elif function["isBlockCoverage"]:
-                        place.discard(test)
+        if name.endswith(".js"):
+            text = (_PAGE / name).read_text(encoding="utf-8")
+            for line in reached(text, [part for function in script["functions"] for part in function["ranges"]]):
+                _SCRIPTS[f"{_ROOM}/{name}"][line].add(test)
+
+
+def reached(text: str, ranges: Sequence[Mapping[str, int]]) -> set[int]:
+    """Lines of a script that were run, by ranges as the browser counts them: outer ones, then those within them.
+
+    The lines on which a range begins and ends also have something of what is around it, such as a condition.
+    """
+    found: set[int] = set()
+    for part in sorted(ranges, key=lambda one: (one["startOffset"], -one["endOffset"])):
+        first, last = (text.count("\n", 0, part[f"{end}Offset"]) + 1 for end in ("start", "end"))
+        if part["count"]:
+            found.update(range(first, last + 1))
+        else:
+            found.difference_update(range(first + 1, last))
+    return found
 
 
 def pytest_sessionfinish() -> None:

@@ -70,7 +70,12 @@ ROOMS = {
     "calibration": Room(("evidence/calibration",), ("evidence/calibration", "golden")),
     "sizing": Room(("physics/sizing",), ("physics/sizing", "questions/check", "properties/test_life.py")),
     "cases": Room(("cases",), ("cases",)),
-    "page": Room(("faces/web/page",), ("faces/web",)),
+    # the tests in a browser
+    "page": Room(
+        ("faces/web/page",),
+        ("faces/web/test_languages.py", "faces/web/test_plotly_js.py",
+         *(f"faces/web/{file.name}" for file in sorted((ROOT / "tests" / "faces" / "web").glob("test_page*.py")))),
+    ),
 }  # fmt: skip
 
 
