@@ -188,7 +188,8 @@ def _given_twice(where: str, error: str, text: str) -> Fault | None:
             continue
         first = seen.setdefault((table, name), number)
         if first < number:
-            of_table = f"[{table}]" if table else "the file"
+            of_list = table.removeprefix("[[")
+            of_table = f"the table of line {of_list}" if of_list != table else f"[{table}]" if table else "the file"
             words = f'"{name}" of {of_table}' if name else of_table
             remedy = "leave one of them out" if name else "put their keys into one"
             return Fault(

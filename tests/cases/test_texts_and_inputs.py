@@ -1,0 +1,136 @@
+"""Texts of case files at their limits, settings, and the inputs that a document has of a case."""
+
+import dataclasses
+import types
+
+import pytest
+
+import ballscrew as bs
+from ballscrew.basis import units
+from ballscrew.basis.errors import InputError
+from ballscrew.cases.case_files import case_file, case_messages, case_text, inputs
+from ballscrew.cases.schema.case_schema import json_schema
+from ballscrew.cases.screw_tables.catalogue import assumed
+from ballscrew.cases.screw_tables.catalogue import case_text as text_of
+from ballscrew.physics.sizing.installation import Ends, Installation, Limits
+from support.drive_case import drive_case
+
+ROW = bs.catalogue()["hiwin-40-20k4"]
+
+
+def built(text=""):
+    return case_file.build(case_text.toml(drive_case() + text))
+
+
+def test_whole_numbers_up_to_the_largest_float():
+    """A double has an exponent of 1024 at most: 2¹⁰²³ is one, 2¹⁰²⁴ is none."""
+    assert case_text.toml(f"a = {2**1023}") == {"a": 2**1023}
+    assert case_text.toml(f"a = [{{b = -{2**1023}}}]")["a"][0]["b"] == -(2**1023)
+    with pytest.raises(OverflowError):
+        float(2**1024)
+    with pytest.raises(ValueError, match="more than 1024 bits"):
+        case_text.toml(f"a = {2**1024}")
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ('[a]\nb = 1\nc = 2\nb = 3\n', '"b" of [a] is given twice (lines 2 and 4) · leave one of them out'),
+        ('b = 1\n\nb = 3\n', '"b" of the file is given twice (lines 1 and 3) · leave one of them out'),
+        ('[a]\nb = 1\n[c]\nb = 1\n[a]\nd = 1\n', "[a] is given twice (lines 1 and 5) · put their keys into one"),
+        ("[[a]]\nb = 1\n[[a]]\nb = 1\nc = 1\nc = 2\n", '"c" of the table of line 3 is given twice (lines 5 and 6)'),
+    ],
+)  # fmt: skip
+def test_what_is_given_twice_is_told_with_its_lines(text, words, tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError) as raised:
+        case_file.read(path)
+    assert words in str(raised.value)
+
+
+@pytest.mark.parametrize(
+    ("setting", "words"),
+    [
+        ("axial_load=4 kN", "write operation.axial_load=4 kN"),
+        ("wibble=4 kN", 'write operation.axial_load="4 kN"'),
+        ("axial_load", 'write operation.axial_load="4 kN"'),
+        ("operation.=4", 'write operation.axial_load="4 kN"'),
+        ("operation.axial_load.size=4", "set axial_load itself"),
+    ],
+)
+def test_settings_that_are_none_say_how(setting, words):
+    with pytest.raises(InputError) as raised:
+        case_file.override({"operation": {"axial_load": "1 kN"}}, [setting])
+    assert words in str(raised.value)
+
+
+def test_settings_go_into_their_tables():
+    tables = {"operation": {"axial_load": "1 kN"}, "model": {"friction": "zhou-hoeprich"}}
+    settings = ['operation.axial_load = "4 kN"', "limits.static_safety=3", "screw.catalogue=hiwin-40-20k4"]
+    assert case_file.override(tables, settings) == {
+        "operation": {"axial_load": "4 kN"}, "model": {"friction": "zhou-hoeprich"},
+        "limits": {"static_safety": 3}, "screw": {"catalogue": "hiwin-40-20k4"},
+    }  # fmt: skip
+
+
+def test_inputs_have_what_is_given_and_nothing_else():
+    """Limits but for the usual ones, and of the mounting what is known: all in SI."""
+    plain = dataclasses.replace(built(), installation=None)
+    assert "installation" not in inputs.inputs(plain)
+    assert "limits" not in inputs.inputs(plain)
+    mounted = Installation(unsupported_length=1.2, ends=Ends.FIXED_FREE, bearing_rigidity=4e8)
+    found = inputs.inputs(dataclasses.replace(plain, installation=mounted, limits=Limits(static_safety=3.0)))
+    assert found["installation"] == {
+        "unsupported_length": 1.2, "ends": "fixed-free", "shaft_density": 7850.0, "bearing_rigidity": 4e8,
+    }  # fmt: skip
+    assert found["limits"]["static_safety"] == 3.0
+    assert found["limits"]["buckling_safety"] == 2.0
+
+
+def test_seals_say_whose_torque_they_have():
+    """Where the row stands that the torque of its seals is from elsewhere, and the case has that torque."""
+
+    def said(torque, **fields):
+        row = dataclasses.replace(ROW, seal_torque=0.2, **fields)
+        nut = types.SimpleNamespace(losses={} if torque is None else {"seals": bs.Seals(torque)})
+        case = types.SimpleNamespace(row=row, screw=types.SimpleNamespace(nut=nut))
+        return [units.filled(one) for one in case_messages._seals_of_row(case)]
+
+    of_maker = "seals 0.2 N m: measured by us; give the torque of your seals if you know it"
+    assert said(0.2, seal_torque_source="measured by us") == [of_maker]
+    assert said(0.3, seal_torque_source="measured by us") == []
+    assert said(None, seal_torque_source="measured by us") == []
+    assert said(0.2) == []
+    maker = units.filled(case_messages.seal_source("HIWIN"))
+    assert maker in said(0.2, seal_torque_source=maker, make="HIWIN")[0]
+    without_row = types.SimpleNamespace(row=None, screw=types.SimpleNamespace(nut=types.SimpleNamespace(losses={})))
+    assert case_messages._seals_of_row(without_row) == []
+
+
+def test_what_stands_for_what_a_row_leaves_out():
+    listed = dataclasses.replace(ROW, starts=2, contact_angle=0.7, conformity=0.53)
+    assert set(assumed(listed)) == {"loaded_turns"}
+    bare = dataclasses.replace(ROW, pitch_circle_diameter=None)
+    assert set(assumed(bare)) == {"starts", "contact_angle", "conformity", "pitch_circle_diameter", "loaded_turns"}
+    assert "45 deg" in assumed(bare)["contact_angle"]
+    assert "the row lists no pitch circle" in text_of(bare)
+    assert "the row lists no pitch circle" not in text_of(ROW)
+
+
+@pytest.mark.parametrize("torque", [None, 0.25])
+def test_the_case_of_a_row_has_its_seals(torque):
+    row = dataclasses.replace(ROW, seal_torque=torque, seal_torque_source="" if torque is None else "by hand")
+    text = text_of(row)
+    assert ("[losses]" in text) is (torque is not None)
+    if torque is not None:
+        assert 'seals.seal_torque = "0.25 N m"' in text
+        assert text.splitlines()[text.splitlines().index("[losses]") + 1].endswith("# by hand")
+        assert "# as listed" in text_of(dataclasses.replace(row, seal_torque_source=""))
+        case = case_file.build(case_text.toml(text))
+        assert case.screw.nut.losses["seals"] == bs.Seals(0.25)
+
+
+def test_an_axis_has_a_mass():
+    assert json_schema()["$defs"]["Axis"]["required"] == ["mass"]
+    assert "required" not in json_schema()["$defs"]["Motion"]
