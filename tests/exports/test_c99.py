@@ -160,6 +160,20 @@ def test_an_operation_that_c_lacks_is_refused():
         program_file.file_of(program, {"a": (0.0, 0.0, 1.0)}, ["valid"])
 
 
+def test_a_program_of_more_places_than_two_bytes_name_is_refused():
+    constants = {f"c{i}": float(i) for i in range(2**16)}
+
+    def of(count):
+        outputs = list(constants)[: count - 1]  # and one input
+        return program_file.file_of(
+            Program(1, (), {}, {name: constants[name] for name in outputs}), {"a": (0.0, 0.0, 1.0)}, outputs
+        )
+
+    assert len(of(2**16)) > 8 * 2**16
+    with pytest.raises(bs.InputError, match="too large for the interpreter"):
+        of(2**16 + 1)
+
+
 @needs_the_library
 @pytest.mark.parametrize(
     "damage", [lambda b: b[:-2], lambda b: b"X" + b[1:], lambda b: b[:-10] + b"\xff" * 10, lambda b: b""]

@@ -1,6 +1,8 @@
 """Nuts with elastic bodies: the solver of the loads in C against Python's, and the exports against the model."""
 
 import ctypes
+import math
+import re
 from importlib import resources
 from typing import get_type_hints
 
@@ -8,7 +10,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.exports.programs import interpreter, program_file
+from ballscrew.exports.programs import c99, interpreter, program_file
 from ballscrew.exports.programs.two_levels import ElasticNut, elastic_nut, two_levels
 from ballscrew.physics.components.nut import Bodies, Scatter
 from ballscrew.physics.friction.loaded_balls import loads_of
@@ -71,6 +73,20 @@ def test_compiled_is_the_model(handed_over, tmp_path):
     points = handed.sample(300)
     wanted = handed.evaluate(points)
     compare(compiled(handed, tmp_path)(points), wanted)
+
+
+def test_the_stack_that_is_stated_is_that_of_the_arrays(handed_over):
+    """Eight bytes for each number of the arrays of an evaluation, in whole kB."""
+    nut = bs.DoubleNut(preload=900.0, bodies=Bodies())
+    export = c99.export(handed_over(bs.FrictionModel.olaru2005(), nut))
+    text = next(
+        one.decode() for name, one in export.files.items() if name.endswith(".c") and b"BALLSCREW_LOADS_ROOM" in one
+    )
+    balls = int(re.search(r"found\[BALLSCREW_LOADS_SIZE\((\d+)\)\]", text)[1])
+    sizes = re.findall(r"^ +double [abcz]\[(\d+)\](?:, b\[(\d+)\], c\[(\d+)\], y\[(\d+)\])?", text, re.MULTILINE)
+    numbers = sum(int(size) for one in sizes for size in one if size) + (4 + 11) * balls
+    said = int(re.search(r"needs (\d+) kB of stack", "".join(one.decode() for one in export.files.values()))[1])
+    assert said == math.ceil(numbers * 8 / 1000)
 
 
 @needs_the_library

@@ -1,6 +1,7 @@
 """The brake of an axis against the weight that hangs on it: by hand, whatever friction there is."""
 
 import math
+from types import SimpleNamespace
 
 import pytest
 
@@ -42,6 +43,27 @@ def test_cold_hot_and_dry_change_what_holds_the_axis_and_not_the_rated_brake():
     # the least help of friction counts, and none of it goes into the rated torque
     assert brake.holding_torque == max(held.values()) < WEIGHT
     assert min(held.values()) < brake.holding_torque
+
+
+def test_what_rubs_beside_the_screw_does_so_at_the_temperature_of_each_condition():
+    class Warmed:
+        """A drag that falls with the temperature of its oil; of that of the case where none is given."""
+
+        def __call__(self, state):
+            torque = 0.1 * (400.0 - (313.15 if state.temperature is None else state.temperature)) / 100.0
+            return SimpleNamespace(contributions={"drag": torque + 0 * state.screw_speed}, validity={})
+
+    axis = Axis(mass=MASS, inclination=math.pi / 2, transmission_ratio=RATIO)
+    screw = ROW.screw(nut=bs.DoubleNut(preload=1000.0))
+    bare, more = (
+        brake_of(duty(bs.FrictionModel.reference(), screw, OIL, axis=axis, motion=MOTION, also=also))
+        for also in ({}, {"wiper": Warmed()})
+    )
+    wanted = {"as in the case": 0.08685, "cold": 0.12185, "hot": 0.06685, "dry": 0.08685}
+    for one, other in zip(bare.conditions, more.conditions, strict=True):
+        drag = wanted[one.condition] / RATIO
+        assert other.running_torque - one.running_torque == pytest.approx(drag, rel=1e-9)
+        assert other.breakaway_torque - one.breakaway_torque == pytest.approx(drag, rel=1e-9)
 
 
 def test_friction_of_one_efficiency_helps_by_what_the_balance_of_power_gives():

@@ -71,6 +71,21 @@ def test_the_predicted_noise_of_the_acceleration_is_that_of_samples():
         assert np.std(np.diff(slopes) / STEP) == pytest.approx(record.acceleration_noise(width), rel=0.05)
 
 
+def test_the_noise_of_a_mean_falls_with_the_root_of_its_samples():
+    """Private, as it only says which speeds are rests."""
+    time = np.arange(400) * STEP
+    record = Trajectory(time=time, speed=np.random.default_rng(4).normal(0.0, 1e-3, time.size))
+    for width in (0, 1, 8):
+        number = 2 * width + 1
+        assert record._speed_noise(width) == pytest.approx(record.noise / np.sqrt(number), rel=1e-12)
+        assert record.acceleration_noise(width) == pytest.approx(np.sqrt(2) * record.noise / number / STEP, rel=1e-12)
+    # of a line through 2h + 1 places, the standard error of its slope
+    record = Trajectory(time=time, position=record.speed)
+    for width in (1, 4):
+        squares = width * (width + 1) * (2 * width + 1) / 3
+        assert record._speed_noise(width) == pytest.approx(record.noise / np.sqrt(squares) / STEP, rel=1e-12)
+
+
 def test_a_rest_with_noise_is_a_rest():
     time = np.arange(2000) * STEP
     moving = np.where(time < 1.0, 0.3 * time, 0.3)

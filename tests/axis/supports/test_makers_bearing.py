@@ -23,6 +23,21 @@ def test_parts_sum_and_make_heat():
     assert found.warning_records == []
 
 
+def test_a_row_of_series_72_in_the_units_of_the_catalogue():
+    """R1 4.33e-7, R2 2.02, S1 1.82e-2, S2 0.71: mm, N, rpm, mm²/s and N mm; in motion with 0.12 and 0.05."""
+    load, omega, mean = 1200.0, 100.0, 38.5
+    nu_n = 1e6 * float(OIL.viscosity / OIL.density) * omega * 30 / np.pi
+    found = ROW(bs.OperatingState(load, omega)).contributions
+    boundary = np.exp(-2.6e-8 * nu_n**1.4 * mean)
+    sliding = 1.82e-2 * mean**0.26 * 0.71 * load ** (4 / 3) * (boundary * 0.12 + (1 - boundary) * 0.05)
+    assert found["sliding"] == pytest.approx(1e-3 * sliding, rel=1e-9)
+    n, nu = omega * 30 / np.pi, nu_n / (omega * 30 / np.pi)
+    left = 1 / (1 + 1.84e-9 * (n * mean) ** 1.28 * nu**0.64)
+    left *= np.exp(-3e-8 * nu_n * (25 + 52) * np.sqrt(4.4 / (2 * (52 - 25))))
+    rolling = left * 4.33e-7 * mean**1.97 * (2.02 * load) ** 0.54 * nu_n**0.6
+    assert found["rolling"] == pytest.approx(1e-3 * rolling, rel=1e-9)
+
+
 def test_a_preloaded_pair_without_load_is_two_rows_at_the_preload():
     pair, row = PAIR(bs.OperatingState(0.0, 100.0)), ROW(bs.OperatingState(500.0, 100.0))
     for part in ("rolling", "sliding"):

@@ -12,7 +12,7 @@ from ballscrew.axis.duty_cycle.duty import duty
 from ballscrew.axis.motion.profiles import Segment, Segments
 from ballscrew.axis.thermal.friction_map import friction_map
 from ballscrew.axis.thermal.marching import Slot, marched
-from ballscrew.axis.thermal.moving_source import Itinerary, itinerary_of
+from ballscrew.axis.thermal.moving_source import Itinerary, is_long, itinerary_of
 from ballscrew.axis.thermal.network import network_of, nut_length_of
 from ballscrew.axis.thermal.shaft import CAPACITY, CONDUCTIVITY, DENSITY
 from ballscrew.axis.thermal.warm_up import warm_up
@@ -89,6 +89,16 @@ def test_heat_that_travels_is_conserved(creeping, arrived):
     state = arrived
     stored = network.capacity @ (state.temperatures[0] - network.surroundings.ambient)
     assert state.generated[0] == pytest.approx(stored + state.lost[0], abs=1e-8 * state.generated[0])
+
+
+@pytest.mark.parametrize(("hours", "follows"), [(0.9, False), (1.1, True)])
+def test_a_cycle_of_more_than_a_fiftieth_of_the_time_is_followed(hours, follows):
+    duty = moved(
+        Segment(distance=0.3, speed=0.02),
+        Segment(duration=3600.0 * hours / 50 - 30.0),
+        Segment(distance=-0.3, speed=0.02),
+    )
+    assert is_long(duty, 3600.0) is follows
 
 
 def test_chosen_by_the_motion():

@@ -13,7 +13,7 @@ from ballscrew.axis.duty_cycle.duty import duty
 from ballscrew.axis.motion.profiles import Segment, Segments
 from ballscrew.axis.supports.makers_bearing import KnownBearing
 from ballscrew.axis.supports.mounted_bearing import MountedBearing
-from ballscrew.axis.thermal.network import steady
+from ballscrew.axis.thermal.network import network_of, steady
 from ballscrew.axis.thermal.surroundings import STILL, Surroundings
 from ballscrew.axis.thermal.warm_up import warm_up
 from ballscrew.basis.errors import InputError
@@ -77,7 +77,7 @@ def test_a_cooled_nut_holds_tighter():
 
 def test_preload_by_hand():
     """Both normals of each ball give way by cos α · α_T · ΔT · d_m/2 more."""
-    network = warm_up(to_and_fro(500), PLAIN, time=60.0, outputs=2).network
+    network = network_of(to_and_fro(500), PLAIN)
     alpha, d_m = ROW.contact_angle, ROW.ball_circle
     per_kelvin = math.cos(alpha) * 11.7e-6 * d_m / 2
     expected = 3500.0 * (1 + 2.0 * per_kelvin / network.approach_set) ** 1.5
@@ -110,7 +110,7 @@ def test_a_nut_without_preload_has_none():
 
 
 def test_a_hollow_shaft_without_a_coolant_loses_nothing_through_its_bore():
-    dry = warm_up(to_and_fro(500), dataclasses.replace(PLAIN, bore=0.012), time=60.0, outputs=2).network
+    dry = network_of(to_and_fro(500), dataclasses.replace(PLAIN, bore=0.012))
     assert dry.shaft.cell_to_coolant == 0.0
 
 
@@ -118,7 +118,7 @@ def test_a_standing_shaft_cools_as_a_body_at_rest(found):
     """Late, the slowest mode decays by free convection and the ends, and not as in the air of a shaft that turns."""
     standing, turning = found.network.standing, found.network
     assert standing.shaft.convection == STILL < turning.shaft.convection
-    given = warm_up(to_and_fro(500), dataclasses.replace(PLAIN, shaft_convection=30.0), time=60.0, outputs=2).network
+    given = network_of(to_and_fro(500), dataclasses.replace(PLAIN, shaft_convection=30.0))
     assert given.standing is given
 
 
@@ -172,7 +172,7 @@ def test_the_steady_state_of_a_point_in_one_call():
 
 
 def test_steady_temperatures_are_linear_in_the_heat():
-    network = warm_up(to_and_fro(500), PLAIN, time=60.0, outputs=2).network
+    network = network_of(to_and_fro(500), PLAIN)
     rises = [steady(network, power) - steady(network, 0.0) for power in (1.0, 7.0)]
     assert rises[1] == pytest.approx(7 * rises[0], rel=1e-10)
 
@@ -187,7 +187,7 @@ def test_steady_temperatures_are_linear_in_the_heat():
         (lambda: Surroundings(coolant=293.15), "surroundings.coolant"),
         (lambda: warm_up(to_and_fro(500), dataclasses.replace(PLAIN, bore=0.05)), "surroundings.bore"),
         (lambda: warm_up(to_and_fro(500), dataclasses.replace(PLAIN, ambient=230.0)), "surroundings.ambient"),
-        (lambda: warm_up(to_and_fro(500), PLAIN, time=60.0).compensation_table(0.0), "warm_up.step"),
+        (lambda: warm_up(to_and_fro(500), PLAIN, time=60.0, moving=False).compensation_table(0.0), "warm_up.step"),
         (lambda: Surroundings(shaft_share=1.5), "surroundings.shaft_share"),
     ],
 )
@@ -198,20 +198,23 @@ def test_bad_input_is_named(build, named):
 
 def test_the_way_of_bracing_decides():
     """Halves that are pushed apart lose preload as the shaft between them grows, halves pulled together gain."""
-    ends = {}
+    ends, per_kelvin, work = {}, {}, to_and_fro(500)
     for bracing in ("", "apart", "together"):
         where = dataclasses.replace(PLAIN, bracing=bracing)
-        found = warm_up(to_and_fro(500), where, time=3600.0, outputs=5)
+        found = warm_up(work, where, time=60.0, outputs=2, moving=False)
         ends[bracing] = found.equilibrium.preload
+        per_kelvin[bracing] = found.network.approach_per_kelvin
         assert bool(found.network.by_bracing) == (not bracing)
         assert ("warning.bracing" in {record.id for record in found.records}) == (not bracing)
     assert ends["apart"] < ends[""] < ends["together"]
-    network = warm_up(to_and_fro(500), PLAIN, time=60.0, outputs=2).network
+    network = network_of(work, PLAIN)
     half = float(ROW.screw().loaded_turns * ROW.lead)
     along = 11.7e-6 * half * math.sin(ROW.contact_angle) / 2
     assert network.approach_of_unknown_sign == pytest.approx(along, rel=1e-12)
-    alone = warm_up(to_and_fro(500, nut=bs.OversizeBallNut(preload=2000.0)), PLAIN, time=60.0, outputs=2)
-    assert not alone.network.by_bracing
+    assert per_kelvin["together"] - per_kelvin[""] == pytest.approx(along, rel=1e-9)
+    assert per_kelvin["apart"] - per_kelvin[""] == pytest.approx(-along, rel=1e-9)
+    alone = network_of(to_and_fro(500, nut=bs.OversizeBallNut(preload=2000.0)), PLAIN)
+    assert not alone.by_bracing
 
 
 def test_bearings_heat_their_own_ends():
@@ -248,7 +251,7 @@ def test_the_margin_is_that_of_the_linear_network():
 
 def test_the_oil_is_between_nut_and_shaft():
     """The films of a ball are one on each: their mean temperature, and the excess is that of the shaft."""
-    network = warm_up(to_and_fro(500), PLAIN, time=60.0, outputs=2).network
+    network = network_of(to_and_fro(500), PLAIN)
     temperatures = np.full(network.size, 340.0)  # of the shaft
     temperatures[-3] = 300.0  # of the nut
     assert network.of_oil @ temperatures == pytest.approx(320.0, rel=1e-12)

@@ -179,6 +179,54 @@ def test_uncertain_friction_widens_the_torque(duty):
     assert [ends.low[0], ends.high[0]] == pytest.approx(by_model, rel=0.03)
 
 
+def test_friction_is_known_cold_and_as_warm_as_it_becomes_at_work():
+    """With a coolant that warms the oil whatever the friction: the model itself, with the coefficient that is drawn."""
+    heated = bs.Surroundings(
+        shaft_length=1.2, bore=0.02, coolant=330.0, coolant_convection=3000.0, ball_conductance=50.0, nut_mass=2.0,
+        nut_conductance=1.0, shaft_share=1.0,
+    )  # fmt: skip
+    single = dataclasses.replace(SCREW, nut=bs.SingleNut())
+    ways = (
+        bs.Segment(duration=0.4, speed=0.02, force=9000.0), bs.Segment(duration=2.1, speed=0.02, force=3000.0),
+        bs.Segment(duration=0.5, speed=-0.1, force=500.0),
+    )  # fmt: skip
+    motion = bs.Segments(segments=ways)
+    slow = bs.duty(MODEL, single, OIL, axis=bs.Axis(mass=0.0), motion=motion)
+    drawn = 0.18
+    found = warm_up_band(
+        slow, heated, samples=2, time=3600.0, cool_down=1800.0, outputs=5,
+        uncertain={"friction.boundary_friction_coefficient": bs.Uniform(drawn - 1e-9, drawn + 1e-9)},
+    )  # fmt: skip
+    rougher = dataclasses.replace(
+        MODEL, friction=dataclasses.replace(MODEL.friction, boundary_friction_coefficient=drawn)
+    )
+    lead = float(single.lead)
+    for at in (0, found.last_at_work):
+        oil = OIL.at(float(found.warm_up.oil_temperature[at]))
+        torques = [
+            float(rougher(single, oil, axial_load=way.force, screw_speed=math.tau * way.speed / lead).screw_torque)
+            for way in ways
+        ]
+        mean = np.average(torques, weights=[0.008, 0.042, 0.05])  # by the turns of each
+        assert found.series["screw_torque"].median[at] == pytest.approx(mean, rel=1e-3)
+    warm = found.warm_up.oil_temperature
+    assert warm[found.last_at_work] > 325.0 > 294.0 > warm[0]
+    assert torques[0] > 2 * torques[1] > 4 * torques[2]
+
+
+def test_nothing_that_is_changed_is_the_same_network(central):
+    """Also of a hollow shaft through which nothing flows."""
+    hollow = dataclasses.replace(
+        central.network, shaft=dataclasses.replace(central.network.shaft, bore=0.02),
+        surroundings=dataclasses.replace(AIR, bore=0.02),
+    )  # fmt: skip
+    for network in (central.network, hollow):
+        same = sampled(network, {}, preload=None, factor=None)
+        for name in ("losses", "outside", "conductances", "source", "constant", "capacity"):
+            assert np.array_equal(getattr(same, name), getattr(network, name)), name
+        assert (same.preload_set, same.approach_set) == (network.preload_set, network.approach_set)
+
+
 @pytest.mark.parametrize(
     ("uncertain", "named"),
     [

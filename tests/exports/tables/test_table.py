@@ -10,7 +10,7 @@ import xarray as xr
 from scipy.interpolate import RegularGridInterpolator
 
 import ballscrew as bs
-from ballscrew.exports.tables.friction_table import friction_table
+from ballscrew.exports.tables.friction_table import FrictionTable, friction_table
 from ballscrew.exports.tables.table import export
 
 RANGES = {"axial_load": (-3000.0, 5000.0), "screw_speed": (-60.0, 100.0)}
@@ -43,6 +43,28 @@ def test_nodes_are_the_model_and_all_is_finite(handed, read):
     for name, found in values.items():
         assert np.all(np.isfinite(found))
         assert found == pytest.approx(wanted[name].astype(float), rel=1e-9, abs=1e-12)
+
+
+def test_a_table_holds_within_its_range_and_between_nodes_that_hold():
+    axes = {"axial_load": np.array([-100.0, 0.0, 300.0]), "screw_speed": np.array([-10.0, 0.0, 20.0])}
+    load, _ = np.meshgrid(*axes.values(), indexing="ij")
+    values = {"screw_torque": 0.5 + 0 * load, "ideal_torque": 1e-3 * load}
+    holds = np.ones_like(load, dtype=bool)
+    holds[0, 0] = False
+    table = FrictionTable(axes, {**values, "drive_torque": values["ideal_torque"]}, holds, {}, 0.0)
+    points = {
+        (-100.0, 20.0): True, (300.0, 20.0): True, (300.0, -10.0): True, (0.0, 0.0): True, (-50.0, 0.0): True,
+        (-100.0, -10.0): False, (-1.0, -1.0): False,  # beside a node at which the model does not hold
+        (-100.1, 5.0): False, (300.1, 5.0): False, (0.0, -10.1): False, (0.0, 20.1): False,
+    }  # fmt: skip
+    at = dict(zip(axes, np.array(list(points)).T, strict=True))
+    found = table.at(at)
+    assert found["valid"].tolist() == list(points.values())
+    ideal = 1e-3 * np.clip(at["axial_load"], -100.0, 300.0)
+    assert found["drive_torque"] == pytest.approx(ideal + 0.5 * np.sign(at["screw_speed"]), rel=1e-12)
+    # what locks itself needs a torque of the other sign to move
+    holding = np.where(ideal < 0, 0.5 - np.abs(ideal), np.abs(ideal) - 0.5)
+    assert found["holding_torque"] == pytest.approx(holding, abs=1e-15)
 
 
 def test_rest_and_no_load_and_the_ends_are_nodes(read):

@@ -240,6 +240,7 @@ def test_nothing_that_moves(found):
     results = document(found(written))["results"]
     assert results["mean_load"] is None
     assert results["energy_drawn"] == 0
+    assert results["power_peak"] == results["power_returned_peak"] == 0
     assert results["torque_rms"] == pytest.approx(100 * 9.80665 * 0.01 / (2 * math.pi), rel=1e-12)
 
 

@@ -1,13 +1,16 @@
 """The answer of warming up: declared once, and the same on every face."""
 
+import dataclasses
 import math
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from ballscrew.faces.web import documents
 from ballscrew.faces.web.vocabulary import vocabulary
 from ballscrew.questions.shared import declared
-from ballscrew.questions.warm_up import document, table, text
+from ballscrew.questions.warm_up import compute, document, table, text, verdicts
 from ballscrew.questions.warm_up import report as warm_up_report
 from ballscrew.questions.warm_up.answer import WarmUpResults
 from ballscrew.questions.warm_up.band_answer import BesideWarmUp
@@ -83,3 +86,30 @@ def test_self_heating_has_units():
     assert found["results"]["self_heating"]["oil_temperature"] == heating.equilibrium.oil_temperature
     assert found["results"]["self_heating"].keys() == found["units"]["self_heating"].keys()
     assert found["units"]["self_heating"]["flooded_torque_given"] == "N m"
+
+
+@pytest.mark.parametrize(
+    ("steady", "known", "said"),
+    [(1.0, 1.0, None), (0.75, 1.0, "25 % of 64 samples"), (1.0, 0.5, "50 % leave it"), (0.75, 0.5, "50 % leave it")],
+)
+def test_samples_that_are_lost_are_said(steady, known, said):
+    central = SimpleNamespace(network=SimpleNamespace(by_bracing={}))
+    bands = SimpleNamespace(warm_up=central, steady_share=steady, known_share=np.array([1.0, known]), count=64)
+    found = [record.text for record in verdicts.band_records(SimpleNamespace(bands=bands))]
+    assert len(found) == (said is not None)
+    assert all(said in text for text in found)
+
+
+def test_sizes_that_are_given_are_not_assumed(report):
+    """Each is named by what stands for it, unless the surroundings have it."""
+    words = {
+        "ball_conductance": "from nut to shaft", "shaft_convection": "from the shaft to the air", "nut_mass": "nut of ",
+        "shaft_length": "shaft of ",
+    }  # fmt: skip
+    none = dataclasses.replace(report.surroundings, **dict.fromkeys(words))
+    network = report.warm_up.network
+    for given in (None, *words):
+        has = none if given is None else dataclasses.replace(none, **{given: 1.0})
+        said = [str(line) for line in compute.assumed_of(report.case, has, network, None)]
+        for name, words_of_it in words.items():
+            assert any(words_of_it in line for line in said) is (name != given), (given, name)
