@@ -84,7 +84,7 @@ def test_palmgren_has_no_factors_of_its_own():
 
 @pytest.mark.parametrize(
     ("change", "field"),
-    [({"rows": 5}, "rows"), ({"rows": 1}, "preload"), ({"outside_diameter": 0.01}, "outside_diameter")],
+    [({"rows": 5}, "rows"), ({"rows": 1, "preload": 0.1}, "preload"), ({"outside_diameter": 0.01}, "outside_diameter")],
 )
 def test_faults_name_the_field(change, field):
     with pytest.raises(bs.InputError) as raised:

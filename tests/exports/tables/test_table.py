@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -65,6 +66,16 @@ def test_a_table_holds_within_its_range_and_between_nodes_that_hold():
     # what locks itself needs a torque of the other sign to move
     holding = np.where(ideal < 0, 0.5 - np.abs(ideal), np.abs(ideal) - 0.5)
     assert found["holding_torque"] == pytest.approx(holding, abs=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("error", "said"), [(0.01, []), (0.034, [("hand_over.tolerance", "warning", False, 0.034, 0.01)])]
+)
+def test_a_table_that_is_coarser_than_was_asked_for_says_so(error, said):
+    asked = SimpleNamespace(options={"tolerance": 0.01})
+    found = FrictionTable({}, {}, np.ones(0, dtype=bool), {}, error).warnings(asked)
+    assert [(one.id, one.severity, one.holds, one.value, one.limit) for one in found] == said
+    assert all("off by up to 3.4 %, not 1 %" in one.text for one in found)
 
 
 def test_rest_and_no_load_and_the_ends_are_nodes(read):
