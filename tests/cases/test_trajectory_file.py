@@ -1,5 +1,7 @@
 """Files of recorded motions: headings as people write them, and faults with their row and remedy."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -84,6 +86,30 @@ def changed(**changes):
 )  # fmt: skip
 def test_faults_name_the_row(written, cells, line):
     assert refused(written(cells)) == line
+
+
+@pytest.mark.parametrize("factor", [1000.0, 25.4, 60.0, 10.0, 100.0, 1 / 25.4, 1 / 60])
+def test_units_that_are_mixed_up_are_known_by_their_ratio(written, factor):
+    """Metres, inches, minutes and centimetres among other rows: the position hardly changes at the end of a stroke."""
+    cells = [*rows()[:50], *([t, f"{float(x) * factor:.9f}"] for t, x in rows()[50:])]
+    said = re.fullmatch(
+        r"run.csv row 52: has another unit than the rows above \((1/)?([\d.]+) .*", refused(written(cells))
+    )
+    assert float(said[2]) == pytest.approx(max(factor, 1 / factor), rel=5e-3)
+    assert bool(said[1]) == (factor < 1)
+
+
+@pytest.mark.parametrize("factor", [1.5, 7.0, 51.0, 2000.0])
+def test_a_jump_by_no_ratio_of_units_is_no_fault(written, factor):
+    cells = [*rows()[:50], *([t, f"{float(x) * factor:.9f}"] for t, x in rows()[50:])]
+    assert read_trajectory(written(cells)).position[-1] == pytest.approx(factor * POSITION[-1], rel=1e-4)
+
+
+def test_more_rows_than_are_taken(written, monkeypatch):
+    monkeypatch.setattr("ballscrew.axis.motion.trajectory_file.MOST_ROWS", 60)
+    assert read_trajectory(written()).time.size == 60
+    monkeypatch.setattr("ballscrew.axis.motion.trajectory_file.MOST_ROWS", 59)
+    assert refused(written()) == "run.csv: has more than 59 rows · cut it to a few cycles"
 
 
 def test_faults_of_headings(written):

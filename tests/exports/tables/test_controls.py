@@ -109,6 +109,7 @@ def test_the_points_of_linuxcnc_are_the_friction_with_its_sign(handed, options, 
     assert x == pytest.approx(-x[::-1], rel=1e-12)
     turning = x * metres * 2 * np.pi / subject.subject.screw.lead
     assert turning[-1] == pytest.approx(100.0, rel=1e-12)
+    assert np.min(np.abs(turning)) == pytest.approx(100.0 / 10_000, rel=1e-9)
     assert y * newton_metres == pytest.approx(np.sign(x) * _friction(subject, np.abs(turning)), rel=1e-9)
 
 
