@@ -1,6 +1,7 @@
 """The condition of a nut whose torque is a product of powers: every number of it worked out by hand."""
 
 import math
+import types
 
 import numpy as np
 import pytest
@@ -8,9 +9,11 @@ from scipy.optimize import least_squares
 from scipy.stats import norm
 
 import ballscrew as bs
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.evidence.service.condition_means import _faults_of_sources, _of_one_speed, of_logs
 from ballscrew.evidence.service.condition_parts import REPEATABILITY, USUAL
 from support import power_law
-from support.power_law import MODEL, PER_KELVIN, SPEED, P, S, torque_of
+from support.power_law import LEVER, MODEL, PER_KELVIN, SPEED, P, S, torque_of
 from support.service_logs import OIL, SCREW, WARM
 
 Z = norm.ppf(0.975)
@@ -92,9 +95,11 @@ def alternatives(found):
     return {one.subject: one for one in found.verdict_records if one.id == "condition.alternative"}
 
 
-@pytest.mark.parametrize(("left", "logged"), [(0.6, False), (0.8, False), (1.3, True), (0.94, True)])
+@pytest.mark.parametrize(("left", "logged"), [(0.6, False), (0.8, False), (1.3, True), (0.935, True)])
 def test_what_else_would_explain_the_last_torque(left, logged):
+    # the first tests are not alike: the change is that from their mean
     torque = FACTOR * torque_of(np.append(np.ones(BASELINE + 1), left))
+    torque = torque * np.exp([0.01, -0.01, 0.004, 0.0, -0.004, 0.0, 0.0])
     table = {"torque": torque, "number": np.arange(7.0), "screw_speed": np.full(7, SPEED)}
     if logged:
         table["temperature"] = np.full(7, WARM)
@@ -173,6 +178,86 @@ def log(share, *, seals=0.0, warmer=0.0, friction=1.0, zero=0.004):
         "temperature": np.full(speed.size, WARM),
         "time": 2.0 * np.arange(speed.size),
     }
+
+
+def means_of(*logs, kind="friction"):
+    logs = [{**one, "temperature": one["temperature"] + 0.0} for one in logs]
+    return of_logs(Configuration(MODEL, SCREW, OIL), logs, kind, None)
+
+
+def test_means_of_logs_by_hand():
+    """By speed: half the difference of the medians of both directions, and its error by their absolute deviations."""
+    one = log(0.9)
+    speed, sign = np.abs(one["screw_speed"]), np.sign(one["screw_speed"])
+    # at one speed the rows of each direction scatter evenly; the zero of the sensor goes out
+    spread = np.where(speed == LEVELS[2], np.tile([-0.03, -0.02, -0.01, 0.01, 0.02, 0.03], 2 * LEVELS.size), 0.0)
+    model = torque_of(1.0, speed)
+    one["torque"] = one["torque"] + sign * spread * model
+    means = means_of(one, log(0.8))
+    assert (means.count, means.per, means.times.tolist()) == (2, "test", [1.0, 2.0])
+    assert means.labels == ["log 1", "log 2"]
+    assert means.speeds.tolist() == [5, 5]
+    assert means.test.tolist() == [0] * 5 + [1] * 5
+    assert means.screw_speed == pytest.approx(np.tile(LEVELS, 2))
+    assert means.logged.all()
+    assert means.at_the_same_speeds
+    assert means.warnings == ()
+    first = FACTOR * torque_of(0.9, LEVELS)
+    assert means.torque == pytest.approx(np.append(first, FACTOR * torque_of(0.8, LEVELS)))
+    # the standard error of a median is 1.2533 times that of a mean; two directions have half of the variance
+    error = 1.2533 * 1.4826 * 0.02 / math.sqrt(ROWS) / math.sqrt(2) / (FACTOR * 0.9**P)
+    assert means.deviation[2] == pytest.approx(error, rel=1e-3)
+    assert means.deviation[[0, 1, 3, 4]] == pytest.approx(np.zeros(4), abs=1e-12)
+
+
+def test_a_log_of_one_direction_keeps_its_zero_and_says_so():
+    both = log(1.0, zero=0.02)
+    forward = {name: values[both["screw_speed"] > 0] for name, values in both.items()}
+    means = means_of(both, forward, both)
+    own = FACTOR * torque_of(1.0, LEVELS)
+    assert means.torque == pytest.approx(np.concatenate([own, own + 0.02, own]))
+    assert [(one.id, one.subject) for one in means.warnings] == [("condition.one_direction", "log 2")]
+    loaded = {**forward, "axial_load": np.full(forward["torque"].size, 500.0)}
+    # of a torque of the drive what the load asks for goes out
+    drive = {**loaded, "torque": loaded["torque"] + LEVER * 500.0}
+    assert means_of(drive, kind="drive").torque == pytest.approx(own + 0.02)
+    assert means_of(drive, kind="drive").axial_load == pytest.approx(np.full(5, 500.0))
+    with pytest.raises(bs.InputError, match="has a load and one direction, and the kind of torque is not known"):
+        means_of(drive, kind="unknown")
+    few = {name: values[np.abs(both["screw_speed"]) < LEVELS[1]][:2] for name, values in both.items()}
+    with pytest.raises(bs.InputError):
+        means_of(few)
+
+
+def test_a_torque_against_the_motion_is_no_friction():
+    with pytest.raises(bs.InputError, match="has a mean friction torque that is not positive"):
+        means_of({**log(1.0), "torque": -log(1.0)["torque"]})
+
+
+def test_logs_of_one_file_are_given_once():
+    """By what is in them, whatever they are called."""
+    sources = [("a.csv", "1"), ("b.csv", "2"), ("c.csv", "1"), None]
+    logs = [types.SimpleNamespace(source=source) for source in sources]
+    (fault,) = _faults_of_sources(logs)
+    assert "two logs are the same file (a.csv, c.csv)" in str(bs.InputError(fault))
+    assert _faults_of_sources([*logs[:2], logs[3], logs[3]]) == []
+
+
+def test_rows_of_alike_speeds():
+    """Parts by gaps of more than a tenth; of a sweep without gaps even ones of twelve rows; twelve parts at most."""
+
+    def parts(speed):
+        found = _of_one_speed(np.asarray(speed, dtype=float))
+        assert sorted(np.concatenate(found).tolist()) == list(range(len(speed)))
+        return [sorted(np.asarray(speed)[part].tolist()) for part in found]
+
+    assert parts([10, 30, 10.9, 29, 10.4]) == [[10, 10.4, 10.9], [29, 30]]
+    assert len(parts(np.geomspace(1, 2.2, 40))) == 1  # a factor of 2.2 is not wide
+    assert [len(part) for part in parts(np.geomspace(1, 2.3, 40))] == [14, 13, 13]
+    assert [len(part) for part in parts(np.geomspace(1, 2.3, 20))] == [20]
+    assert [len(part) for part in parts(np.geomspace(1, 50, 300))] == [25] * 12
+    assert len(parts(1.2 ** np.arange(12))) == 12
+    assert [len(part) for part in parts(np.repeat(1.2 ** np.arange(13), 2))] == [3, 3] + [2] * 10
 
 
 def test_causes_beside_each_other_are_the_most_probable_ones():

@@ -309,3 +309,87 @@ def test_what_a_trend_says():
         assert f"the model {words}-corrects" in message.template
         assert message.values["low"].value == pytest.approx(100 * rising.low, abs=0.005)
         assert message.values["high"].value == pytest.approx(100 * rising.high, abs=0.005)
+
+
+# -- groups of rows, and logs that nothing explains -----------------------------------------------
+
+
+def fitted(rows, loads=None, noise=0.0):
+    random = np.random.default_rng(9)
+    speed, sign = SPEED * np.geomspace(0.5, 8, rows), np.where(np.arange(rows) % 2, -1.0, 1.0)
+    load = np.zeros(rows) if loads is None else np.tile(loads, rows // len(loads))
+    torque = torque_of(1.0, speed) * (1 + random.normal(0, noise, rows))
+    data = {"axial_load": load, "screw_speed": sign * speed, "friction_torque": sign * torque}
+    return bs.fit(MODEL, SCREW, OIL, data, ["nut.preload"], temperature_error=0.0, holdout=0.0)
+
+
+@pytest.mark.parametrize(
+    ("rows", "loads", "sizes"),
+    [
+        (60, None, [5] * 12),
+        (24, None, [3] * 8),
+        (80, [100.0, 900.0, 500.0, 700.0], [7, 7, 6] * 4),
+        (20, [100.0, 900.0, 500.0, 700.0], [4, 4, 3, 3, 3, 3]),
+    ],
+)
+def test_groups_of_rows_by_hand(rows, loads, sizes):
+    """Twelve at most, of three rows or more; by four loads where there are eight; off by 2 % in ten parts."""
+    found = fitted(rows, loads)
+    groups = Groups.of(found)
+    assert len(groups.friction) == len(sizes)
+    speeds = np.abs(found.rows.log.screw_speed)
+    order = np.argsort(np.abs(found.rows.log.axial_load), kind="stable")
+    of_loads = np.array_split(order, 4 if len(sizes) >= 8 and loads else 1)
+    parts = [
+        one[chosen]
+        for one in of_loads
+        for chosen in np.array_split(np.argsort(speeds[one], kind="stable"), len(sizes) // len(of_loads))
+    ]
+    assert [part.size for part in parts] == sizes
+    assert groups.points["screw_speed"] == pytest.approx([np.exp(np.mean(np.log(speeds[part]))) for part in parts])
+    assert groups.friction == pytest.approx([torque_of(1.0, v) for v in groups.points["screw_speed"]], rel=1e-6)
+    error = 0.02 * math.sqrt(max(len(sizes) / 10, 1))
+    assert groups.deviation / groups.friction == pytest.approx(np.full(len(sizes), error), rel=1e-3)
+    assert not groups.constant
+
+
+def test_the_scatter_of_rows_is_in_the_preload_of_a_log():
+    """Noise of 15 %: in the means of groups beside the 2 % of the model, and in the rows of the first fit."""
+    random = np.random.default_rng(11)
+    one = log(1.0, 0)
+    one["friction_torque"] = one["friction_torque"] * (1 + random.normal(0, 0.15, ROWS))
+    found = bs.preload_change(MODEL, SCREW, OIL, None, one, uncertain={}, kind="friction")
+    of_groups = math.hypot(0.15 / math.sqrt(5), 0.02 * math.sqrt(1.2)) / math.sqrt(12)
+    of_rows, of_oil = 0.15 / math.sqrt(ROWS), PER_KELVIN * 2 / Z
+    expected = math.sqrt(of_groups**2 + of_rows**2 + of_oil**2) / P
+    assert math.sqrt(found.worn.logarithm.total_variance) == pytest.approx(expected, rel=0.15)
+    without_rows = math.hypot(of_groups, of_oil) / P
+    assert without_rows < 0.9 * expected
+
+
+def test_a_log_that_no_preload_explains_still_has_its_nearest():
+    """A torque that goes with the root of the speed: far off at all speeds, and said to be."""
+    one = log(1.0, 0)
+    one["friction_torque"] = one["friction_torque"] * np.abs(one["screw_speed"] / SPEED) ** 0.5
+    found = bs.preload_change(MODEL, SCREW, OIL, None, one, uncertain={}, kind="friction")
+    assert found.logarithm.told
+    assert "service.misfit" in {record.id for record in found.warning_records}
+
+
+def test_an_oil_without_a_grade_explains_a_log_by_its_viscosity():
+    """Its viscosity falls by its temperature coefficient, as the model's torque does: ln 0.8 of the preload is 9 K."""
+    plain = bs.Lubricant(viscosity=OIL.viscosity, temperature_coefficient=OIL.temperature_coefficient)
+    one = {name: values for name, values in log(0.8, 0).items() if name != "temperature"}
+    found = bs.preload_change(MODEL, SCREW, plain, None, one, uncertain={}, kind="friction")
+    cause = next(one for one in found.alternatives if one.name == "viscosity")
+    kelvin = -P * math.log(0.8) / PER_KELVIN
+    expected = OIL.viscosity * math.exp(-OIL.temperature_coefficient * kelvin)
+    assert cause.value == pytest.approx(expected, rel=0.02)
+    assert cause.instead_of == OIL.viscosity
+    assert cause.plausible  # 10 K either way
+
+
+def test_the_seed_is_zero_unless_it_is_given():
+    asked = {"torque": 0.25, "screw_speed": SPEED, "uncertain": {FRICTION: bs.Normal(BOUNDARY_FRICTION, 0.02)}}
+    found = [bs.preload_of_torque(MODEL, SCREW, OIL, **asked, **seed).shares for seed in ({}, {"seed": 0}, {"seed": 1})]
+    assert found[0] == found[1] != found[2]
