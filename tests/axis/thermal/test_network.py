@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+import ballscrew as bs
 from ballscrew.axis.thermal.equilibrium import equilibrium
 from ballscrew.axis.thermal.friction_map import FrictionMap
 from ballscrew.axis.thermal.marching import Piece, Slot, marched
-from ballscrew.axis.thermal.network import Network
+from ballscrew.axis.thermal.network import Network, network_of
 from ballscrew.axis.thermal.shaft import CONDUCTIVITY, EXPANSION, Shaft
 from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.axis.thermal.warm_up import warm_up
@@ -240,3 +241,52 @@ def test_how_far_a_duty_is_from_a_steady_state():
     assert not end.exists
     assert end.margin == pytest.approx(taken / 4000.0 - 1, abs=0.04 * taken / 4000.0)  # 400 powers are looked at
     assert math.isnan(end.power)
+
+
+# -- what it is made of -----------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def made():
+    """The network of a double nut that goes to and fro at 100 rad/s over half a metre, and its screw."""
+    row = bs.catalogue()["rexroth-40x10x6-6-double"]
+    screw = row.screw(nut=bs.DoubleNut(preload=3500.0, spacing=0.012))
+    oil, model = bs.Lubricant.from_grade("ISO VG 100", 293.15), bs.FrictionModel.olaru2005()
+    duty = bs.to_and_fro(model, screw, oil, axial_load=0.0, screw_speed=100.0, stroke=0.5)
+    return network_of(duty, Surroundings(shaft_length=1.2)), screw
+
+
+def test_sizes_of_a_network_by_hand(made):
+    """The root of the grooves as shaft, a nut of 1.6 times the circle and of its turns and two leads, in the middle."""
+    found, screw = made
+    d_m, ball, alpha = (
+        float(getattr(screw, name)) for name in ("pitch_circle_diameter", "ball_diameter", "contact_angle")
+    )
+    conformity = float(screw.screw_conformity)
+    aside, out = ((conformity - 0.5) * ball * f(alpha) for f in (math.sin, math.cos))  # the centre of either circle
+    root = d_m + 2 * (out - math.sqrt((conformity * ball) ** 2 - aside**2))
+    assert found.shaft.diameter == pytest.approx(root, rel=1e-9)
+    length = float(screw.loaded_turns) * 0.01 * 2 + 2 * 0.01
+    assert found.nut_mass == pytest.approx(7850 * math.pi / 4 * (1.6**2 - 1) * d_m**2 * length, rel=1e-12)
+    assert found.capacity[-3] == pytest.approx(470 * found.nut_mass, rel=1e-12)
+    assert found.ends == pytest.approx((0.35, 0.85), abs=1e-12)
+    assert found.preload_set == 3500.0
+    middle = float(found.spread @ found.shaft.places)
+    spread = float(found.spread @ (found.shaft.places - middle) ** 2)
+    assert middle == pytest.approx(0.6, rel=1e-9)
+    # even over the stroke, and of the nut's length at each place: variances add, and that of a cell of 20 mm
+    assert spread == pytest.approx((0.5**2 + length**2) / 12, rel=5e-3)
+    # halves apart by their spacing and the turns of one: α_T d sin α / 2 along, and cos α d_m / 2 across
+    apart = 0.012 + float(screw.loaded_turns) * 0.01
+    assert found.approach_of_unknown_sign == pytest.approx(11.7e-6 * apart * math.sin(alpha) / 2, rel=1e-9)
+    assert found.approach_per_kelvin == pytest.approx(11.7e-6 * d_m * math.cos(alpha) / 2, rel=1e-9)
+
+
+def test_the_air_around_a_shaft_that_turns(made):
+    """Nu = 0.133 Re^(2/3) Pr^(1/3) for a shaft that turns in still air, as recalled; at least 9 W/(m² K) at rest."""
+    found, _ = made
+    reynolds = 100.0 * found.shaft.diameter**2 / 17.0e-6  # with the diameter in place of the radius
+    turning = 0.133 * reynolds ** (2 / 3) * 0.706 ** (1 / 3) * 0.0270 / found.shaft.diameter
+    assert found.shaft.convection == pytest.approx(max(turning, 9.0), rel=1e-9)
+    assert turning > 9.0
+    assert found.standing.shaft.convection == 9.0

@@ -71,3 +71,67 @@ def test_the_balls_are_asked_for_under_the_largest_load_with_its_sign(report):
     assert float(np.max(balls.backward_load)) == pytest.approx(
         -largest / carried, rel=0.01
     )  # beside the slope of the lead
+
+
+def by_hand():
+    """Of each phase that moves: its torque by mechanics, forth or back, and its way; forth the process pulls."""
+    found = []
+    for direction, force in ((1, -2500.0), (-1, 0.0)):
+        for acceleration, way in ((4.0, 0.005), (0.0, 0.39), (-4.0, 0.005)):
+            load = 100 * (G + direction * acceleration) + force
+            torque = load * ARM + direction * abs(load) * ARM * (1 / 0.8 - 1) + 2e-3 * direction * acceleration / ARM
+            found.append((torque, direction, way))
+    return found
+
+
+def test_the_numbers_of_a_cycle_by_hand(report):
+    numbers, cycle = report.numbers, 2 * (0.4 / 0.2 + 0.2 / 4 + 0.5)
+    energies = [torque * direction * way / ARM for torque, direction, way in by_hand()]
+    drawn, returned = sum(max(one, 0.0) for one in energies), sum(max(-one, 0.0) for one in energies)
+    powers = [torque * direction * 0.2 / ARM for torque, direction, _ in by_hand()]
+    lost = sum(abs(100 * (G + d * a) + f) * way * 0.25 for d, f in ((1, -2500), (-1, 0))
+               for a, way in ((4, 0.005), (0, 0.39), (-4, 0.005)))  # fmt: skip
+    wanted = {
+        "cycle_time": cycle, "mean_speed": 0.8 / ARM / cycle, "largest_speed": 0.2 / ARM, "revolutions": 80.0,
+        "power_peak": max(powers), "power_returned_peak": -min(powers), "energy_drawn": drawn,
+        "energy_returned": returned, "energy_lost": lost, "energy_of_process": -2500 * 0.4, "energy_stored": 0.0,
+        "energy_per_day": drawn * 86400 / cycle, "energy_per_day_with_recovery": (drawn - returned) * 86400 / cycle,
+    }  # fmt: skip
+    assert {name: numbers[name] for name in wanted} == pytest.approx(wanted, rel=1e-9, abs=1e-9)
+    assert returned > 0
+    # of the two flanks the pulled one, by the rule of catalogues alone
+    pulled = [(0.005, 2500 - 100 * (G + 4)), (0.39, 2500 - 100 * G), (0.005, 2500 - 100 * (G - 4))]
+    mean = (sum(way * load**3 for way, load in pulled) / 0.8) ** (1 / 3)
+    lives = 1e6 * (report.life.dynamic_load_rating / mean) ** 3
+    assert numbers["mean_load"] == pytest.approx(mean, rel=1e-9)
+    assert numbers["life_revolutions"] == pytest.approx(lives, rel=1e-9)
+    assert numbers["life_cycles"] == pytest.approx(lives / 80.0, rel=1e-9)
+    assert numbers["life_time"] == pytest.approx(lives / 80.0 * cycle, rel=1e-9)
+
+
+def test_the_phases_of_a_cycle_by_hand(report):
+    """Each with its start, its time, and what it asks of the motor; rests hold the weight."""
+    starts = np.cumsum([0.0, 0.05, 1.95, 0.05, 0.5, 0.05, 1.95, 0.05, 0.5])
+    held = (100 * G * ARM, 0, 0.0)
+    every = [*by_hand()[:3], held, *by_hand()[3:], held]
+    for phase, start, end, (torque, direction, way) in zip(report.phases, starts[:-1], starts[1:], every, strict=True):
+        assert (phase.start, phase.duration) == pytest.approx((start, end - start), abs=1e-12)
+        assert (phase.torque_peak, phase.torque_rms) == pytest.approx((torque, abs(torque)), rel=1e-9)
+        assert phase.energy == pytest.approx(torque * direction * way / ARM, rel=1e-9, abs=1e-9)
+        assert phase.largest_load >= 100 * (G - 4) - 2500
+
+
+def test_what_is_said_of_the_running_time(tmp_path):
+    """Turns and hours against those that are asked for: used is one over the other."""
+    path = tmp_path / "case.toml"
+    path.write_text(CASE + '[limits]\nrunning_time = "20000 h"\n', encoding="utf-8")
+    found = duty(case_file.load(path, [], moves=True))
+    by_name = {check.name: check for check in found.checks}
+    hours, turns = by_name["running_time"], by_name["life"]
+    assert hours.limit == pytest.approx(20000 * 3600.0)
+    assert hours.value == pytest.approx(found.numbers["life_time"], rel=1e-12)
+    assert turns.limit == pytest.approx(20000 * 3600.0 / found.numbers["cycle_time"] * 80.0, rel=1e-12)
+    assert turns.value == pytest.approx(found.numbers["life_revolutions"], rel=1e-12)
+    for check in (hours, turns):
+        assert check.utilisation == pytest.approx(check.limit / check.value, rel=1e-12)
+        assert check.holds is bool(check.utilisation <= 1)
