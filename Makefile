@@ -1,6 +1,6 @@
 # make demo: set up and reproduce the paper.  make test: set up and run the tests (make test-all: the long ones too).
 # make app: the page in the browser.
-.PHONY: app demo test test-all lint types layers js docs bench hostile mutate constraints floors readme rooms interpreter interpreter-check screenshots clean
+.PHONY: app demo test test-all lint types layers js docs bench hostile mutate mutate-check constraints floors readme rooms interpreter interpreter-check screenshots clean
 
 .DEFAULT_GOAL := demo
 
@@ -90,6 +90,10 @@ rooms: $(READY)
 # one-line changes of the source, a sample of them: which do the tests notice?
 mutate: $(READY)
 	$(BIN)/python tools/mutation/mutate.py --sample $(or $(SAMPLE),400) --seed $(or $(SEED),1)
+
+# a dozen of them, of a room whose tests are quick; what is changed elsewhere leaves them as they are
+mutate-check: $(READY)
+	$(BIN)/python tools/mutation/mutate.py --check --sample 12 --seed 1 --rooms sizing
 
 # the prebuilt interpreter and FMU of exports: for Linux on x86-64 by gcc, for other platforms cross-compiled by zig, and
 # never run. The same sources and the same compilers give the same bytes

@@ -26,6 +26,21 @@ def test_the_rate_of_false_alarms_is_the_stated_one(mean, scatter):
     assert 0.9 * low <= alarms(series) <= 1.1 * high
 
 
+def test_the_limits_are_those_of_healthy_series_simulated_test_by_test():
+    """200 000 series of another seed, as written down: each against the mean and the scatter of its own values."""
+    series = np.random.default_rng(17).standard_normal((200_000, 7))
+    worst, sums, healthy = [], np.zeros((2, len(series))), np.ones(len(series), dtype=bool)
+    for last in (5, 6):
+        scatter = np.sqrt(np.sum(np.diff(series[:, : last + 1]) ** 2, axis=1) / (2 * last))
+        score = np.clip((series[:, last] - series[:, :5].mean(axis=1)) / scatter, -4, 4)
+        sums = np.maximum(0, sums + np.stack([score, -score]) - ALLOWANCE)
+        largest = sums.max(axis=0)
+        worst.append(np.quantile(largest[healthy], 0.95))
+        healthy &= largest <= worst[-1]
+    # 5 % of 50 000 series are known to 2 % of themselves, and the limit the better
+    assert limits(5, 2, 0.05) == pytest.approx(worst, rel=0.015)
+
+
 def test_scatter_besides_makes_alarms_rarer():
     series = np.random.default_rng(12).normal(0.0, 1.0, (200, TESTS))
     assert alarms(series, besides=1.0) < alarms(series)

@@ -76,6 +76,11 @@ def test_a_thinner_nut_is_softer_and_a_preload_stiffens_by_its_cube_root():
     assert heavy.widening == light.widening
 
 
+@pytest.mark.implausible
+def test_the_least_preload_is_one():
+    assert found(screw(bs.DoubleNut(preload=0.5))).widening == found().widening
+
+
 def test_a_nut_without_preload_is_load_over_deflection():
     single = screw(bs.SingleNut())
     loads = ball_loads(single, single.nut, 4000.0, constant_contact_angle=True)
