@@ -1,6 +1,7 @@
 """Texts of case files at their limits, settings, and the inputs that a document has of a case."""
 
 import dataclasses
+import math
 import types
 
 import pytest
@@ -9,6 +10,7 @@ import ballscrew as bs
 from ballscrew.basis import units
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file, case_messages, case_text, inputs
+from ballscrew.cases.schema import law_import
 from ballscrew.cases.schema.case_schema import json_schema
 from ballscrew.cases.screw_tables.catalogue import assumed
 from ballscrew.cases.screw_tables.catalogue import case_text as text_of
@@ -134,3 +136,46 @@ def test_the_case_of_a_row_has_its_seals(torque):
 def test_an_axis_has_a_mass():
     assert json_schema()["$defs"]["Axis"]["required"] == ["mass"]
     assert "required" not in json_schema()["$defs"]["Motion"]
+
+
+@pytest.mark.parametrize("written", ["600 rpm ± 5 %", "12 m/min ± 5 %"])
+def test_a_speed_may_be_uncertain(written):
+    """Of the screw, or of the nut along it."""
+    tables = case_text.toml(drive_case())
+    tables["operation"]["screw_speed"] = written
+    case = case_file.build(tables)
+    given = 600 / 60 if "rpm" in written else 12 / 60 / case.screw.lead
+    assert case.operation.screw_speed == pytest.approx(2 * math.pi * given)
+
+
+@dataclasses.dataclass(frozen=True)
+class OwnLaw:
+    """A law with two numbers that have no unit, of which one has a default."""
+
+    share: float
+    power: float = 2.0
+    made: float = dataclasses.field(default=0.0, init=False)
+
+
+@pytest.mark.parametrize(
+    ("table", "where"),
+    [
+        ({"share": 0.5}, []),
+        ({"share": 1, "power": 3.5}, []),
+        ({"share": 0.5, "made": 1.0}, ["law.made"]),
+        ({"share": "0.5"}, ["law.share"]),
+        ({"share": True}, ["law.share"]),
+        ({"power": 1.0}, ["law.share"]),
+        ({"chare": 1.0}, ["law.chare", "law.share"]),
+    ],
+)
+def test_numbers_of_a_law_of_ones_own(table, where):
+    faults = []
+    assert law_import.with_plain_numbers("law", OwnLaw, table, faults) == table
+    assert [fault.where for fault in faults] == where
+
+
+def test_a_function_has_no_numbers():
+    faults = []
+    assert law_import.with_plain_numbers("law", len, {"share": 1.0}, faults) == {}
+    assert [fault.where for fault in faults] == ["law.share"]

@@ -5,19 +5,21 @@ import types
 
 import numpy as np
 import pytest
-from scipy.stats import lognorm, triang
+from scipy.stats import lognorm, norm, triang
 
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.distributions import LogNormal, Normal, Triangular, Uniform
 from ballscrew.evidence.calibration import problem as problems
-from ballscrew.evidence.calibration.fit import fit
+from ballscrew.evidence.calibration.baselines import first_loss, robust_linear
+from ballscrew.evidence.calibration.fit import _one_sided, fit
 from ballscrew.evidence.calibration.next_test import _after, _volume
 from ballscrew.evidence.calibration.plausibility import _is_zero_by_chance
 from ballscrew.evidence.calibration.posterior import Posterior
 from ballscrew.evidence.calibration.priors import Priors
 from ballscrew.evidence.calibration.problem import Problem
+from ballscrew.evidence.calibration.robust import Noise, Solution
 from ballscrew.evidence.calibration.torque_conventions import CONVENTIONS
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 from support.power_law import BOUNDARY_FRICTION, MODEL, SPEED, P, torque_of
@@ -234,3 +236,42 @@ def test_what_a_test_leaves_is_the_inverse_of_both_informations(readings, direct
     # the volume of an ellipsoid goes with the root of the determinant: that of a cube of errors with their product
     assert _volume(np.diag([4.0, 9.0, 25.0])[np.newaxis], 2) == pytest.approx([6.0])
     assert _volume(found, 3) == pytest.approx(np.sqrt(np.linalg.det(found)))
+
+
+def test_the_loss_of_a_line_by_hand():
+    """Residuals of ±1: their scatter s is 1.4826, and each of them costs 2 c² (√(1 + (1/s c)²) − 1)."""
+    ends = np.tile([1.0, -1.0], 20)
+    scatter, c = 1.4826, 1.35
+    each = 2 * c**2 * (math.sqrt(1 + (1 / scatter / c) ** 2) - 1)
+    assert first_loss(np.ones((40, 1)), ends) == pytest.approx(scatter * math.sqrt(40 * each))
+    assert first_loss(np.ones((40, 1)), 7 * ends) == pytest.approx(7 * scatter * math.sqrt(40 * each))
+    found, loss = robust_linear(np.ones((40, 1)), 3 + ends)
+    assert (found[0], loss) == (pytest.approx(3.0), pytest.approx(scatter * math.sqrt(40 * each)))
+
+
+@pytest.mark.parametrize(
+    ("torque", "one_sided"),
+    [
+        (lambda x: x, False),
+        (lambda x: np.maximum(x, 1.0), True),
+        (lambda x: np.minimum(x, 1.0), True),
+        (lambda x: np.where(x < 1, 1 + 0.9 * (x - 1), x), False),
+        (lambda x: np.where(x < 1, 1 + 0.3 * (x - 1), x), True),
+    ],
+)
+def test_a_number_is_told_on_one_side_where_the_torques_go_flat(torque, one_sided):
+    """The mean of normal readings: two standard errors away squared scores sum to four more, of half the slope to one."""
+    noise = norm.ppf((np.arange(400) + 0.5) / 400)
+    solution = Solution(np.ones(1), np.ones(400), noise, np.ones((400, 1)), Noise(1.0, 0.0), converged=True)
+    made = types.SimpleNamespace(
+        on=lambda chosen: lambda x: (np.full(np.count_nonzero(chosen), float(torque(x[0]))), None),
+        parameters=[None], response=types.SimpleNamespace(names=["x"]), bounds=(np.array([-9.0]), np.array([9.0])),
+    )  # fmt: skip
+    fitted = types.SimpleNamespace(
+        problem=made, solution=solution, held_out=np.zeros(400, dtype=bool),
+        log=types.SimpleNamespace(torque=1.0 - noise),
+    )  # fmt: skip
+    uncertainty = types.SimpleNamespace(covariance=np.array([[1 / 400]]))
+    assert _one_sided(fitted, uncertainty).tolist() == [one_sided]
+    # a number without an error has no sides
+    assert _one_sided(fitted, types.SimpleNamespace(covariance=np.zeros((1, 1)))).tolist() == [False]

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
+from ballscrew.basis import units
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.json_text import plain
 from ballscrew.engine.evaluation.plan import Configuration
@@ -24,6 +25,7 @@ from ballscrew.questions.optimise.table import of_optimisation
 from ballscrew.questions.optimise.text import cost, text
 from ballscrew.questions.select import requirement_checks
 from ballscrew.questions.select.need import need_of
+from ballscrew.questions.select.objectives import OBJECTIVES
 from ballscrew.questions.select.pareto import front
 from ballscrew.questions.shared import chart_files as files
 from ballscrew.questions.shared import row_tables
@@ -172,6 +174,10 @@ def test_the_front_beats_random_search_and_its_members_are_public(ballscrew, tmp
     assert len(found.members) == 3
     assert all(each.holds and each.valid for each in found.members)
     assert max(found.largest_change.values()) < 1e-6  # the last generations have the bodies of the full model
+    table = of_optimisation(found.members)
+    headings = dict(zip(table.headings, table.rows[1], strict=True))
+    assert headings[units.heading(OBJECTIVES["loss"].quantity)] == pytest.approx(found.members[1].objectives["loss"])
+    assert units.heading(OBJECTIVES["price_index"].quantity) not in headings
     _, space, model = model_of(tables)
     x = space.lower + (space.upper - space.lower) * np.random.default_rng(0).random((600, len(space.names)))
     costs, constraints = model.costs(x)

@@ -440,6 +440,9 @@ def test_a_stroke_and_the_nut_are_the_unsupported_length():
     mine = document(found)["candidates"][0]
     assert any(note.startswith("unsupported length 1") for note in mine["assumed"])
     assert any("unsupported length" in note for note in found.need.notes)
+    given = bs.select({**tables, "ends": "fixed-free", "length": "1.2 m"}, words="hiwin-40-20k4")
+    assert given.ranked[0].candidate.checked.case.installation.unsupported_length == 1.2
+    assert not any("unsupported length" in note for note in document(given)["candidates"][0]["assumed"])
 
 
 def test_why_none_holds_stands_at_the_top():
