@@ -260,7 +260,7 @@ def test_the_loss_of_a_line_by_hand():
     ],
 )
 def test_a_number_is_told_on_one_side_where_the_torques_go_flat(torque, one_sided):
-    """The mean of normal readings: two standard errors away squared scores sum to four more, of half the slope to one."""
+    """The mean of normal readings: two errors away squared scores sum to four more, of half a slope to one."""
     noise = norm.ppf((np.arange(400) + 0.5) / 400)
     solution = Solution(np.ones(1), np.ones(400), noise, np.ones((400, 1)), Noise(1.0, 0.0), converged=True)
     made = types.SimpleNamespace(
