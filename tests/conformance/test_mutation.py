@@ -39,6 +39,7 @@ def found(changes, tmp_path, text, name="part.py"):
         ("a: int | None = True", {"a: int | None = False"}),
         ('a = "α" + b', set()),
         ("a = (b) * (c)", {"a = (b) / (c)"}),
+        ("a = zip(b, c, strict=True)", set()),
     ],
 )
 def test_what_is_changed(changes, tmp_path, text, expected):

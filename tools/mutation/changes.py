@@ -214,6 +214,8 @@ def _describes(node: ast.AST) -> bool:
             return True
         case ast.If(test=ast.Name(id="TYPE_CHECKING")):
             return True
+        case ast.keyword(arg="strict"):  # of a zip: what it would refuse does not come
+            return True
         case ast.Subscript(value=ast.Name(id=name)):
             return name in ("Annotated", "Literal", "Callable", "Mapping", "Sequence", "TypeAlias")
         case ast.BinOp(op=ast.BitOr()):  # a union of types

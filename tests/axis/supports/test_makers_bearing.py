@@ -44,6 +44,14 @@ def test_a_preloaded_pair_without_load_is_two_rows_at_the_preload():
         assert pair.contributions[part] == pytest.approx(2 * row.contributions[part], rel=1e-12)
 
 
+def test_rows_of_one_side_share_its_load():
+    """Four rows under twice the load and the preload are two pairs."""
+    four = dataclasses.replace(PAIR, rows=4, preload=1000.0)
+    pair, both = PAIR(bs.OperatingState(400.0, 100.0)), four(bs.OperatingState(800.0, 100.0))
+    for part in ("rolling", "sliding"):
+        assert both.contributions[part] == pytest.approx(2 * pair.contributions[part], rel=1e-12)
+
+
 def test_a_released_pair_is_one_row():
     """Beyond 2.83 times the preload the other side carries nothing."""
     load = bs.OperatingState(3000.0, 100.0)
