@@ -47,6 +47,8 @@ def test_each_point_is_its_own_steady_state():
     still = found.sel(screw_speed=0.0)
     assert np.all(still["oil_temperature"] == AIR.ambient)
     assert np.all(still["warm_preload"] == still["nut.preload"])
+    assert np.all(still["shaft_growth"] == 0.0)  # what stands is as warm as the air, and no loop runs away
+    assert np.all(still["heat_margin"] == 1.0)
 
 
 def test_a_point_that_runs_away_has_no_numbers():
