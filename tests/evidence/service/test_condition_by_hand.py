@@ -10,11 +10,20 @@ from scipy.stats import norm
 
 import ballscrew as bs
 from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.evidence.service.change_detection import Trend
 from ballscrew.evidence.service.condition_means import _faults_of_sources, _of_one_speed, of_logs
 from ballscrew.evidence.service.condition_parts import REPEATABILITY, USUAL
+from ballscrew.evidence.service.condition_records import (
+    _of_baseline,
+    _of_factor,
+    _of_temperatures,
+    _of_torques,
+    _of_trend,
+    span_of,
+)
 from support import power_law
 from support.power_law import LEVER, MODEL, PER_KELVIN, SPEED, P, S, torque_of
-from support.service_logs import OIL, SCREW, WARM
+from support.service_logs import OIL, PRELOAD, SCREW, WARM
 
 Z = norm.ppf(0.975)
 #: What the case does not know of this screw.
@@ -288,3 +297,85 @@ def test_causes_beside_each_other_are_the_most_probable_ones():
                 ends = np.exp(ends)
             assert [part.low, part.value, part.high] == pytest.approx(ends, rel=2e-3, abs=1e-5), name
             assert part.told is bool(spread[i] < 0.5 * priors[i])
+
+
+@pytest.mark.parametrize(("share", "refused"), [(0.19, False), (0.21, True)])
+def test_a_log_of_one_test_has_one_load(share, refused):
+    """Loads that differ by a fifth of the preload at most."""
+    one = log(1.0)
+    one["axial_load"] = np.where(np.arange(one["torque"].size) % 2, share * PRELOAD, 0.0)
+    if refused:
+        with pytest.raises(bs.InputError, match="log 1: log: has many loads"):
+            means_of(one)
+    else:
+        assert means_of(one).axial_load == pytest.approx(np.full(5, share * PRELOAD / 2))
+
+
+def test_a_direction_counts_from_three_rows_of_a_speed_on():
+    one = log(1.0)
+    forward = np.flatnonzero((one["screw_speed"] > 0) & (one["screw_speed"] < 1.5 * LEVELS[0]))
+    for left, counts in ((3, True), (2, False)):
+        kept = np.ones(one["torque"].size, dtype=bool)
+        kept[forward[left:]] = False
+        means = means_of({name: values[kept] for name, values in one.items()})
+        assert (means.speeds.tolist() == [5]) is counts
+        assert ("fewer than 3 of their speed in a direction" in " ".join(means.notes)) is not counts
+
+
+def test_temperatures_of_a_test_are_the_mean_of_its_speeds():
+    """The torque goes with the mean by 1 % a kelvin exactly: not with the warmest speed, which is another order."""
+    random = np.random.default_rng(2)
+    mean = WARM + np.array([0.0, 5, -4, 3, 8, -6, 2, 9])
+    warm = mean[:, np.newaxis] + np.array([-1.0, 0, 1]) * random.uniform(1, 9, (8, 1))
+    means = types.SimpleNamespace(
+        test=np.repeat(np.arange(8), 3), temperature=warm.ravel(), logged=np.ones(8, dtype=bool)
+    )
+    made = types.SimpleNamespace(baseline=8, per_kelvin=-PER_KELVIN, states=[None] * 8, reference_temperature=WARM)
+    found = types.SimpleNamespace(torque=0.01 * mean + 1e-4 * np.tile([1, -1], 4))
+    (record,) = _of_baseline(made, means, found, True)
+    assert record.value == pytest.approx(0.01, rel=0.01)
+    assert _of_baseline(made, means, found, False) == []
+    made.baseline = 5
+    (record,) = _of_temperatures(made, means, found, None, 0.0, True)
+    assert record.value == pytest.approx(mean[-1] - np.mean(mean[:5]))
+
+
+@pytest.mark.parametrize(
+    ("torques", "test"),
+    [([4, 4, 4, 4, 5], "d"), ([5, 4, 4, 4, 4], "e"), ([4, 4, 4, 5, 4], None), ([4, 4, 4, 4, 4], "d")],
+)
+def test_torques_that_repeat_three_others(torques, test):
+    """Four in a row, said once, in the last of them."""
+    states = [types.SimpleNamespace(label=label, preload=1.0) for label in "abcde"]
+    means = types.SimpleNamespace(speeds=np.ones(5), torque=np.array(torques, dtype=float))
+    records = _of_torques(types.SimpleNamespace(states=states), means)
+    assert [one.subject for one in records] == ([] if test is None else [f"states.{'abcde'.index(test)}"])
+    assert all(
+        one.text.startswith(f"{test}: the torque is the same to the last digit as in the 3 tests") for one in records
+    )
+    states[1].preload = math.nan
+    (untold,) = (one for one in _of_torques(types.SimpleNamespace(states=states), means) if "preload" in one.id)
+    assert untold.value == 1.0
+
+
+@pytest.mark.parametrize(
+    ("factor", "said"), [(1.51, True), (1.49, False), (1 / 1.49, False), (1 / 1.51, True)]
+)  # fmt: skip
+def test_a_factor_beyond_one_and_a_half_is_said(factor, said):
+    assert bool(_of_factor(types.SimpleNamespace(factor=factor, factor_interval=(1.0, 2.0)))) is said
+
+
+@pytest.mark.parametrize(
+    ("per", "time", "name", "span"),
+    [("test", 9.0, "10 tests", 10), ("s", 92 * 86400, "a year", 365.25 * 86400), ("s", 91 * 86400, "1000 h", 3.6e6)],
+)
+def test_the_span_that_a_trend_is_said_of(per, time, name, span):
+    """A year of series of a quarter of one or more, 1000 h of shorter ones, ten tests without times."""
+    states = [types.SimpleNamespace(time=1e9), types.SimpleNamespace(time=1e9 + time)]
+    made = types.SimpleNamespace(per=per, states=states, trend=Trend(0.01 / span, -0.02 / span, 0.03 / span))
+    assert span_of(made) == (name, span)
+    (record,) = _of_trend(made)
+    assert "+1.0%" in record.text
+    assert record.unit == ("1" if per == "test" else "1/s")
+    made.trend = Trend(math.nan, math.nan, math.nan)
+    assert _of_trend(made) == []
