@@ -18,7 +18,8 @@ from ballscrew.questions.sweep.band import with_band
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 DRIVE = EXAMPLES / "feed_drive.toml"
-OPTIONS = BandOptions(samples=256)
+#: Both have the same samples: however few they are, the ends are equal.
+OPTIONS = BandOptions(samples=64)
 
 
 def swept(case, vary, outputs=("screw_torque", "efficiency"), options=OPTIONS, done=None):
@@ -28,7 +29,7 @@ def swept(case, vary, outputs=("screw_torque", "efficiency"), options=OPTIONS, d
 
 def test_the_document_has_low_and_high_beside_each_output(ballscrew):
     """As the command of one point says, which has the same samples."""
-    options = ("--band", "--samples", "512", "--json")
+    options = ("--band", "--samples", "128", "--json")
     process = ballscrew("sweep", DRIVE, "--vary", "screw_speed=0, 300, 1500 rpm", *options)
     found = json.loads(process.stdout)
     for place, speed in enumerate((0, 300, 1500)):
@@ -41,7 +42,7 @@ def test_the_document_has_low_and_high_beside_each_output(ballscrew):
             for end in ("low", "high"):
                 assert output[end][place] == pytest.approx(one[end], rel=1e-9), (name, end, speed)
             assert output["values"][place] == pytest.approx(one["value"], rel=1e-9)
-    assert found["band"] == {"level": 0.95, "samples": 512, "seed": 0}
+    assert found["band"] == {"level": 0.95, "samples": 128, "seed": 0}
     assert set(found["outputs"]) == {*sweep.BAND_OUTPUTS, "valid"}
 
 
@@ -95,15 +96,15 @@ def test_points_that_cannot_be_have_no_band_and_the_samples_are_counted():
     assert np.isnan(found["screw_torque_low"].to_numpy()).tolist() == [True, False, False]
     assert not found["valid_high"][0]
     assert found["invalid_share"].to_numpy()[0] == 1 > found["invalid_share"].to_numpy()[1]
-    assert told[-1] == (2 * 256, 2 * 256)
+    assert told[-1] == (2 * 64, 2 * 64)
 
 
 def test_nothing_uncertain_is_a_band_of_other_laws_alone():
     case = case_file.load(DRIVE)
-    alone = swept(case, ["screw_speed=100, 600 rpm"], options=BandOptions(samples=256, only_given=True))
+    alone = swept(case, ["screw_speed=100, 600 rpm"], options=BandOptions(samples=64, only_given=True))
     for place, speed in enumerate((100, 600)):
         there = case_file.load(DRIVE, [f"operation.screw_speed={speed} rpm"])
-        one = band.band(there, BandOptions(samples=256, only_given=True)).band["screw_torque"]
+        one = band.band(there, BandOptions(samples=64, only_given=True)).band["screw_torque"]
         assert [float(alone[f"screw_torque_{end}"][place]) for end in ("low", "high")] == pytest.approx(list(one.both))
 
 

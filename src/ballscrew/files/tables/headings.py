@@ -182,7 +182,13 @@ def fits(unit: str, column: Column) -> bool:
     quantity = column.quantity
     if column.share is not None and spelt(unit) == PERCENT:
         return True
-    return quantity is not None and quantity.unit != "1" and not isinstance(_scale("", spelt(unit), quantity), Fault)
+    return quantity is not None and quantity.unit != "1" and _is_of(spelt(unit), quantity)
+
+
+@functools.lru_cache(maxsize=4096)
+def _is_of(unit: str, quantity: Quantity) -> bool:
+    """Whether a unit is of a quantity; a heading is asked for the same few units by each of the columns."""
+    return not isinstance(_scale("", unit, quantity), Fault)
 
 
 def spelt(unit: str) -> str:
