@@ -149,7 +149,7 @@ def test_words(drive, ballscrew):
 
 
 def test_the_bars_are_on_one_axis(drive, ballscrew):
-    text = ballscrew("run", drive, "--band", "--samples", "1024").stdout
+    text = ballscrew("run", drive, "--band", "--samples", "128").stdout
     rows = [
         line
         for line in text.splitlines()

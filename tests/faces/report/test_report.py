@@ -411,11 +411,13 @@ def test_a_project_and_a_date_stand_on_it_only_if_somebody_says_so(content):
 
 #: Each of them is much like another case.
 LONG = (
+    "at rest",
     "axis",
     "corrected",
     "feed_axis",
     "nut at rest",
     "nut without load",
+    "overloaded",
     "oversize balls",
     "service",
     "skids",
