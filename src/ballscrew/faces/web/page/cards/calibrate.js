@@ -49,8 +49,11 @@ export function setUp(holder) {
   /** What the columns were asked with, as text. */
   let asked = "";
   let system = "";
-  /** The calibration that the design was given, as text: once it is gone, it is no longer said to be there. */
-  let calibration = "";
+  /**
+   * Whether what is said beside the button is no longer so of a design: that it was given a calibration which is gone,
+   * or that it is another one than was fitted. @type {(design: import("../state.js").Tables) => boolean}
+   */
+  let isPast = () => false;
   /** The case of the fit that is shown. @type {import("../state.js").Tables} */
   let fittedCase = {};
   /** @type {ReturnType<typeof setTimeout> | undefined} */
@@ -108,7 +111,7 @@ export function setUp(holder) {
     if (!log) return;
     tables = await designs.currentCase();
     const used = document.getElementById("calibrate-used");
-    if (used?.textContent && JSON.stringify(tables.calibration) !== calibration) used.textContent = "";
+    if (used?.textContent && isPast(tables)) used.textContent = "";
     const question = { case: tables, log, columns: given };
     const key = JSON.stringify(question);
     if (key === asked) return;
@@ -198,13 +201,14 @@ export function setUp(holder) {
         button("calibrate-use", "calibrate.use", async () => {
           const design = await designs.currentCase();
           if (ofFit(design) !== ofFit(fittedCase) && ofFit(design) !== ofFit(found.calibrated.case)) {
+            isPast = (now) => ofFit(now) !== ofFit(design);
             used.textContent = text("calibrate.other");
             return;
           }
           const before = await torqueOf(design);
           await use(found);
           const after = await designs.currentCase();
-          calibration = JSON.stringify(after.calibration);
+          isPast = (now) => JSON.stringify(now.calibration) !== JSON.stringify(after.calibration);
           used.textContent = [text("calibrate.used"), await change(before, await torqueOf(after))].join(" ").trim();
         }),
         button("calibrate-save", "calibrate.save", () =>
