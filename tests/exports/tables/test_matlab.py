@@ -10,8 +10,8 @@ import pytest
 from scipy.io import loadmat
 
 import ballscrew as bs
-from ballscrew.exports.tables.friction_table import friction_table
-from ballscrew.exports.tables.matlab import export
+from ballscrew.exports.tables.friction_table import FrictionTable, friction_table
+from ballscrew.exports.tables.matlab import _simscape, export
 
 RANGES = {"axial_load": (-3000.0, 5000.0), "screw_speed": (-60.0, 100.0)}
 
@@ -71,3 +71,15 @@ def test_the_simscape_text_has_the_same_numbers_and_says_that_it_was_not_run(han
     at_load = handed.evaluate({"axial_load": 2000.0, "screw_speed": 10.0})["ideal_torque"]  # in proportion to the load
     assert per_load == pytest.approx(at_load / 2000.0, rel=1e-9)
     assert "never run" in text
+
+
+def test_numbers_of_any_size_stand_in_the_simscape_text_as_they_are(handed):
+    """Private, as no screw of the tests has such torques."""
+    axes = {"axial_load": np.array([-1e5, 0.0, 2e5]), "screw_speed": np.array([-50.0, 0.0, 50.0])}
+    friction = np.array([[12.5, 10.0, 12.25], [1.5, 1.25, 1.75], [-25.125, 100.0, 33.5]])
+    ideal = 7.5e-4 * np.repeat(axes["axial_load"][:, None], 3, axis=1)
+    values = {"screw_torque": friction, "ideal_torque": ideal, "drive_torque": ideal}
+    text = _simscape(handed, FrictionTable(axes, values, np.ones((3, 3), dtype=bool), {}, 0.0), [])
+    written = text[text.index("screw_torque = {[") + 17 :].partition("]")[0]
+    assert [[float(word) for word in row.split()] for row in written.split(";")] == friction.tolist()
+    assert float(re.search(r"torque_of_load = {(.*?),", text)[1]) == pytest.approx(7.5e-4, rel=1e-12)
