@@ -8,10 +8,11 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.basis import units
-from ballscrew.basis.errors import InputError
+from ballscrew.basis.errors import MISSING, Fault, InputError
 from ballscrew.cases.case_files import case_file, case_messages, case_text, inputs
 from ballscrew.cases.schema import law_import
 from ballscrew.cases.schema.case_schema import json_schema
+from ballscrew.cases.schema.option_faults import in_options
 from ballscrew.cases.screw_tables.catalogue import assumed
 from ballscrew.cases.screw_tables.catalogue import case_text as text_of
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
@@ -179,3 +180,18 @@ def test_a_function_has_no_numbers():
     faults = []
     assert law_import.with_plain_numbers("law", len, {"share": 1.0}, faults) == {}
     assert [fault.where for fault in faults] == ["law.share"]
+
+
+@pytest.mark.parametrize(
+    ("where", "problem", "given", "expected"),
+    [
+        ("model.name", "unknown", {"model.name"}, "--model"),
+        ("model.name", "unknown", {"model.calibration"}, "model.name"),
+        ("model.name", MISSING, {"model.calibration"}, "--model"),
+        ("model.name", MISSING, {"operation.axial_load"}, "model.name"),
+        ("operation.axial_load", "unknown", {"operation.axial_load"}, "operation.axial_load"),
+    ],
+)
+def test_a_fault_names_the_option_that_gave_the_field(where, problem, given, expected):
+    (fault,) = in_options([Fault(where, problem)], given)
+    assert fault.where == expected

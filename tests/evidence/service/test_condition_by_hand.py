@@ -131,6 +131,16 @@ def test_what_else_would_explain_the_last_torque(left, logged):
     assert friction.limit == power_law.BOUNDARY_FRICTION
 
 
+def test_a_last_test_without_a_temperature_is_known_by_ten_kelvin():
+    """Those before have one; that of the case stands for the last, which 7 K would explain."""
+    torque = torque_of(np.append(np.ones(BASELINE + 1), math.exp(-7 * PER_KELVIN / P)))
+    warm = np.full(7, WARM)
+    warm[-1] = math.nan
+    cause = alternatives(condition({"torque": torque, "screw_speed": np.full(7, SPEED), "temperature": warm}))
+    assert (cause["temperature"].limit, cause["temperature"].holds) == (10.0, True)
+    assert cause["temperature"].value == pytest.approx(7.0, rel=1e-6)
+
+
 def test_what_no_oil_and_no_boundary_friction_explains():
     """Beyond 60 K, and beyond a twentieth of the boundary friction."""
     for left, explained in ((0.225, True), (0.22, False), (4.4, True), (4.6, False)):
