@@ -26,8 +26,8 @@ _SHARED: dict[str, set[str]] = defaultdict(set)
 _CONTEXTS: list[str] = []
 #: Tests by file below ``src/ballscrew`` and line.
 _SCRIPTS: dict[str, dict[int, set[str]]] = defaultdict(lambda: defaultdict(set))
-#: Counters of the pages that are open.
-_COUNTERS: list[Any] = []
+#: Pages that were opened, with their counters.
+_COUNTERS: list[tuple[Any, Any]] = []
 _ADDRESS = "/page/"
 _ROOM = "faces/web/page"
 _PAGE = Path(__file__).parents[2] / "src" / "ballscrew" / _ROOM
@@ -46,7 +46,7 @@ def pytest_configure() -> None:
         counter = context.new_cdp_session(page)
         counter.send("Profiler.enable")
         counter.send("Profiler.startPreciseCoverage", {"callCount": True, "detailed": True})
-        _COUNTERS.append(counter)
+        _COUNTERS.append((page, counter))
         return page
 
     BrowserContext.new_page = counted  # type: ignore[method-assign]  (a plugin of measurements)
@@ -106,8 +106,9 @@ def pytest_runtest_call(item: pytest.Item) -> Generator[None, object, object]:
     try:
         return (yield)
     finally:
-        for counter in _COUNTERS:
-            _add(counter, _test(item))
+        for page, counter in _COUNTERS:
+            if not page.is_closed():
+                _add(counter, _test(item))
 
 
 def _add(counter: Any, test: str) -> None:
