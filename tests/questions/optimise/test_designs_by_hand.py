@@ -15,7 +15,7 @@ from ballscrew.physics.sizing.checks import Check
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
 from ballscrew.physics.sizing.ratings import ratings_of
 from ballscrew.questions.optimise import compute
-from ballscrew.questions.optimise.design_model import DesignModel, Sampled, _quantile
+from ballscrew.questions.optimise.design_model import DesignModel, Sampled, _quantile, _sampled
 from ballscrew.questions.optimise.design_space import VARIABLES, SearchOptions, design_space, makeable_bounds
 from ballscrew.questions.optimise.designs import Designs
 from ballscrew.questions.optimise.need_schema import json_schema
@@ -153,6 +153,23 @@ def test_a_quantile_is_taken_on_the_bad_side():
     values = np.arange(11.0)[np.newaxis]
     sampled = Sampled({}, 0.9)
     assert [float(_quantile(values, name, sampled)[0]) for name in ("loss", "rigidity")] == pytest.approx([9.0, 1.0])
+
+
+def test_samples_have_what_a_calibration_left_correlated():
+    """Two numbers together, as their covariance says, and all others by themselves."""
+    need = need_of({**POINT, "nut": "double"})
+    space = design_space(need, quantile=0.9, samples=256)
+    centre = {name: math.sqrt(low * high) for name, (low, high) in space.bounds.items()}
+    options = {"model": "reference", "calibration": "rexroth-2006", "allow_code": False}
+    case = compute._case(need, space, centre, options)
+    factors = _sampled(case, space).factors
+    names, covariance = tuple(case.calibration.parameters.values()), np.array(case.calibration.covariance)
+    drawn = np.cov([np.log(factors[name]) for name in names])
+    by_hand = covariance[0, 1] / math.sqrt(covariance[0, 0] * covariance[1, 1])
+    assert drawn[0, 1] / math.sqrt(drawn[0, 0] * drawn[1, 1]) == pytest.approx(by_hand, abs=0.08)
+    others = [values for name, values in factors.items() if name not in names]
+    assert len(others) > 8
+    assert max(abs(np.corrcoef(factors[names[0]], one)[0, 1]) for one in others) < 0.1
 
 
 def test_what_is_no_number_does_not_hold():
