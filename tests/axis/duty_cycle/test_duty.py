@@ -1,5 +1,6 @@
 """A cycle in closed form: extremes and kinks within a phase, and a motor by hand."""
 
+import dataclasses
 import math
 from types import SimpleNamespace
 
@@ -13,6 +14,7 @@ from ballscrew.axis.duty_cycle.duty import cycle, duty
 from ballscrew.axis.duty_cycle.motor import Motor
 from ballscrew.axis.motion.profiles import SCurve, Sine, Trapezoid
 from ballscrew.axis.motion.states import NODES
+from ballscrew.axis.motion.turns import largest_within, sign_changes
 
 ROW = bs.catalogue()["rexroth-40x10x6-6-double"]
 SCREW = ROW.screw()
@@ -82,6 +84,20 @@ def test_states_of_cuts_are_those_of_the_motion():
     place = states.places_of(cut)
     assert np.array_equal(cut.time[place >= 0], states.time[place[place >= 0]])
     assert set(cut.phase[place < 0]) == set(states.phase) - set(cut.phase[place >= 0])
+
+
+def test_changes_of_sign_and_largest_values_of_known_functions():
+    """In each part by itself; none at its ends, none in what is no number, none in times that are all alike."""
+    states = Trapezoid(stroke=1.0, speed=1.0, acceleration=2.0, returns=False).states()  # 0.5 s, 0.5 s, 0.5 s
+    t = states.time
+    found = sign_changes(states, np.sin(math.tau * (t - 0.1)))
+    assert found == pytest.approx([0.1, 0.6, 1.1], abs=1e-12)
+    assert largest_within(states, np.cos(math.tau * (t - 0.2))) == pytest.approx([0.2, 1.2], abs=1e-6)
+    assert sign_changes(states, np.where(t < 0.5, np.nan, 1 - 2 * t)) == []
+    assert largest_within(states, t) == largest_within(states, np.ones_like(t)) == []
+    assert sign_changes(states, 1e-14 * np.cos(math.tau * t) + (t > 1.0)) == []  # rounding beside what is large
+    late = dataclasses.replace(states, time=np.full_like(t, 1e9))
+    assert sign_changes(late, np.sin(math.tau * (t - 0.1))) == []
 
 
 #: Forth and back by a trapezoid with rests: 0.1 s to the speed, 0.9 s at it, 0.1 s to rest, 0.4 s of rest.

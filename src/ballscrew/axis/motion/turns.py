@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import BarycentricInterpolator
 from scipy.optimize import brentq, minimize_scalar
 
 from ballscrew.axis.motion.states import MotionStates, Numbers
@@ -50,17 +49,25 @@ def largest_within(states: MotionStates, values: Numbers) -> list[float]:
 
 
 def _parts(states: MotionStates, values: Numbers) -> Iterator[tuple[Numbers, Numbers]]:
-    """Times and values in each part of a phase in which all of them are known."""
+    """Times and values in each part of a phase in which all of them are known, and the times differ in their digits."""
     for part in states.parts:
-        if np.isfinite(values[part]).all():
-            yield states.time[part], values[part]
+        time = states.time[part]
+        if np.isfinite(values[part]).all() and np.all(np.diff(time) > 0):
+            yield time, values[part]
 
 
 def _through(time: Numbers, values: Numbers) -> Callable[[float], float]:
-    """The polynomial through values, by time."""
-    polynomial = BarycentricInterpolator(time, values)
+    """The polynomial through values by time, in its barycentric form; SciPy's has its nodes in a random order."""
+    scale = 4.0 / (time[-1] - time[0])  # with which products of many gaps stay near one
+    gaps = scale * (time[:, None] - time)
+    np.fill_diagonal(gaps, 1.0)
+    weights = 1.0 / np.prod(gaps, axis=1)
 
     def through(at: float) -> float:
-        return float(polynomial(at))
+        away = scale * (at - time)
+        if not np.all(away):
+            return float(values[np.argmin(np.abs(away))])
+        shares = weights / away
+        return float(shares @ values / np.sum(shares))
 
     return through
