@@ -140,6 +140,13 @@ def test_something_holds_the_shaft():
     assert "bearings.fixed: missing" in faults('[bearings.floating]\nlaw = "known"\ntorque = "0.1 N m"')
 
 
+def test_a_table_stands_on_four_carriages_unless_it_says_so():
+    places = ('guides.carriage_spacing="0.4 m"', 'guides.rail_spacing="300 mm"')
+    left_out = built(BEARINGS.replace("carriages = 6\n", ""), *places)
+    assert left_out.axis.table == built(BEARINGS, "guides.carriages=4", *places).axis.table
+    assert left_out.axis.guides.carriages == 4
+
+
 def test_guides_carry_an_axis():
     text = CASE.partition("[axis]")[0] + '[operation]\naxial_load = "1 kN"\nscrew_speed = "100 rpm"\n' + BEARINGS
     with pytest.raises(InputError, match="guides: carry the mass of an axis"):

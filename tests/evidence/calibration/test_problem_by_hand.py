@@ -14,7 +14,8 @@ from ballscrew.engine.uncertainty.distributions import LogNormal, Normal, Triang
 from ballscrew.evidence.calibration import problem as problems
 from ballscrew.evidence.calibration.baselines import first_loss, robust_linear
 from ballscrew.evidence.calibration.fit import _one_sided, fit
-from ballscrew.evidence.calibration.next_test import _after, _volume
+from ballscrew.evidence.calibration.next_test import _after, _grid, _volume
+from ballscrew.evidence.calibration.oil_temperature import torque_per_kelvin
 from ballscrew.evidence.calibration.plausibility import _is_zero_by_chance
 from ballscrew.evidence.calibration.posterior import Posterior
 from ballscrew.evidence.calibration.priors import Priors
@@ -22,8 +23,8 @@ from ballscrew.evidence.calibration.problem import Problem
 from ballscrew.evidence.calibration.robust import Noise, Solution
 from ballscrew.evidence.calibration.torque_conventions import CONVENTIONS
 from ballscrew.files.torque_logs.torque_log import TorqueLog
-from support.power_law import BOUNDARY_FRICTION, MODEL, SPEED, P, torque_of
-from support.service_logs import OIL, PRELOAD, SCREW
+from support.power_law import BOUNDARY_FRICTION, MODEL, PER_KELVIN, SPEED, P, torque_of
+from support.service_logs import OIL, PRELOAD, SCREW, WARM
 
 FRICTION = "friction.boundary_friction_coefficient"
 ROWS = 80
@@ -275,3 +276,29 @@ def test_a_number_is_told_on_one_side_where_the_torques_go_flat(torque, one_side
     assert _one_sided(fitted, uncertainty).tolist() == [one_sided]
     # a number without an error has no sides
     assert _one_sided(fitted, types.SimpleNamespace(covariance=np.zeros((1, 1)))).tolist() == [False]
+
+
+def test_tests_are_thought_of_by_ratios_and_temperatures_by_differences():
+    """25 speeds by 15 loads by 5 temperatures; one where a range is a number, and a thousandth for a least of zero."""
+    found = _grid({"axial_load": (10.0, 1000.0), "screw_speed": (1.0, 100.0), "temperature": (300.0, 340.0)})
+    assert {name: np.unique(values).size for name, values in found.items()} == {
+        "axial_load": 15, "screw_speed": 25, "temperature": 5,
+    }  # fmt: skip
+    assert all(values.size == 15 * 25 * 5 for values in found.values())
+    assert np.unique(found["temperature"]) == pytest.approx([300, 310, 320, 330, 340])
+    for name, ratio in (("axial_load", 100 ** (1 / 14)), ("screw_speed", 100 ** (1 / 24))):
+        values = np.unique(found[name])
+        assert values[1:] / values[:-1] == pytest.approx(np.full(values.size - 1, ratio))
+    bare = _grid({"axial_load": (0.0, 0.0), "screw_speed": (0.0, 100.0)})
+    assert bare["axial_load"].tolist() == [0.0] * 25
+    assert (bare["screw_speed"].min(), bare["screw_speed"].max()) == pytest.approx((0.1, 100.0))
+
+
+def test_the_torque_by_a_kelvin_of_a_product_of_powers():
+    """Its logarithm falls evenly; rows at which the model has no torque count nothing, nor where viscosity is free."""
+    points = {"axial_load": np.zeros(2), "screw_speed": np.array([SPEED, math.nan]), "temperature": np.full(2, WARM)}
+    weights = np.array([[0.0, 0.0], [-1.0, 1.0]])
+    subject = Configuration(MODEL, SCREW, OIL)
+    found = torque_per_kelvin(subject, ["nut.preload"], points, weights)
+    assert found == pytest.approx([PER_KELVIN * torque_of(), 0.0], rel=1e-4)
+    assert torque_per_kelvin(subject, ["viscosity"], points, weights).tolist() == [0.0, 0.0]

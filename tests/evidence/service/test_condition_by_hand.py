@@ -229,6 +229,23 @@ def test_means_of_logs_by_hand():
     assert means.deviation[[0, 1, 3, 4]] == pytest.approx(np.zeros(4), abs=1e-12)
 
 
+def test_rows_that_are_not_quite_at_one_speed_and_temperature():
+    """Their mean is at the geometric mean of the speeds, and at the mean of loads and temperatures."""
+    one, random = log(0.9), np.random.default_rng(3)
+    rows = one["torque"].size
+    speed = np.abs(one["screw_speed"]) * np.exp(random.uniform(-0.04, 0.04, rows))
+    kelvin, load = random.uniform(-2, 2, rows), random.uniform(0, 50, rows)
+    torque = np.sign(one["screw_speed"]) * FACTOR * torque_of(0.9, speed, kelvin)
+    changed = {"screw_speed": np.sign(one["screw_speed"]) * speed, "temperature": WARM + kelvin, "axial_load": load}
+    means = means_of({**one, **changed, "torque": torque})
+    parts = np.arange(rows).reshape(LEVELS.size, -1)
+    assert means.screw_speed == pytest.approx(np.exp(np.log(speed[parts]).mean(axis=1)))
+    assert means.temperature == pytest.approx(WARM + kelvin[parts].mean(axis=1))
+    assert means.axial_load == pytest.approx(load[parts].mean(axis=1))
+    expected = FACTOR * torque_of(0.9, means.screw_speed, means.temperature - WARM)
+    assert means.torque == pytest.approx(expected, rel=1e-6)
+
+
 def test_a_log_of_one_direction_keeps_its_zero_and_says_so():
     both = log(1.0, zero=0.02)
     forward = {name: values[both["screw_speed"] > 0] for name, values in both.items()}

@@ -15,6 +15,7 @@ from ballscrew.physics.sizing.checks import Check
 from ballscrew.questions.select import candidates, requirement_checks
 from ballscrew.questions.select.candidates import Candidate, Variant
 from ballscrew.questions.select.compute import Selection, ranked
+from ballscrew.questions.select.document import need_document
 from ballscrew.questions.select.need import need_of
 from ballscrew.questions.select.need_motion import with_motion
 from ballscrew.questions.select.objectives import OBJECTIVES
@@ -343,3 +344,16 @@ def test_what_is_said_beside_a_motion():
     own = {"axis": {}, "motion": {"kind": "sine"}, "need": {}}
     assert with_motion(own, faults) == []
     assert own["motion"] == {"kind": "sine"}
+
+
+def test_the_document_of_a_need_has_what_is_required_and_nothing_else():
+    need = need_of(
+        {**POINT, "need": {"largest_drive_torque": "5 N m", "back_driving": "no", "accuracy": 5}, "nut": "double"}
+    )
+    found = need_document(need)
+    assert found["requirements"] == {
+        "feed": pytest.approx(1 / 6), "largest_drive_torque": 5.0, "back_driving": "forbidden", "accuracy": "5",
+    }  # fmt: skip
+    assert found["choices"]["nut"] == ["double"]
+    plain = need_document(need_of({"force": "2 kN", "screw_speed": "600 rpm"}))
+    assert plain["requirements"] == {"back_driving": "allowed"}
