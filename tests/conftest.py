@@ -19,6 +19,7 @@ from hypothesis import settings
 
 import ballscrew as bs
 from support.commands import Commands, new_process
+from support.quick_kernels import SHIPPED, UNOPTIMISED, set_code_optimisation
 
 ROOT = Path(__file__).parents[1]
 
@@ -52,6 +53,25 @@ def kernel_cache(tmp_path_factory):
         folder = folder.parent  # that of this worker lies in that of the run
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("BALLSCREW_CACHE", str(folder / "kernels"))
+        yield
+
+
+@pytest.fixture(scope="session", autouse=True)
+def quick_kernels():
+    """Kernels without optimisation of their code, in a fifth of the time; ``as_shipped`` has that of the package.
+
+    No bit of a result depends on it: ``tests/engine/evaluation/test_evaluation.py`` looks.
+    """
+    with pytest.MonkeyPatch.context() as patch:
+        set_code_optimisation(patch, UNOPTIMISED)
+        yield
+
+
+@pytest.fixture
+def as_shipped(quick_kernels):
+    """Kernels as users have them."""
+    with pytest.MonkeyPatch.context() as patch:
+        set_code_optimisation(patch, SHIPPED)
         yield
 
 
@@ -132,9 +152,11 @@ def pytest_collection_finish():
 def pytest_collection_modifyitems(items):
     """Warnings of parts that no ball screw has are errors, but in tests that mean them.
 
-    Without the compiler, the tests that need it say so.
+    Without the compiler, the tests that need it say so; those that measure speed have kernels as users have them.
     """
     for item in items:
+        if item.get_closest_marker("long"):
+            item.fixturenames = [*item.fixturenames, "as_shipped"]  # the list is that of all parameters
         if item.get_closest_marker("implausible") or item.path.parent in RANDOM:
             item.add_marker(pytest.mark.filterwarnings("ignore::ballscrew.ImplausibleInput"))
     if importlib.util.find_spec("llvmlite") is None:

@@ -38,9 +38,11 @@ WARM_UP = (
 
 def load(examples: str, folder: str) -> None:
     """Run each kind of command once, here, with nobody listening, and make the application in the browser."""
+    from ballscrew.compiler.kernels import kernel
     from ballscrew.faces.cli.main import main
     from ballscrew.faces.web import connections, server  # noqa: F401  (for those who serve)
 
+    kernel.CODE_OPTIMISATION = 0  # as in the tests: a fifth of the time, and the same bits
     for command in WARM_UP:
         sys.argv = ["ballscrew", *command.format(examples=examples, folder=folder).split()]
         said = io.StringIO()

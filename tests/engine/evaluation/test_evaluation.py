@@ -18,6 +18,7 @@ from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.evaluation.plan import Configuration, Plan
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 from ballscrew.physics.components import laws
+from support.quick_kernels import SHIPPED, UNOPTIMISED, set_code_optimisation
 
 MODELS = {
     "olaru2005": bs.FrictionModel.olaru2005(),
@@ -66,6 +67,12 @@ def random_points(count, seed=0):
     return {name: xr.DataArray(v, dims="point") for name, v in values.items()}
 
 
+def grid(*sizes):
+    names = ("axial_load", "screw_speed", "viscosity")
+    ends = ((0.0, 4000.0), (0.0, 100.0), (0.01, 0.5))
+    return {n: np.linspace(*e, s) for n, e, s in zip(names, ends, sizes, strict=True)}
+
+
 def filled(plan, engine, **how):
     evaluation = Evaluation.of(plan, engine)
     results = evaluation.empty(plan.total)
@@ -74,7 +81,7 @@ def filled(plan, engine, **how):
 
 
 #: Models and numbers of points. The letter of the paper differs from it in one ratio.
-SHORT = [(name, 20_000) for name in MODELS if name != "olaru2005-literal"]
+SHORT = [(name, 5000) for name in MODELS if name != "olaru2005-literal"]
 MANY = [pytest.param(name, 100_000, marks=pytest.mark.long) for name in MODELS]
 
 
@@ -107,6 +114,29 @@ def test_kernels_are_the_model_on_plain_arrays(name, count):
 
 
 @pytest.mark.compiles
+@pytest.mark.parametrize(
+    ("name", "outputs", "points"),
+    [
+        ("corrected", list(known_outputs()), random_points(5003)),
+        ("olaru2005", None, grid(7, 11, 30)),
+        pytest.param("reference", list(known_outputs()), random_points(5003), marks=pytest.mark.long),
+    ],
+    ids=["points", "grid", "reference"],
+)
+def test_optimisation_changes_no_bit(name, outputs, points):
+    """Most tests have kernels whose code is not optimised."""
+    plan = Plan.of(Configuration(MODELS[name], SCREW, OIL), outputs, points)
+    levels = []
+    for level in (UNOPTIMISED, SHIPPED):
+        with pytest.MonkeyPatch.context() as patch:
+            set_code_optimisation(patch, level)
+            levels.append(filled(plan, "compiled"))
+    assert UNOPTIMISED != SHIPPED
+    for output, values in levels[0].items():
+        assert np.array_equal(values, levels[1][output], equal_nan=True), output
+
+
+@pytest.mark.compiles
 @pytest.mark.parametrize("engine", ["numpy", "compiled"])
 @pytest.mark.parametrize("name", ["olaru2005", "reference"])
 @pytest.mark.parametrize("how", [{"block_size": 7}, {"block_size": 37}, {"block_size": 1000, "threads": 3}])
@@ -115,12 +145,6 @@ def test_any_blocks_and_threads_give_the_same_bits(name, how, engine):
     whole = filled(plan, engine, threads=1)
     for output, values in filled(plan, engine, **how).items():
         assert np.array_equal(values, whole[output], equal_nan=True), output
-
-
-def grid(*sizes):
-    names = ("axial_load", "screw_speed", "viscosity")
-    ends = ((0.0, 4000.0), (0.0, 100.0), (0.01, 0.5))
-    return {n: np.linspace(*e, s) for n, e, s in zip(names, ends, sizes, strict=True)}
 
 
 @pytest.mark.compiles
@@ -255,7 +279,8 @@ def test_small_work_is_left_to_numpy():
 @pytest.mark.compiles
 def test_large_work_is_compiled_and_what_is_compiled_is_used():
     subject = Configuration(dataclasses.replace(MODELS["reference"], ball_friction_coefficient=0.0987), SCREW, OIL)
-    assert Evaluation.of(Plan.of(subject, None, random_points(3_000_000))).engine == "compiled"
+    points = {name: values.expand_dims(times=30) for name, values in random_points(100_000).items()}  # views
+    assert Evaluation.of(Plan.of(subject, None, points)).engine == "compiled"
     middling = Plan.of(subject, None, random_points(100_000))
     assert Evaluation.of(middling).engine == "compiled"  # as it is compiled by now, for other points
     kernels._kernels.clear()
