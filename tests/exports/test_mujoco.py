@@ -1,5 +1,6 @@
 """MuJoCo: the plugin and the joint parameters simulated by MuJoCo itself, against the model in Python."""
 
+import importlib.util
 import json
 import os
 import re
@@ -15,7 +16,8 @@ import ballscrew as bs
 from ballscrew.cases.case_files import case_file
 from ballscrew.exports import requests
 
-mujoco = pytest.importorskip("mujoco", reason="mujoco is not installed: pip install mujoco-core")
+if importlib.util.find_spec("mujoco") is None:
+    pytest.skip("mujoco is not installed: pip install mujoco-core", allow_module_level=True)
 COMPILER = shutil.which("cc") and shutil.which("make")
 if not COMPILER:
     pytest.skip("no C compiler and make to build the plugin with", allow_module_level=True)
@@ -43,6 +45,8 @@ def subject():
 @pytest.fixture(scope="module")
 def folder(subject, tmp_path_factory):
     """The export, with its plugin built and loaded: once in a process, as MuJoCo knows each name once."""
+    import mujoco
+
     place = tmp_path_factory.mktemp("mujoco")
     # a name of its own, as another worker of the same process may have loaded one
     bs.hand_over(*subject, to="mujoco", load=LOAD, inertia=INERTIA, plugin="test.small_screw").write(place)
@@ -58,6 +62,8 @@ def axis(folder):
 
 def steady_friction(m, axis, load, speed):
     """Torque that keeps a speed in the simulation, less that which the load needs."""
+    import mujoco
+
     d, gear = mujoco.MjData(m), axis["gear"]
     swings = m.dof_M0[0] / gear**2
     d.qvel[0] = speed / gear
@@ -80,12 +86,16 @@ def of_model(subject, load, speed, oil=None):
 
 @pytest.mark.parametrize("load", [-500.0, 1000.0, 3000.0])
 def test_the_plugin_is_the_model_under_any_load(folder, axis, subject, load):
+    import mujoco
+
     m = mujoco.MjModel.from_xml_path(str(folder / "axis_plugin.xml"))
     for speed in (5.0, -5.0, 40.0, -40.0, 300.0, -300.0):
         assert steady_friction(m, axis, load, speed) == pytest.approx(of_model(subject, load, speed), rel=1e-6)
 
 
 def test_the_parameters_are_as_far_off_in_a_simulation_as_the_export_says(folder, axis, subject):
+    import mujoco
+
     m = mujoco.MjModel.from_xml_path(str(folder / "axis_parameters.xml"))
     assert m.dof_armature[0] == pytest.approx(INERTIA * axis["gear"] ** 2)
     for stated in axis["joint_errors"]:
@@ -97,6 +107,8 @@ def test_the_parameters_are_as_far_off_in_a_simulation_as_the_export_says(folder
 
 
 def test_an_attribute_is_an_input_of_the_model(folder, axis, subject):
+    import mujoco
+
     text = (folder / "axis_plugin.xml").read_text()
     m = mujoco.MjModel.from_xml_string(
         text.replace('key="temperature" value="313.15"', 'key="temperature" value="300"')
@@ -109,6 +121,8 @@ def test_an_attribute_is_an_input_of_the_model(folder, axis, subject):
 
 def test_no_force_is_lost_while_speed_and_load_change(folder, axis, subject):
     """Newton for the mass, with the acceleration of one step before for what turns; friction is that of the model."""
+    import mujoco
+
     m = mujoco.MjModel.from_xml_path(str(folder / "axis_plugin.xml"))
     d, random = mujoco.MjData(m), np.random.default_rng(5)
     before, found = 0.0, []
@@ -135,6 +149,8 @@ def test_no_force_is_lost_while_speed_and_load_change(folder, axis, subject):
 
 
 def test_it_holds_and_does_not_creep_and_slips_beyond(folder, axis, subject):
+    import mujoco
+
     m = mujoco.MjModel.from_xml_path(str(folder / "axis_plugin.xml"))
     most = of_model(subject, LOAD, 1e-9)
     places = {}
@@ -155,6 +171,8 @@ def test_it_holds_and_does_not_creep_and_slips_beyond(folder, axis, subject):
     ("inclination", "counterweight"), [("90 deg", "0 kg"), ("30 deg", "0 kg"), ("-45 deg", "200 kg")]
 )
 def test_the_carriage_weighs_what_the_axis_of_the_case_does(folder, example, name, inclination, counterweight):
+    import mujoco
+
     changes = ["axis.mass=350 kg", f"axis.inclination={inclination}", f"axis.counterweight={counterweight}"]
     case = case_file.load(example.parent / "vertical_axis.toml", changes)
     made = requests.of_case(case, "mujoco", requests.Request(options=["plugin=test.small_screw"]))
@@ -172,6 +190,8 @@ def test_the_carriage_weighs_what_the_axis_of_the_case_does(folder, example, nam
 
 
 def test_a_copy_goes_on_as_the_original(folder, axis):
+    import mujoco
+
     m = mujoco.MjModel.from_xml_path(str(folder / "axis_plugin.xml"))
     d, other = mujoco.MjData(m), mujoco.MjData(m)
     d.ctrl[0] = 2 * LOAD / axis["gear"]
@@ -184,6 +204,8 @@ def test_a_copy_goes_on_as_the_original(folder, axis):
 
 
 def test_older_versions_get_linear_damping(subject):
+    import mujoco
+
     export = bs.hand_over(*subject, to="mujoco", load=LOAD, polynomial=False)
     m = mujoco.MjModel.from_xml_string(export.files["axis_parameters.xml"].decode())
     stated = json.loads(export.files["axis.json"])["joint"]
@@ -201,6 +223,8 @@ def test_older_versions_get_linear_damping(subject):
     ],
 )
 def test_what_cannot_be_is_refused(folder, monkeypatch, tmp_path, what, instead, says):
+    import mujoco
+
     monkeypatch.chdir(tmp_path)  # MuJoCo writes its log into the folder
     text, changed = re.subn(what, instead, (folder / "axis_plugin.xml").read_text())
     assert changed == 1

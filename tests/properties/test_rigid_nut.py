@@ -5,8 +5,6 @@ import functools
 import itertools
 import math
 
-import jax
-import jax.numpy as jnp
 import numpy as np
 import pytest
 
@@ -389,6 +387,9 @@ def test_a_single_nut_shares_the_first_newton_alike():
 @pytest.mark.parametrize("kind", ["single", "oversize", "double"])
 def test_jax_gives_the_numbers_and_the_derivatives(kind):
     """By load and preload, reverse mode, without load and beyond lift-off, too."""
+    import jax  # 100 MB
+    import jax.numpy as jnp
+
     at = points(12, kind, away=0.05)
     at[2:] = at[2:, :1]
     lift = 0 * at[0] + outcome(kind, False, 0.0, *at[1:])["lift_off_load"] if kind != "single" else at[1]
