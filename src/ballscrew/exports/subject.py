@@ -17,12 +17,13 @@ from ballscrew.basis.references import citations_of
 from ballscrew.basis.version import __version__
 from ballscrew.compiler.tracing.gradient import UnknownDerivativeError, partials
 from ballscrew.compiler.tracing.merging import merged_program
-from ballscrew.compiler.tracing.program import Program
+from ballscrew.compiler.tracing.program import Interpreter, Program
 from ballscrew.compiler.tracing.tape import CannotRecordError, Tape
 from ballscrew.engine.evaluation.derivatives import slope_name
 from ballscrew.engine.evaluation.evaluator import Evaluator, evaluator
 from ballscrew.engine.evaluation.outputs import OPERATION, Output, known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.evaluation.recordings import recording
 
 T = TypeVar("T")
 
@@ -137,8 +138,16 @@ class HandOver:
     def program(self) -> Program:
         """The recorded model: inputs in their order, an output for each name. It neither clamps nor checks ranges.
 
-        Raises :class:`~ballscrew.basis.errors.InputError` for a model that cannot be recorded as one list of steps.
+        It is recorded once for all targets that the same model is handed over to. Raises
+        :class:`~ballscrew.basis.errors.InputError` for a model that cannot be recorded as one list of steps.
         """
+
+        def key() -> Any:
+            return HandOver, self.subject, self.input_names, self.output_names, self.derivatives
+
+        return recording(key, self._recorded).program
+
+    def _recorded(self) -> Program:
         tape = Tape(len(self.inputs), None, [self._is_nonnegative(one.name) for one in self.inputs])
         points = {n: tape.value(i) for i, n in enumerate(self.input_names) if self.has_effect[n]}
         try:
@@ -206,7 +215,7 @@ class HandOver:
         """Whether each ball is solved by itself, between elastic bodies or with deviations."""
         return self.subject.nut.one_by_one
 
-    @property
+    @functools.cached_property
     def is_recordable(self) -> bool:
         """Whether the model is one list of steps: not where each ball is solved by itself, on plain arrays."""
         try:
@@ -223,8 +232,13 @@ class HandOver:
             for n in self.output_names
         }
         with np.errstate(all="ignore"):
-            program.interpreter.run(arrays, found)
+            self._interpreter.run(arrays, found)
         return {name: values.reshape(shape) for name, values in found.items()}
+
+    @functools.cached_property
+    def _interpreter(self) -> Interpreter:
+        """That of the program, with buffers that go with this."""
+        return self.program.interpreter.with_own_buffers()
 
     def _by_solver(self, given: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
         return self._evaluator(**{n: values for n, values in given.items() if self.has_effect[n]})

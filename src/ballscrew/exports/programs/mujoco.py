@@ -23,6 +23,7 @@ from ballscrew.exports.programs.joint_friction import (
     options_of_case,
     provenance_line,
 )
+from ballscrew.exports.programs.two_levels import two_levels
 from ballscrew.exports.readme import readme
 from ballscrew.exports.subject import HandOver
 from ballscrew.exports.targets import Option
@@ -55,6 +56,8 @@ def export(handed: HandOver) -> Export:
     name = handed.options["plugin"]
     if not re.fullmatch(r"\w+(\.\w+)*", name):
         raise InputError(Fault("hand_over.plugin", "must be words with dots between", name, "such as machine.z_axis"))
+    if handed.has_elastic_bodies:
+        two_levels(handed)  # what has no source is refused before its friction is computed
     joint = joint_friction(handed, 3 if handed.options["polynomial"] else 1)
     errors = joint_errors(handed, joint)
     document = {"made_by": provenance_line(handed), **joint.document(), **errors.document()}
