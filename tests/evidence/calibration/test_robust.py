@@ -285,3 +285,10 @@ def test_alternating_noise_and_few_rows_have_no_memory():
     assert autocorrelation_lag((-1.0) ** np.arange(100)) == 0
     assert autocorrelation_lag(np.ones(100)) == 0
     assert autocorrelation_lag(autoregressive(19, 0.9)) == 0
+
+
+def test_twenty_rows_tell_of_each_other_and_fewer_do_not():
+    """Halves of opposite sign go together at every lag; a tenth of the rows is the longest that is looked at."""
+    halves = np.repeat([1.0, -1.0], 10)
+    assert autocorrelation_lag(halves) == 2
+    assert autocorrelation_lag(halves[:19]) == 0

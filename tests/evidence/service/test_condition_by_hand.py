@@ -1,5 +1,6 @@
 """The condition of a nut whose torque is a product of powers: every number of it worked out by hand."""
 
+import dataclasses
 import math
 import types
 
@@ -91,6 +92,8 @@ def test_a_table_reduced_by_hand(logged):
     assert np.log(preloads) == pytest.approx(preload, abs=1e-7)
     assert np.log(low) == pytest.approx(preload - Z * deviation, rel=1e-4, abs=1e-6)
     assert np.log(high) == pytest.approx(preload + Z * deviation, rel=1e-4, abs=1e-6)
+    left = next(one for one in found.verdict_records if one.id == "condition.preload_left")
+    assert (left.limit, left.value) == (0.75, pytest.approx(math.exp(preload[-1]), rel=1e-6))
     loss = norm.cdf((math.log(0.75) - preload[-1]) / deviation)
     assert found.probability_of_loss == pytest.approx(loss, rel=1e-4)
     fall, rise = cusum(torque, math.hypot(of_temperature, 0.02) if logged else 0.02)
@@ -98,6 +101,19 @@ def test_a_table_reduced_by_hand(logged):
     assert found.chart.rise[BASELINE:] == pytest.approx(rise, rel=1e-4)
     slopes = [(preload[j] - preload[i]) / (j - i) for i in range(TESTS) for j in range(i + 1, TESTS)]
     assert found.trend.slope == pytest.approx(np.median(slopes), rel=1e-6)
+
+
+def test_seals_make_the_torque_go_less_with_preload_and_temperature():
+    """By their share of the torque, in the last test; the first tests have another."""
+    screw = dataclasses.replace(SCREW, nut=dataclasses.replace(SCREW.nut, losses={"seals": bs.Seals(0.1)}))
+    torque = 0.1 + torque_of(np.array([1.0] * 6 + [0.5]))
+    table = {"torque": torque, "screw_speed": np.full(7, SPEED), "temperature": np.full(7, WARM)}
+    found = condition(table, screw=screw)
+    share = 1 - 0.1 / torque[-1]
+    assert found.states[-1].preload == pytest.approx(0.5, rel=1e-6)
+    assert found.exponent == pytest.approx(P * share, rel=0.01)
+    # the difference over a kelvin
+    assert found.per_kelvin == pytest.approx(-PER_KELVIN * share, rel=0.02)
 
 
 def alternatives(found):

@@ -281,6 +281,17 @@ def test_a_trend_of_values_that_alternate_is_that_of_scipy():
     assert found.temperature_range == pytest.approx(5.0)
 
 
+def test_a_trend_of_three_values_has_one_degree_of_freedom():
+    """Student's distribution of one degree is Cauchy's: 12.7 standard errors, and seldom told."""
+    found = temperature_trend(np.array([0.0, 0.03, 0.04]), np.array([300.0, 302.0, 304.0]))
+    # 0.01 a kelvin, off by 0.01 · (-1, 2, -1) / 3
+    error = math.sqrt(0.01**2 * 6 / 9) / math.sqrt(8)
+    assert found.slope == pytest.approx(0.01)
+    assert found.high - found.slope == pytest.approx(math.tan(0.475 * math.pi) * error)
+    assert not found.told
+    assert temperature_trend(np.array([0.0, 0.03]), np.array([300.0, 302.0])) is None
+
+
 def test_a_trend_of_values_that_follow_each_other_is_that_of_newey_and_west():
     random = np.random.default_rng(8)
     warm = 300 + 4 * np.sin(np.linspace(0, 9, 60))
