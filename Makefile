@@ -77,8 +77,11 @@ js: $(READY) $(NODE_READY)
 	$(BIN)/python tools/page/openapi.py tools/page/api.json
 	cd tools/page && npm run --silent check
 
+# into out/docs; one page alone, with its commands and its parts only, into out/page: make docs PAGE=howto/duty
 docs: $(READY)
-	OPENBLAS_NUM_THREADS=1 $(BIN)/sphinx-build -W --keep-going -q -b html docs out/docs
+	OPENBLAS_NUM_THREADS=1 $(BIN)/sphinx-build -W --keep-going -q -b html $(if $(PAGE),$(ALONE),docs out/docs)
+
+ALONE = -t alone -D root_doc=$(PAGE) -D include_patterns=$(PAGE).md -d out/page/.doctrees/$(PAGE) docs out/page
 
 readme: $(READY)
 	$(BIN)/python docs/make_readme.py

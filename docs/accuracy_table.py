@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
+import importlib
+import io
 import json
-import subprocess
 import sys
 from pathlib import Path
 
@@ -11,19 +13,23 @@ BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
 
 
 def printed(benchmark: str, *options: str) -> str:
-    """Output of a benchmark."""
-    command = [sys.executable, str(BENCHMARKS / benchmark), *options]
-    return subprocess.run(command, check=True, stdout=subprocess.PIPE, encoding="utf-8").stdout
+    """Output of a benchmark, run in this process: what it has computed serves its next options."""
+    if str(BENCHMARKS) not in sys.path:
+        sys.path.append(str(BENCHMARKS))
+    said = io.StringIO()
+    with contextlib.redirect_stdout(said):
+        importlib.import_module(benchmark).main(options)
+    return said.getvalue()
 
 
 def page() -> str:
     """All tables of the page on accuracy."""
-    return printed("reference.py", "--markdown")
+    return printed("reference", "--markdown")
 
 
 def short_table() -> str:
     """One line for each comparison of the reference model, for the README."""
-    tables = json.loads(printed("reference.py", "--json", "--no-speed"))["tables"]
+    tables = json.loads(printed("reference", "--json", "--no-speed"))["tables"]
     lines = [["reference model against the integral", "screws", "median", "95 % within", "largest"], ["---"] * 5]
     for table in tables:
         row = next(row for row in table["rows"] if row["model"] == "reference")

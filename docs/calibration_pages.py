@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import os
 import shutil
-import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
-from command import program_at_hand
+from support import fork_server
 
 ROOT = Path(__file__).parents[1]
 EXAMPLES = "rig.toml", "rig_log.csv"
@@ -38,35 +36,45 @@ WIDTH = "110"
 def write(folder: Path) -> None:
     """Commands with their output as text, and the files that they write."""
     folder.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory() as name:
-        place = Path(name)
-        (place / "examples").mkdir()
-        for example in EXAMPLES:
-            shutil.copy(ROOT / "examples" / example, place / "examples")
-        for name, arguments in COMMANDS.items():
-            done = program_at_hand().run(arguments, folder=place, environment={"COLUMNS": WIDTH})
-            output = _whole(done, arguments)
-            output = _shortened(output) if name in SHORTENED else output
-            (folder / f"{name}.txt").write_text(f"$ {_typed(arguments)}\n{output}", encoding="utf-8")
-        for name in WRITTEN:
-            shutil.copy(place / name, folder)
-        example = str(ROOT / "docs" / "calibration_example.py")
-        done = subprocess.run(
-            [sys.executable, example],
-            cwd=place,
-            env={**os.environ, "COLUMNS": WIDTH, "PYTHONIOENCODING": "utf-8"},
-            capture_output=True,
-            encoding="utf-8",
-            check=False,
-        )
-        (folder / "python.txt").write_text(_whole(done, [example]), encoding="utf-8")
+    place = Path(tempfile.mkdtemp())  # a TemporaryDirectory would be removed at the end of each fork
+    try:
+        _write(folder, place)
+    finally:
+        shutil.rmtree(place)
 
 
-def _whole(done: subprocess.CompletedProcess[str], arguments: list[str]) -> str:
-    """What was printed, if all went well."""
-    if done.returncode:
-        raise RuntimeError(f"{' '.join(arguments)}\n{done.stderr}")
-    return "\n".join(line.rstrip() for line in done.stdout.splitlines()) + "\n"
+def _write(folder: Path, place: Path) -> None:
+    (place / "examples").mkdir()
+    for example in EXAMPLES:
+        shutil.copy(ROOT / "examples" / example, place / "examples")
+    for name, arguments in COMMANDS.items():
+        output = _output("ballscrew.faces.cli", arguments, place)
+        output = _shortened(output) if name in SHORTENED else output
+        (folder / f"{name}.txt").write_text(f"$ {_typed(arguments)}\n{output}", encoding="utf-8")
+    for name in WRITTEN:
+        shutil.copy(place / name, folder)
+    (folder / "python.txt").write_text(_output("calibration_example", [], place), encoding="utf-8")
+
+
+def _output(module: str, arguments: list[str], place: Path) -> str:
+    """What a program prints, run in a fork of this process; what it complains about is the last thing seen."""
+    with tempfile.TemporaryFile() as output, Path(os.devnull).open("rb") as nothing:
+        process = os.fork()
+        if process == 0:
+            asked = {
+                "module": module,
+                "arguments": arguments,
+                "folder": str(place),
+                "environment": {**os.environ, "COLUMNS": WIDTH},
+                "errors": [],
+                "lines": False,
+            }
+            fork_server.become(asked, [nothing.fileno(), output.fileno(), os.dup(2)])
+        code = os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
+        if code:
+            raise RuntimeError(f"{module} {' '.join(arguments)} ended with {code}")
+        output.seek(0)
+        return "\n".join(line.rstrip() for line in output.read().decode().splitlines()) + "\n"
 
 
 def _shortened(output: str) -> str:

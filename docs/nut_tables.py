@@ -16,4 +16,4 @@ def write(folder: Path) -> None:
     with charts.house_style():
         for name, draw in nut_figures.DRAWN.items():
             charts.save_as(draw(), folder / f"{name}.svg", "svg")
-    (folder / "four_point.md").write_text(printed("four_point.py", "--markdown", "--cases", CASES), encoding="utf-8")
+    (folder / "four_point.md").write_text(printed("four_point", "--markdown", "--cases", CASES), encoding="utf-8")

@@ -5,11 +5,10 @@ from __future__ import annotations
 import dataclasses
 import functools
 import math
-import subprocess
-import sys
 import textwrap
 from pathlib import Path
 
+from accuracy_table import printed
 from ballscrew.evidence.validation.entries import DESCRIPTORS, Conditions, trends
 from ballscrew.evidence.validation.rows import ACCURACY_FACTOR, OTHER_FACTORS
 from ballscrew.physics.components.nut import DoubleNut, OversizeBallNut
@@ -22,7 +21,6 @@ from ballscrew.questions.validate import compute as validation
 from ballscrew.questions.validate import figure as figures
 from ballscrew.questions.validate import text as text_of
 
-SCRIPT = Path(__file__).parents[1] / "benchmarks" / "fit_calibration.py"
 SYMBOLS = {"boundary_friction_coefficient": "µ₀", "share_of_load": "F_B/Q"}
 #: Largest error of a rating in the standard's own tests.
 C_A, C_0A = 0.015, 0.01
@@ -42,9 +40,9 @@ def write(folder: Path) -> None:
     pages = {
         "summary.md": summary(),
         "calibration.md": calibration_table(),
-        "rivals.md": _of_script("--rivals"),
-        "strata.md": _of_script("--strata"),
-        "laws.md": _of_script("--trends"),
+        "rivals.md": printed("fit_calibration", "--rivals"),
+        "strata.md": printed("fit_calibration", "--strata"),
+        "laws.md": printed("fit_calibration", "--trends"),
         "trends.md": trends_table(),
         "definitions.md": definitions_table(),
         "oil.md": oil_table(),
@@ -56,11 +54,6 @@ def write(folder: Path) -> None:
     for name, text in pages.items():
         (folder / name).write_text(text, encoding="utf-8")
     files.draw(lambda: figures.picture(sets, asked), folder / "validation.svg")
-
-
-def _of_script(option: str) -> str:
-    command = [sys.executable, str(SCRIPT), option]
-    return subprocess.run(command, check=True, stdout=subprocess.PIPE, encoding="utf-8").stdout
 
 
 def summary() -> str:

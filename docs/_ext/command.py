@@ -1,8 +1,9 @@
 """Directive ``{command} .venv/bin/ballscrew run case.toml``: a command and its output, run while the page is built.
 
 The commands of a page run in one folder, one after the other, with the examples in it: a later one finds what an
-earlier one wrote. What they print is kept under ``generated/commands`` by its cause: the program, the examples, the
-command, and all commands before it on the page. So only what may have changed is run again.
+earlier one wrote. What they print is kept under ``generated/commands`` with the files of the program and of the
+examples that the command, and all commands before it on the page, have read (``kept.py``). So only what may have
+changed is run again.
 
 ``:show: Torque .. at rest | Contacts ..`` shows parts of the output, by words in their first and last lines, and says
 with a ``…`` where others are left out. ``:keep: out/map.png`` puts a file that the command wrote where the page finds
@@ -13,8 +14,6 @@ from __future__ import annotations
 
 import atexit
 import functools
-import hashlib
-import itertools
 import os
 import re
 import shlex
@@ -22,20 +21,23 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import weakref
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from pathlib import Path
 from typing import Any
 
+import kept
+import reads
 from docutils import nodes
 from docutils.parsers.rst import directives
+from kept import ROOT, Kept
 from sphinx.util.docutils import SphinxDirective
 
-DOCS = Path(__file__).parents[1]
-ROOT = DOCS.parent
+DOCS = ROOT / "docs"
 KEPT = DOCS / "generated" / "commands"
 #: A command of the program itself, which a fork of a process that has loaded it runs; what a shell is needed for.
-PROGRAM, _SHELL = ".venv/bin/ballscrew", re.compile(r"[|&;<>$`*?~\n]")
+PROGRAM, MODULE, _SHELL = ".venv/bin/ballscrew", "ballscrew.faces.cli", re.compile(r"[|&;<>$`*?~\n]")
 #: Columns of the terminal, and of a command.
 WIDTH, WIDEST = "100", 98
 
@@ -51,13 +53,13 @@ class Command(SphinxDirective):
         typed = " ".join(self.arguments[0].split())
         if self.env.docname in _begun:
             wait([_begun.pop(self.env.docname)])  # an error there occurs again here, and is reported here
-        page = self.env.temp_data.setdefault("commands", Page(self.env.docname))
+        page = self.env.temp_data.setdefault("commands", Page(self.env.docname, kept.files()))
         keep = _words(self.options.get("keep", ""))
         try:
             said = _chosen(page.said(typed, keep), self.options.get("show", ".."))
         except RuntimeError as error:
             raise self.error(str(error)) from error
-        _of(self.env)[self.env.docname] = program()
+        _versions(self.env)[self.env.docname] = page.version
         text = f"$ {_displayed(typed)}\n{said}"
         block = nodes.literal_block(text, text, language="console")
         self.set_source_info(block)
@@ -67,28 +69,51 @@ class Command(SphinxDirective):
 class Page:
     """The commands of one page so far, and the folder they run in."""
 
-    def __init__(self, name: str) -> None:
+    def __init__(self, name: str, files: kept.Files) -> None:
         self.folder = KEPT / name.replace("/", "-")
         self.place: Path | None = None
-        self.cause = program()
-        #: Commands whose output was cached; they run only if a later command needs their files.
+        self._kept = Kept(KEPT, files)
+        #: All commands so far, what they have read, and the digest of what they made.
+        self.typed: list[str] = []
+        self.read: set[str] = set()
+        self.version = ""
+        #: Commands whose output was kept; they run only if a later command needs their files.
         self.waiting: list[str] = []
 
     def said(self, typed: str, keep: list[str]) -> str:
-        self.cause = _next_cause(self.cause, typed)
-        at_hand = KEPT / f"{self.cause}.txt"
-        if at_hand.is_file() and all((self.folder / Path(name).name).is_file() for name in keep):
-            self.waiting.append(typed)
-            return at_hand.read_text(encoding="utf-8")
-        for earlier in self.waiting:
-            self._done(earlier)
-        self.waiting.clear()
-        said = self._done(typed)
-        self.folder.mkdir(parents=True, exist_ok=True)
-        for name in keep:
-            shutil.copy(self._place() / name, self.folder)
-        at_hand.write_text(said, encoding="utf-8")
-        return said
+        """The output of the next command, and the files to keep; kept, or made now."""
+        record = self.at_hand(typed, keep)
+        if record is None:
+            for earlier in self.waiting:
+                self._done(earlier)
+            self.waiting.clear()
+            said = self._done(typed)
+            self.folder.mkdir(parents=True, exist_ok=True)
+            for name in keep:
+                shutil.copy(self._place() / name, self.folder)
+            record = self._kept.keep(self._cause(keep), said, self._digests(keep), self.read)
+            self._note(record)
+        return record.said
+
+    def at_hand(self, typed: str, keep: list[str]) -> kept.Record | None:
+        """The record of the next command, if it holds and the files of the command are there."""
+        self.typed.append(typed)
+        record = self._kept.found(self._cause(keep))
+        if record is None or record.made != self._digests(keep):
+            return None
+        self.waiting.append(typed)
+        self._note(record)
+        return record
+
+    def _note(self, record: kept.Record) -> None:
+        self.read |= set(record.read)
+        self.version = f"{self.version} {record.version}".strip()
+
+    def _cause(self, keep: list[str]) -> str:
+        return self._kept.cause(WIDTH, *self.typed, "kept:", *keep)
+
+    def _digests(self, keep: list[str]) -> dict[str, str]:
+        return {name: kept.digest_of(self.folder / Path(name).name) for name in keep}
 
     def _place(self) -> Path:
         if self.place is None:
@@ -101,12 +126,16 @@ class Page:
     def _done(self, typed: str) -> str:
         words = shlex.split(typed)
         if words[0] == PROGRAM and not _SHELL.search(typed):
-            code, said = program_at_hand().together(words[1:], self._place(), {"COLUMNS": WIDTH, "NO_COLOR": "1"})
-            said = said.replace("python -m ballscrew.faces.cli", "ballscrew")
+            environment = {"COLUMNS": WIDTH, "NO_COLOR": "1"}
+            code, said, heard = kept.run(program_at_hand(), MODULE, words[1:], self._place(), environment)
+            said = said.replace(f"python -m {MODULE}", "ballscrew")
+            self.read |= self._kept.files.of_repository(heard, {f"{self._place()}/examples": f"{ROOT}/examples"})
         else:
             code, said = self._by_shell(typed)
+            self.read.add(reads.EVERYTHING)
         if code:
             raise RuntimeError(f"{typed}\nended with {code}\n{said}")
+        said = said.replace(f"{self._place()}/", "")  # the same wherever it runs
         return "\n".join(line.rstrip() for line in said.strip("\n").splitlines()) + "\n"
 
     def _by_shell(self, typed: str) -> tuple[int, str]:
@@ -130,24 +159,24 @@ class Page:
         return done.returncode, done.stdout
 
 
-@functools.cache
 def program_at_hand() -> Any:
-    """The process whose forks run commands: most of the time of a command is that of loading the program."""
-    sys.path.append(str(ROOT / "tests"))
+    """The process whose forks run commands: most of the time of a command is that of loading libraries."""
+    with _STARTING:  # one for all threads
+        return _server()
+
+
+_STARTING = threading.Lock()
+
+
+@functools.cache
+def _server() -> Any:
+    tests = ROOT / "tests"
+    sys.path.append(str(tests))
     from support.commands import Commands
 
-    found = Commands()
+    found = Commands(DOCS / "_ext" / "libraries.py", [DOCS / "_ext", DOCS, tests])
     atexit.register(found.close)
     return found
-
-
-def _next_cause(before: str, typed: str) -> str:
-    return hashlib.sha256(f"{before}\n{typed}".encode()).hexdigest()
-
-
-def causes(commands: list[str]) -> list[str]:
-    """Cache keys of the output of the commands of a page, in order."""
-    return list(itertools.accumulate(commands, _next_cause, initial=program()))[1:]
 
 
 def _chosen(said: str, show: str) -> str:
@@ -190,59 +219,62 @@ def _displayed(typed: str) -> str:
     return "\n".join(lines)
 
 
-@functools.cache
-def program() -> str:
-    """Digest of everything that the output may depend on."""
-    found = hashlib.sha256(f"{WIDTH} {sys.version}".encode())
-    for folder in (ROOT / "src" / "ballscrew", ROOT / "examples"):
-        for path in sorted(folder.rglob("*")):
-            if path.is_file() and path.suffix != ".pyc":
-                found.update(f"{path.relative_to(ROOT)}\n".encode())
-                found.update(path.read_bytes())
-    return found.hexdigest()
-
-
 #: Pages whose commands run in the background, while other parts of the documentation are made.
 _begun: dict[str, Future[None]] = {}
 _FENCE = re.compile(r"^```\{command\} (?P<typed>.+)\n(?P<options>(?::\w+:.*\n)*)", re.MULTILINE)
 
 
-def _begin(_app: Any) -> None:
-    """Start the commands of all pages in the background, to use a second processor."""
-    pool = ThreadPoolExecutor(1)
-    for path in sorted(DOCS.rglob("*.md")):
-        text = path.read_text(encoding="utf-8")
-        if KEPT.parent not in path.parents and _FENCE.search(text):
-            name = path.relative_to(DOCS).with_suffix("").as_posix()
+def begin(pool: ThreadPoolExecutor, pages: dict[str, str]) -> None:
+    """Start the commands of pages in the background; ``pages``: their texts by name."""
+    for name, text in pages.items():
+        if _FENCE.search(text) and _version_at_hand(name, text) is None:
             _begun[name] = pool.submit(_all_of, name, text)
-    pool.shutdown(wait=False)
+
+
+def _commands_of(text: str) -> list[tuple[str, list[str]]]:
+    """The commands in the text of a page, each with the files to keep."""
+    found = []
+    for fence in _FENCE.finditer(text):
+        keep = re.search(r"^:keep:(.*)$", fence["options"], re.MULTILINE)
+        found.append((" ".join(fence["typed"].split()), _words(keep[1] if keep else "")))
+    return found
 
 
 def _all_of(name: str, text: str) -> None:
-    page = Page(name)
-    for found in _FENCE.finditer(text):
-        kept = re.search(r"^:keep:(.*)$", found["options"], re.MULTILINE)
-        page.said(" ".join(found["typed"].split()), _words(kept[1] if kept else ""))
+    page = Page(name, kept.files())
+    for typed, keep in _commands_of(text):
+        page.said(typed, keep)
+
+
+def _version_at_hand(name: str, text: str) -> str | None:
+    """The digest of what the commands of a page made, if nothing need run."""
+    page = Page(name, kept.files())
+    return page.version if all(page.at_hand(typed, keep) for typed, keep in _commands_of(text)) else None
 
 
 def _words(listed: str) -> list[str]:
     return [word.strip() for word in listed.split(",") if word.strip()]
 
 
-def _of(env: Any) -> dict[str, str]:
-    """Version of the program by page, for pages with commands."""
+def _versions(env: Any) -> dict[str, str]:
+    """Digest of what the commands of a page made when it was read, by page."""
     if not hasattr(env, "ballscrew_commands"):
         env.ballscrew_commands = {}
     return env.ballscrew_commands
 
 
 def _outdated(_app: Any, env: Any, _added: Any, _changed: Any, _removed: Any) -> list[str]:
-    return [page for page, of in _of(env).items() if of != program() and page in env.found_docs]
+    """Pages that show another output than is kept, or one that is being made."""
+    return [
+        page
+        for page, version in _versions(env).items()
+        if page in env.found_docs
+        and (page in _begun or _version_at_hand(page, (DOCS / f"{page}.md").read_text(encoding="utf-8")) != version)
+    ]
 
 
 def setup(app: Any) -> dict[str, bool]:
     KEPT.mkdir(parents=True, exist_ok=True)
     app.add_directive("command", Command)
-    app.connect("builder-inited", _begin, priority=1)
     app.connect("env-get-outdated", _outdated)
     return {"parallel_read_safe": False, "parallel_write_safe": True}

@@ -1,20 +1,94 @@
 """The directive that shows commands with their output: what it runs, what it keeps, what it shows."""
 
-import importlib.util
+import sys
 
 import pytest
 
-from .pages import DOCS
+from support.commands import Commands
+
+from .pages import DOCS, ROOT
+
+EXTENSIONS = DOCS / "_ext"
+#: A program that stands in for the one of the pages: two rooms, of which it loads one, and a table that it reads.
+PROGRAM = {
+    "src/screw/__init__.py": "",
+    "src/screw/__main__.py": "from screw import first\nprint(first.torque())\n",
+    "src/screw/first.py": (
+        "from pathlib import Path\n"
+        "def torque():\n"
+        "    return Path('examples/case.toml').read_text() + Path(__file__).with_name('table.txt').read_text()\n"
+    ),
+    "src/screw/second.py": "",
+    "src/screw/table.txt": "1 N m",
+    "examples/case.toml": "case, ",
+    "examples/other.toml": "",
+}
+#: What forks in place of the libraries: a process that has loaded nothing.
+SERVER = f"""
+import sys
+sys.path[:0] = [{str(EXTENSIONS)!r}, {str(ROOT / "tests")!r}]
+import reads
+reads.listen()
+from support import fork_server
+fork_server.serve(sys.argv[1])
+"""
+
+
+@pytest.fixture(scope="module")
+def extensions():
+    """The modules of the extension, found for these tests alone."""
+    sys.path.insert(0, str(EXTENSIONS))
+    import command
+    import kept
+    import reads
+
+    yield command, kept, reads
+    sys.path.remove(str(EXTENSIONS))
+    for name in ("command", "kept", "reads"):
+        del sys.modules[name]
 
 
 @pytest.fixture
-def command(tmp_path, monkeypatch):
-    spec = importlib.util.spec_from_file_location("command_directive", DOCS / "_ext" / "command.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
+def command(extensions, tmp_path, monkeypatch):
+    module, kept, _ = extensions
     monkeypatch.setattr(module, "KEPT", tmp_path / "kept")
     module.KEPT.mkdir()
+    of_program = kept.Files(ROOT / "examples")  # no sources there: what a shell runs depends on none of them
+    whole_page = module.Page
+    monkeypatch.setattr(module, "Page", lambda name: whole_page(name, of_program))
     return module
+
+
+@pytest.fixture
+def program(extensions, tmp_path, monkeypatch):
+    """A repository with a program in it, and the function that runs it on a page and says whether it ran."""
+    module, kept, _ = extensions
+    root = tmp_path / "repository"
+    for name, text in PROGRAM.items():
+        (root / name).parent.mkdir(parents=True, exist_ok=True)
+        (root / name).write_text(text, encoding="utf-8")
+    server = tmp_path / "server.py"
+    server.write_text(SERVER, encoding="utf-8")
+    commands = Commands(server, [root / "src"])
+    monkeypatch.setattr(module, "KEPT", tmp_path / "kept")
+    monkeypatch.setattr(module, "ROOT", root)
+    monkeypatch.setattr(module, "MODULE", "screw")
+    monkeypatch.setattr(module, "program_at_hand", lambda: commands)
+    yield Program(module, kept, root)
+    commands.close()
+
+
+class Program:
+    """The program on a page, as a new build finds it."""
+
+    def __init__(self, module, kept, root):
+        self.module, self.kept, self.root = module, kept, root
+
+    def runs(self, expected):
+        """Whether it runs for its output, which is as expected."""
+        page = self.module.Page("a", self.kept.Files(self.root))
+        assert page.said(f"{self.module.PROGRAM} now", []) == f"{expected}\n"
+        return not page.waiting
 
 
 def test_what_is_kept_is_not_run_again(command, tmp_path):
@@ -31,7 +105,7 @@ def test_a_later_command_finds_what_an_earlier_one_wrote(command):
     page = command.Page("a")
     assert page.said(write, []) == "written\n"  # kept, so not run
     assert page.said(read, []) == "42\n"  # but needed here
-    assert command.causes([write, read])[-1] == page.cause
+    assert command.Page("a").said(write, []) == "written\n"
 
 
 def test_output_belongs_to_all_commands_before_it(command):
@@ -54,7 +128,53 @@ def test_files_are_kept_beside_the_page(command):
 def test_a_command_that_fails_is_an_error(command):
     with pytest.raises(RuntimeError, match="ended with 3"):
         command.Page("a").said("echo why >&2; exit 3", [])
-    assert not list(command.KEPT.glob("*.txt"))
+    assert not list(command.KEPT.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("changed", "text", "expected"),
+    [
+        ("src/screw/table.txt", "2 N m", "case, 2 N m"),
+        ("src/screw/first.py", "def torque():\n    return 'another'\n", "another"),
+        ("src/screw/__init__.py", "# a comment, which could have been code\n", "case, 1 N m"),
+        ("examples/case.toml", "another case, ", "another case, 1 N m"),
+        ("examples/added.toml", "", "case, 1 N m"),  # a program may look whether there is one
+        ("src/screw/third.py", "", "case, 1 N m"),  # and find another module than before
+    ],
+)
+def test_a_command_runs_again_if_what_it_read_has_changed(changed, text, expected, program):
+    assert program.runs("case, 1 N m")
+    assert not program.runs("case, 1 N m")
+    (program.root / changed).write_text(text, encoding="utf-8")
+    assert program.runs(expected)
+    assert not program.runs(expected)
+
+
+@pytest.mark.parametrize("changed", ["src/screw/second.py", "examples/other.toml"])
+def test_a_command_does_not_run_again_for_what_it_did_not_read(changed, program):
+    assert program.runs("case, 1 N m")
+    (program.root / changed).write_text("# changed\n", encoding="utf-8")
+    assert not program.runs("case, 1 N m")
+
+
+def test_a_command_that_starts_programs_depends_on_all_files(program):
+    (program.root / "src/screw/first.py").write_text(
+        "import subprocess\n"
+        "def torque():\n"
+        "    return subprocess.run(['echo', 'it'], capture_output=True, text=True).stdout\n",
+        encoding="utf-8",
+    )
+    assert program.runs("it")
+    assert not program.runs("it")
+    (program.root / "examples/other.toml").write_text("# changed\n", encoding="utf-8")
+    assert program.runs("it")
+
+
+def test_a_file_that_changes_while_the_command_runs_is_another_to_the_next_build(program):
+    page = program.module.Page("a", program.kept.Files(program.root))
+    (program.root / "src/screw/table.txt").write_text("2 N m", encoding="utf-8")
+    page.said(f"{program.module.PROGRAM} now", [])
+    assert program.runs("case, 2 N m")
 
 
 @pytest.mark.parametrize(

@@ -15,6 +15,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
+FORK_SERVER = Path(__file__).with_name("fork_server.py")
 
 _SMALL_FILES = """
 import os, resource, sys
@@ -72,12 +73,14 @@ class Process:
 class Commands:
     """Runs commands of the program as forks of a process that has loaded it. One for all tests of a worker."""
 
-    def __init__(self) -> None:
+    def __init__(self, server: Path = FORK_SERVER, path: Sequence[Path] = ()) -> None:
+        """``server``: the program that loads libraries and forks; ``path``: where else it finds modules."""
         self._folder = Path(tempfile.mkdtemp(prefix="ballscrew-tests-"))
         self._address = str(self._folder / "socket")
-        program = [sys.executable, str(Path(__file__).with_name("fork_server.py"))]
+        found = [*map(str, path), *filter(None, [os.environ.get("PYTHONPATH")])]
         self._server = subprocess.Popen(
-            [*program, self._address, str(ROOT / "examples"), str(self._folder)],
+            [sys.executable, str(server), self._address, str(ROOT / "examples"), str(self._folder)],
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(found)} if path else None,
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             encoding="utf-8",
@@ -155,11 +158,20 @@ class Commands:
                 texts.append(stream.read().decode("utf-8", "replace").replace("\r\n", "\n"))
         return subprocess.CompletedProcess(list(arguments), code, *texts)
 
-    def together(self, arguments: Sequence[object], folder: Path, environment: Mapping[str, str]) -> tuple[int, str]:
+    def together(
+        self,
+        arguments: Sequence[object],
+        folder: Path,
+        environment: Mapping[str, str],
+        module: str = "ballscrew.faces.cli",
+    ) -> tuple[int, str]:
         """Exit code of a command, and all that it printed, as on a terminal."""
         with Path(os.devnull).open("rb") as nothing, tempfile.TemporaryFile() as output:
             streams = [nothing.fileno(), output.fileno(), output.fileno()]
-            code = self.start(arguments, folder=folder, streams=streams, environment=environment, lines=True).wait()
+            process = self.start(
+                arguments, folder=folder, streams=streams, environment=environment, module=module, lines=True
+            )
+            code = process.wait()
             output.seek(0)
             return code, output.read().decode()
 

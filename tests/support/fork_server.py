@@ -89,7 +89,7 @@ def serve(address: str) -> None:
                 if process == 0:
                     for other in (listener, connection, *running.values()):
                         other.close()
-                    _command(asked, streams)
+                    become(asked, streams)
                 for stream in streams:
                     os.close(stream)
                 running[process] = connection
@@ -114,7 +114,7 @@ def _tell_of_ended(running: dict[int, socket.socket]) -> None:
             connection.sendall(f"{os.waitstatus_to_exitcode(status)}\n".encode())
 
 
-def _command(asked: dict, streams: list[int]) -> None:
+def become(asked: dict, streams: list[int]) -> None:
     """Become the process that was asked for, and end as it does."""
     signal.set_wakeup_fd(-1)
     signal.signal(signal.SIGCHLD, signal.SIG_DFL)

@@ -1,0 +1,30 @@
+"""Make a generated part: ``make_part NAME MODULE:FUNCTION``, run in a fork of ``libraries``.
+
+A name with a suffix is a file: the function returns its text, or a table that is written as JSON. Else it is a folder,
+which the function fills.
+"""
+
+import importlib
+import json
+import sys
+from pathlib import Path
+
+GENERATED = Path(__file__).parents[1] / "generated"
+
+
+def make(name: str, maker: str) -> None:
+    """Call the function, and write what it returns."""
+    module, _, function = maker.partition(":")
+    make = getattr(importlib.import_module(module), function)
+    target = GENERATED / name
+    target.parent.mkdir(parents=True, exist_ok=True)
+    if not target.suffix:
+        make(target)
+    else:
+        found = make()
+        text = found if isinstance(found, str) else json.dumps(found, ensure_ascii=False, indent=1)
+        target.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    make(*sys.argv[1:])
