@@ -93,6 +93,7 @@ def test_a_table_reduced_by_hand(logged):
     assert np.log(low) == pytest.approx(preload - Z * deviation, rel=1e-4, abs=1e-6)
     assert np.log(high) == pytest.approx(preload + Z * deviation, rel=1e-4, abs=1e-6)
     left = next(one for one in found.verdict_records if one.id == "condition.preload_left")
+    assert "less than 75% of it" in left.text
     assert (left.limit, left.value) == (0.75, pytest.approx(math.exp(preload[-1]), rel=1e-6))
     loss = norm.cdf((math.log(0.75) - preload[-1]) / deviation)
     assert found.probability_of_loss == pytest.approx(loss, rel=1e-4)
