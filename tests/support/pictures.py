@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 from matplotlib import image
+from pypdf import PdfReader
 
 _SVG = "{http://www.w3.org/2000/svg}"
 _NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
@@ -91,27 +92,33 @@ class Picture:
         return re.sub(r"\$_\{?(\w+)\}?\$", r"_\1", " ".join(" ".join(one.text.split()) for one in self.words))
 
 
-def drawn(svg: Path | str) -> Picture:
-    """A picture, which must be readable: it shows something, nothing is cut off, and no legend covers anything."""
+def drawn(svg: Path | str, *, legends_over_curves: int = 0) -> Picture:
+    """A picture, which must be readable: it shows something, nothing is cut off, and no legend covers anything.
+
+    ``legends_over_curves``: so many legends lie over a curve, where curves fill their panel.
+    """
     found = picture(svg.read_text(encoding="utf-8") if isinstance(svg, Path) else svg)
     assert found.panels
     assert any(panel.lines or panel.areas for panel in found.panels), "it shows nothing"
+    assert all(legend.within(found.page) for legend in found.legends), "a legend is cut off"
     for one in found.words:
         assert one.box.within(found.page), f"is cut off: {one.text}"
     for legend in found.legends:
-        assert legend.within(found.page), "a legend is cut off"
         for panel in found.panels:
             for one in panel.words:
                 assert not legend.overlaps(one.box), f"a legend covers: {one.text}"
             assert legend.within(panel.box) or not legend.overlaps(panel.box), "a legend covers an axis"
-            assert not any(legend.crossed_by(line) for line in panel.lines), "a legend covers a curve"
+    over = sum(
+        any(legend.crossed_by(line) for panel in found.panels for line in panel.lines) for legend in found.legends
+    )
+    assert over == legends_over_curves, "a legend covers a curve"
     return found
 
 
 def size(png: bytes) -> tuple[int, int]:
-    """Width and height of a picture in PNG, which must have more than one colour."""
+    """Width and height of a picture in PNG, which must be light here and dark there."""
     pixels = image.imread(io.BytesIO(png), format="png")
-    assert len(np.unique(pixels.reshape(-1, pixels.shape[-1]), axis=0)) > 10, "it shows nothing"
+    assert np.ptp(pixels[..., :3], axis=(0, 1)).min() > 0.5, "it shows nothing"
     return pixels.shape[1], pixels.shape[0]
 
 
@@ -212,3 +219,14 @@ def _box_of_letters(letters: ET.Element) -> Box:
     turn = np.radians(angle)
     turned = corners @ np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
     return _box(turned + np.array([x, y]))
+
+
+def words_of(path: Path) -> str:
+    """What a picture of any kind says, which must show something; nothing is read from the dots of PNG."""
+    if path.suffix == ".svg":
+        return drawn(path).text
+    if path.suffix == ".pdf":
+        (page,) = PdfReader(path).pages
+        return " ".join(page.extract_text().split())
+    assert min(size(path.read_bytes())) > 300
+    return ""

@@ -15,6 +15,7 @@ from ballscrew.questions.duty import table as duty_tables
 from ballscrew.questions.duty.compute import duty
 from ballscrew.questions.duty.verdicts import warnings
 from support.commands import ROOT
+from support.pictures import drawn
 
 EXAMPLE = ROOT / "examples" / "feed_axis.toml"
 
@@ -25,14 +26,16 @@ def case():
 
 
 def test_all_forms(ballscrew, tmp_path):
-    table, picture = tmp_path / "axis.csv", tmp_path / "axis.png"
+    table, picture = tmp_path / "axis.csv", tmp_path / "axis.svg"
     process = ballscrew("axis", EXAMPLE, "--to", table, "--to", picture)
     assert process.returncode == 0, process.stderr
     assert process.stderr == ""
     for words in ("fixed–supported shaft of 1100 mm", "lost motion", "softest with the nut at 850 mm",
                   "bearings            800 N/µm", "mount rigid"):  # fmt: skip
         assert words in process.stdout
-    assert picture.stat().st_size > 10_000
+    shown = drawn(picture)
+    assert len(shown.panels) == 4
+    assert "nut from the fixed bearing [mm]" in shown.text
     places = np.genfromtxt(table, delimiter=",", skip_header=1)
     found = json.loads(ballscrew("axis", EXAMPLE, "--json").stdout)
     assert places.shape[0] == len(found["results"]["position"])

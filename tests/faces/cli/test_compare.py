@@ -20,6 +20,7 @@ from ballscrew.questions.compare import compute as comparison
 from ballscrew.questions.compare import figure as figures
 from ballscrew.questions.shared import charts
 from support.commands import with_small_files
+from support.pictures import words_of
 
 
 @pytest.fixture(scope="module")
@@ -257,7 +258,7 @@ def test_picture(suffix, example, found, tmp_path, ballscrew):
     assert process.stdout.splitlines()[-1] == f"{path}: {len(found.rows)} models and laws"
     assert list(tmp_path.iterdir()) == [path]
     first = path.read_bytes()
-    assert first.startswith({"png": b"\x89PNG", "svg": b"<?xml", "pdf": b"%PDF"}[suffix])
+    assert ("friction torque on the screw (N m)" in words_of(path)) == (suffix != "png")
     again = ballscrew("compare", example, "--model", "reference", "--json", "--to", path)
     assert document_of(again)["case"]["name"] == "reference"
     assert again.stderr.startswith(f"{path}: ")

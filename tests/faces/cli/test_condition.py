@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from support.pictures import drawn
+
 EXAMPLES = Path(__file__).parents[3] / "examples"
 TABLE, CASE, NEW, WORN = (
     EXAMPLES / name for name in ("nut_over_years.csv", "service.toml", "nut_new.csv", "nut_worn.csv")
@@ -21,7 +23,7 @@ def document(done):
 
 
 def test_a_table(ballscrew, tmp_path):
-    done = ballscrew("condition", TABLE, "--case", CASE, "--json", "--to", tmp_path / "nut.png")
+    done = ballscrew("condition", TABLE, "--case", CASE, "--json", "--to", tmp_path / "nut.svg")
     found = document(done)
     assert {"inputs", "results", "units", "warnings", "verdicts", "checks", "provenance"} == set(found)
     results = found["results"]
@@ -44,8 +46,8 @@ def test_a_table(ballscrew, tmp_path):
     identities = [(record["id"], record["subject"]) for record in (*found["warnings"], *found["verdicts"])]
     assert len(set(identities)) == len(identities)
     assert found["provenance"]["logs"][0]["log"] == "nut_over_years.csv"
-    assert (tmp_path / "nut.png").read_bytes().startswith(b"\x89PNG")
-    assert "nut.png: 24 tests" in done.stderr
+    assert "friction torque [N m]" in drawn(tmp_path / "nut.svg").text
+    assert "nut.svg: 24 tests" in done.stderr
 
 
 def test_without_temperatures_that_is_said_first(ballscrew, tmp_path):

@@ -16,6 +16,7 @@ from ballscrew.questions.duty import document as documents
 from ballscrew.questions.duty.compute import duty
 from ballscrew.questions.duty.text import text
 from support.commands import ROOT
+from support.pictures import drawn
 
 EXAMPLE = ROOT / "examples" / "vertical_axis.toml"
 #: The model of the paper answers the quickest, of balls that are all alike.
@@ -89,7 +90,7 @@ def records(document, kind):
 
 
 def test_example_in_all_forms(ballscrew, tmp_path):
-    done = ballscrew("duty", EXAMPLE, "--json", *(f"--to=a.{kind}" for kind in ("csv", "xlsx", "png")))
+    done = ballscrew("duty", EXAMPLE, "--json", *(f"--to=a.{kind}" for kind in ("csv", "xlsx", "svg")))
     assert done.returncode == 0, done.stderr
     found = json.loads(done.stdout, parse_constant=lambda constant: pytest.fail(f"{constant} in JSON"))
     assert {"inputs", "results", "units", "warnings", "verdicts", "checks", "provenance"} == set(found)
@@ -128,7 +129,9 @@ def test_example_in_all_forms(ballscrew, tmp_path):
     numbers = [(float(row["weight [s]"]), float(row["motor torque [N m]"])) for row in rows]
     mean = sum(weight * torque**2 for weight, torque in numbers) / sum(weight for weight, _ in numbers)
     assert math.sqrt(mean) == pytest.approx(results["torque_rms"], rel=1e-9)
-    assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
+    shown = drawn(tmp_path / "a.svg")
+    for words in ("[s]", "[N m]", "[W]"):
+        assert words in shown.text
     assert (tmp_path / "a.xlsx").read_bytes().startswith(b"PK")
 
 

@@ -26,6 +26,7 @@ from support.fit_logs import (
     document_of,
     refused,
 )
+from support.pictures import words_of
 
 # -- what it says ---------------------------------------------------------------------------------
 
@@ -193,11 +194,11 @@ def test_json_stays_alone_on_its_stream(fit, log):
     assert {file.name for file in done.place.iterdir()} == {"fitted.toml", "fit.svg"}
 
 
-@pytest.mark.parametrize(("name", "begin"), [("a.png", b"\x89PNG"), ("a.svg", b"<?xml"), ("a.pdf", b"%PDF")])
-def test_pictures(name, begin, fit, log):
+@pytest.mark.parametrize("name", ["a.png", "a.svg", "a.pdf"])
+def test_pictures(name, fit, log):
     done = fit(log(), "--picture", name)
     assert done.returncode == 0, done.stderr
-    assert (done.place / name).read_bytes().startswith(begin)
+    assert ("torque" in words_of(done.place / name)) == (name != "a.png")
     assert f"{name}: 120 rows" in done.stdout
 
 

@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from support.pictures import drawn
+
 EXAMPLES = Path(__file__).parents[3] / "examples"
 CASE, NEW, WORN = (EXAMPLES / name for name in ("service.toml", "nut_new.csv", "nut_worn.csv"))
 #: The model of the paper answers the quickest.
@@ -20,7 +22,7 @@ def document(done):
 
 
 def test_two_logs(ballscrew, tmp_path):
-    done = ballscrew("service", NEW, WORN, *QUICK, "--json", "--picture", tmp_path / "nut.png")
+    done = ballscrew("service", NEW, WORN, *QUICK, "--json", "--picture", tmp_path / "nut.svg")
     found = document(done)
     assert {"inputs", "results", "units", "warnings", "verdicts", "checks", "provenance"} == set(found)
     results = found["results"]
@@ -43,8 +45,10 @@ def test_two_logs(ballscrew, tmp_path):
     ]
     identities = [(record["id"], record["subject"]) for record in (*found["warnings"], *found["verdicts"])]
     assert len(set(identities)) == len(identities)
-    assert (tmp_path / "nut.png").read_bytes().startswith(b"\x89PNG")
-    assert "nut.png: 2 preloads" in done.stderr
+    shown = drawn(tmp_path / "nut.svg")
+    assert "friction torque [N m]" in shown.text
+    assert len(shown.panels) > 1
+    assert "nut.svg: 2 preloads" in done.stderr
 
 
 def test_words(ballscrew):

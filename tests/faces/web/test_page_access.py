@@ -1,10 +1,12 @@
 """The page for everybody: keyboard, screen readers, small and large letters, light and dark, on paper."""
 
+import io
 import itertools
 from pathlib import Path
 
 import axe_playwright_python
 import pytest
+from pypdf import PdfReader
 
 DOUBLE = "rexroth-16x5x3-4-double"
 AXE = (Path(axe_playwright_python.__file__).parent / "axe.min.js").read_text(encoding="utf-8")
@@ -261,5 +263,5 @@ def test_on_paper_it_is_a_sheet(visit):
     assert here.page.evaluate(visible.format(".main-svg")) > 3
     dark = here.page.evaluate("getComputedStyle(document.querySelector('#pressure-chart .xtick text')).fill")
     assert contrast(dark, "rgb(255, 255, 255)") > 7
-    pages = here.page.pdf(format="A4")
-    assert pages.startswith(b"%PDF")
+    pages = PdfReader(io.BytesIO(here.page.pdf(format="A4"))).pages
+    assert "friction torque" in " ".join(page.extract_text() for page in pages)
