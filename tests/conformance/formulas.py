@@ -43,6 +43,7 @@ def formula_of(function: Callable[..., Any]) -> str | None:
     return " ".join(match["formula"].split()) if match else None
 
 
+@functools.cache
 def letters_of(function: Callable[..., Any]) -> dict[str, str]:
     """The letter of each parameter that the body binds to one."""
     (definition,) = ast.parse(textwrap.dedent(inspect.getsource(function))).body
@@ -115,6 +116,17 @@ def lettered(formula: str) -> tuple[str, dict[str, str]]:
     return NUMBER.sub(letter, formula), numbers
 
 
+@functools.cache
+def evaluated(equation: Equation, point: int) -> tuple[Mapping[sympy.Symbol, sympy.Rational], Any]:
+    """The parameters of an equation at a point, by their letters, and what the code makes of them with 30 digits."""
+    letters = letters_of(equation.function)
+    symbols = {name: sympy.Symbol(letters[name], positive=True) for name in equation.parameters}
+    (from_code,) = equation(*symbols.values())
+    columns = equation.sample(POINTS)
+    values = {symbols[name]: sympy.Rational(float(column[point])) for name, column in columns.items()}
+    return values, from_code.evalf(30, subs=values)
+
+
 def differences(equation: Equation, formula: str, numbers: Mapping[str, str] = MappingProxyType({})) -> list[str]:
     """What is different between a formula and the code; empty if nothing is.
 
@@ -134,13 +146,10 @@ def differences(equation: Equation, formula: str, numbers: Mapping[str, str] = M
         found.append("the left side is not one new symbol")
     if found:
         return found
-    symbols = {name: sympy.Symbol(letters[name], positive=True) for name in equation.parameters}
-    (from_code,) = equation(*symbols.values())
-    columns = equation.sample(POINTS)
     given = {sympy.Symbol(name, positive=True): sympy.Rational(number) for name, number in numbers.items()}
     for point in range(POINTS):
-        values = {symbols[name]: sympy.Rational(float(column[point])) for name, column in columns.items()}
-        ours, theirs = (side.evalf(30, subs=values | given) for side in (from_code, read.rhs))
+        values, ours = evaluated(equation, point)
+        theirs = read.rhs.evalf(30, subs={**values, **given})
         # a zero is no Float
         assert ours.is_Number, f"{equation.name} gives no number at {values}"
         assert ours.is_finite, f"{equation.name} gives no finite number at {values}"

@@ -50,7 +50,7 @@ def cases_of_axes():
 
 
 @pytest.mark.parametrize(
-    ("case", "block_size"), [*((case, size) for case in cases_of_axes() for size in (5, None)), ("two named axes", 1)]
+    ("case", "block_size"), [*((case, size) for case in cases_of_axes() for size in (20, None)), ("two named axes", 1)]
 )
 def test_the_store_holds_the_dataset(case, block_size, seed_screw, seed_oil, tmp_path):
     axes = cases_of_axes()[case]

@@ -80,7 +80,7 @@ def test_wide_distributions_against_random_samples(drive):
     inputs = {name: one.distribution for name, one in uncertain_inputs.all_of(drive).items()}
     point = {name: getattr(drive.operation, name) for name in ("axial_load", "screw_speed")}
     subject = (drive.model, drive.screw, drive.lubricant)
-    count, random = 2**13, 2**16
+    count, random = 2**13, 2**15
     found = band(*subject, uncertain=inputs, **point, outputs=outputs, samples=count)
     around = []
     for share in (0.025, 0.975):

@@ -10,6 +10,7 @@ from scipy.stats import t as student
 
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
+from ballscrew.evidence.calibration import baselines
 from ballscrew.evidence.calibration import fit as calibration
 from ballscrew.evidence.papers.olaru2005.case import SCREW
 from support.synthetic_logs import OIL, TRUE_FRICTION, log, truth
@@ -59,6 +60,12 @@ SCENARIOS = {
 }  # fmt: skip
 
 
+@pytest.fixture
+def quick_baselines(monkeypatch):
+    """No search for the baseline that a fit is compared with, for tests that look at the estimates of many fits."""
+    monkeypatch.setattr(baselines, "STRIBECK_SHARES", baselines.STRIBECK_SHARES[-1:])
+
+
 def covered(scenario, seeds, *levels):
     """By level and estimate, for each seed: does the interval hold the truth?"""
     free, true, options = SCENARIOS[scenario]
@@ -84,6 +91,7 @@ LONG = (
 )
 
 
+@pytest.mark.usefixtures("quick_baselines")
 @pytest.mark.parametrize(
     "scenario", [pytest.param(name, marks=[pytest.mark.long] if name in LONG else []) for name in SCENARIOS]
 )
@@ -94,6 +102,7 @@ def test_intervals_hold_the_truth_as_often_as_they_say(scenario):
             assert as_often_as_said(hits, level), (level, share_covered(hits))
 
 
+@pytest.mark.usefixtures("quick_baselines")
 @pytest.mark.long
 @pytest.mark.parametrize("scenario", SCENARIOS)
 def test_intervals_of_95_percent_hold_the_truth_in_90_to_99_percent_of_logs(scenario):
@@ -125,11 +134,13 @@ def combination_covered(seeds, *levels):
     return np.transpose(hits)
 
 
+@pytest.mark.usefixtures("quick_baselines")
 def test_the_combination_that_is_identified_has_an_interval_and_its_parts_have_none():
     for level, hits in zip((0.5, 0.95), combination_covered(SEEDS, 0.5, 0.95), strict=True):
         assert as_often_as_said(hits, level), (level, share_covered(hits))
 
 
+@pytest.mark.usefixtures("quick_baselines")
 @pytest.mark.long
 def test_the_interval_of_the_combination_holds_the_truth_in_90_to_99_percent_of_logs():
     (hits,) = combination_covered(MANY, 0.95)

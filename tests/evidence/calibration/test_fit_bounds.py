@@ -15,11 +15,17 @@ TORQUE = MODEL(SCREW, OIL, axial_load=LOADS, screw_speed=SPEEDS).screw_torque
 
 
 @pytest.mark.parametrize(
-    ("free", "factor"), [(["ball_diameter"], 10.0), (["lead"], 0.01), (["ball_diameter", "lead"], 30.0)]
+    ("free", "factor", "bounds"),
+    [
+        (["lead"], 0.01, {}),
+        *[
+            (free, factor, bounds)
+            for free, factor in ((["ball_diameter"], 10.0), (["ball_diameter", "lead"], 30.0))
+            for bounds in ({}, {"ball_diameter": (1e-3, 5e-2)})
+        ],
+    ],
 )
-@pytest.mark.parametrize("bounds", [{}, {"ball_diameter": (1e-3, 5e-2)}], ids=["no bounds", "bounds"])
 def test_balls_keep_their_room(free, factor, bounds):
-    bounds = {name: pair for name, pair in bounds.items() if name in free}
     data = {"axial_load": LOADS, "screw_speed": SPEEDS, "torque": factor * TORQUE}
     found = bs.fit(MODEL, SCREW, OIL, data, free, bounds=bounds, kind="friction", engine="numpy")
     assert found.screw.fits

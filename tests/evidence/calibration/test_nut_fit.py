@@ -8,6 +8,7 @@ import pytest
 from scipy.stats import binom
 
 import ballscrew as bs
+from ballscrew.evidence.calibration import baselines
 from ballscrew.evidence.calibration import fit as calibration
 from support.strategies import MODELS
 from support.synthetic_logs import OIL
@@ -48,6 +49,12 @@ def nut_log(screw, seed, largest_load, rows=120):
     return {"axial_load": load, "screw_speed": speed, "torque": torque, "time": np.arange(rows, dtype=float)}
 
 
+@pytest.fixture
+def quick_baselines(monkeypatch):
+    """No search for the baseline that a fit is compared with, for tests that look at the estimates of many fits."""
+    monkeypatch.setattr(baselines, "STRIBECK_SHARES", baselines.STRIBECK_SHARES[-1:])
+
+
 def covered(name, seeds):
     """For each estimate and seed: does the interval of 95 % hold the truth?"""
     free, screw, largest_load = CASES[name]
@@ -63,6 +70,7 @@ def covered(name, seeds):
     return list(zip(*hits, strict=True))
 
 
+@pytest.mark.usefixtures("quick_baselines")
 @pytest.mark.parametrize("name", CASES)
 def test_intervals_hold_the_preload(name):
     for hits in covered(name, SEEDS):
@@ -71,6 +79,7 @@ def test_intervals_hold_the_preload(name):
         assert np.sum(told) >= binom.ppf(FALSE_ALARM, len(told), 0.95)
 
 
+@pytest.mark.usefixtures("quick_baselines")
 @pytest.mark.long
 @pytest.mark.parametrize("name", CASES)
 def test_intervals_of_95_percent_hold_the_preload_in_90_to_99_percent_of_logs(name):

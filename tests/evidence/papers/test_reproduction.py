@@ -253,8 +253,7 @@ def test_same_bytes_on_every_run(monkeypatch, written, tmp_path):
         assert here == there, path.name
 
 
-@pytest.mark.parametrize("interruption", [RuntimeError, KeyboardInterrupt])
-@pytest.mark.parametrize("existing", [True, False])
+@pytest.mark.parametrize(("interruption", "existing"), [(RuntimeError, True), (KeyboardInterrupt, False)])
 def test_nothing_half_written(monkeypatch, tmp_path, interruption, existing):
     def broken(data):
         raise interruption
