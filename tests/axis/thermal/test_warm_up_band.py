@@ -182,7 +182,7 @@ def test_uncertain_friction_widens_the_torque(duty):
 def test_friction_is_known_cold_and_as_warm_as_it_becomes_at_work():
     """With a coolant that warms the oil whatever the friction: the model itself, with the coefficient that is drawn."""
     heated = bs.Surroundings(
-        shaft_length=1.2, bore=0.02, coolant=330.0, coolant_convection=3000.0, ball_conductance=50.0, nut_mass=2.0,
+        shaft_length=1.2, bore=0.02, coolant=330.0, coolant_convection=3000.0, ball_conductance=15.0, nut_mass=100.0,
         nut_conductance=1.0, shaft_share=1.0,
     )  # fmt: skip
     single = dataclasses.replace(SCREW, nut=bs.SingleNut())
@@ -210,8 +210,8 @@ def test_friction_is_known_cold_and_as_warm_as_it_becomes_at_work():
         mean = np.average(torques, weights=[0.008, 0.042, 0.05])  # by the turns of each
         assert found.series["screw_torque"].median[at] == pytest.approx(mean, rel=1e-3)
     warm = found.warm_up.oil_temperature
-    assert warm[found.last_at_work] > 325.0 > 294.0 > warm[0]
-    assert torques[0] > 2 * torques[1] > 4 * torques[2]
+    assert warm[found.last_at_work] > 5 + warm[1] > 15 + warm[0]  # so that each instant has a friction of its own
+    assert torques[0] > 1.5 * torques[1] > 2 * torques[2]
 
 
 def test_nothing_that_is_changed_is_the_same_network(central):
