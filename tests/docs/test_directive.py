@@ -188,16 +188,19 @@ def test_a_file_that_changes_while_the_command_runs_is_another_to_the_next_build
     ],
 )
 def test_parts_are_shown_and_gaps_are_said(command, show, expected):
+    # without a page around it
     assert command._chosen("one\ntwo\nthree\nfour\n", show) == expected
 
 
 def test_words_that_are_not_there_are_an_error(command):
     with pytest.raises(RuntimeError, match="does not say: five"):
+        # likewise
         command._chosen("one\n", "five ..")
 
 
 def test_long_commands_stand_on_several_lines(command):
     typed = ".venv/bin/ballscrew sweep case.toml " + " ".join(f'--vary number_{i}="1, 2, 3"' for i in range(5))
+    # likewise
     shown = command._displayed(typed)
     assert all(len(line) <= 100 for line in shown.splitlines())
     assert " ".join(shown.replace("\\\n", " ").split()) == typed

@@ -47,6 +47,7 @@ def shown():
 def test_formulas_have_their_letters_and_units(equation, function):
     module, _, called = function.rpartition(".")
     found = getattr(importlib.import_module(module), called)
+    # what the directive writes, without a page around it
     text = equation._as_rst(function, found, "source.html")
     assert ".. math::" in text
     for parameter in inspect.signature(found).parameters:
@@ -66,6 +67,7 @@ def test_letters_are_written_as_in_the_formula(equation):
 def test_a_function_without_a_formula_is_refused(equation):
     hertz = importlib.import_module("ballscrew.physics.equations.hertz")
     with pytest.raises(ValueError, match="no formula"):
+        # likewise
         equation._as_rst("ballscrew.physics.equations.hertz.ellipticity", hertz.ellipticity, "source.html")
 
 

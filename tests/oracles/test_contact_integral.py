@@ -43,6 +43,7 @@ def test_potential_stress_and_slope_belong_together(name, pressure):
 def test_laws_stay_finite_where_roelands_does_not(name):
     law = dataclasses.replace(LAWS[name], viscosity=2.0, pressure_viscosity_coefficient=8e-8)
     pressure, slip = np.array([1.0, 1e9, 4e9, 2e10]), np.array([1e-12, 1e-3, 10.0, 1e3])
+    # the viscosity itself: a finite traction could be its limit alone
     assert law._film_viscosity(pressure)[-1] == STIFFEST
     for value in (law.stress(pressure, slip), law.slope(pressure, slip), law.potential(pressure, slip)):
         assert np.all(np.isfinite(value))

@@ -67,6 +67,7 @@ def test_the_predicted_noise_of_the_acceleration_is_that_of_samples():
     noise = np.random.default_rng(2).normal(0.0, 1e-6, time.size)
     for width in (1, 4):
         record = Trajectory(time=time, position=noise, half_width=width)
+        # the slopes before those near rest are taken as zero
         slopes = record._speeds(width)
         assert np.std(np.diff(slopes) / STEP) == pytest.approx(record.acceleration_noise(width), rel=0.05)
 

@@ -106,6 +106,7 @@ def test_samples_side_by_side_are_transients_of_their_own(duty, central):
     where = dataclasses.replace(AIR, **values)
     own = warm_up(duty, where)
     changed = sampled(central.network, values, preload=None, factor=None)
+    # of two networks that are known; a band draws its own
     found = module._transients([central.network, changed], (own.time, np.empty(0)), duty.mean_speed)
     assert found["nut_temperature"][:, 1] == pytest.approx(own.nut_temperature, abs=2e-3)
     assert found["shaft_growth"][:, 1] == pytest.approx(own.shaft_growth, rel=2e-4, abs=1e-9)

@@ -66,6 +66,7 @@ def test_a_piece_is_neither_too_small_nor_much_too_large():
         array = aligned_array(count, float)
         places.append(address(array))
         del array
+    # nothing public tells how much memory is kept
     assert len(buffers._kept) == 2
     assert address(aligned_array(15 * LARGE, float)) == places[0]
     assert address(aligned_array(2 * LARGE, float)) == places[1]
@@ -79,13 +80,16 @@ def test_only_so_much_is_kept(monkeypatch):
     monkeypatch.setattr(buffers, "MOST_KEPT", 12 * HUGE_PAGE)
     arrays = [aligned_array(LARGE, float) for _ in range(20)]
     del arrays
+    # nothing public tells how much memory is kept
     assert 1 <= sum(map(len, buffers._kept)) <= 12 * HUGE_PAGE
     monkeypatch.setattr(buffers, "MOST_PIECES", 2)
     arrays = [aligned_array(LARGE, float) for _ in range(5)]
     del arrays
+    # nothing public tells how much memory is kept
     assert len(buffers._kept) == 2
     huge = aligned_array(13 * HUGE_PAGE // 8, float)
     del huge
+    # nothing public tells how much memory is kept
     assert sum(map(len, buffers._kept)) <= 12 * HUGE_PAGE
 
 
@@ -108,6 +112,7 @@ def test_a_system_that_refuses_keeps_nothing(monkeypatch):
     monkeypatch.setattr(buffers.mmap, "MADV_FREE", -1)
     array = aligned_array(LARGE, float)
     del array
+    # nothing public tells how much memory is kept
     assert not buffers._kept
 
 

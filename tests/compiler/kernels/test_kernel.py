@@ -136,6 +136,7 @@ def test_arrays_must_be_contiguous():
 
 
 def forget():
+    # as a new process, which has no kernel loaded
     kernels._kernels.clear()
 
 
@@ -201,11 +202,14 @@ def test_a_folder_that_others_can_write_to_is_not_trusted():
     run(program, X, Y)
     (file,) = kept()
     kernels.cache_folder().chmod(0o777)
+    # whether a file is loaded or compiled again shows in time alone
     assert kernels._load(file.name) is None
     kernels.cache_folder().chmod(0o700)
     file.chmod(0o666)
+    # whether a file is loaded or compiled again shows in time alone
     assert kernels._load(file.name) is None
     file.chmod(0o600)
+    # whether a file is loaded or compiled again shows in time alone
     assert kernels._load(file.name) is not None
 
 
@@ -215,6 +219,7 @@ def test_a_folder_that_others_can_write_to_is_not_trusted():
 def test_no_function_is_called_for_one_lane_at_a_time():
     """A kernel calls nothing but the copying of the last points; a mathematical library would go lane by lane."""
     program = recorded(lambda x, y: busy(x, y) + np.log(x) + np.arctan(y) + np.cos(x) + np.power(x, y), 2)
+    # the machine code, which no result shows
     machine, module = kernels._optimise(text_of(program))
     assembly = machine.emit_assembly(module)
     called = set(re.findall(r"\b(?:callq?|bl|movabsq)\s+\$?([A-Za-z_]\w*)", assembly))
@@ -223,6 +228,7 @@ def test_no_function_is_called_for_one_lane_at_a_time():
 
 def test_vectors_are_vectors():
     """Most arithmetic on x86 is on packed numbers; elsewhere the calls above must do."""
+    # the machine code, which no result shows
     machine, module = kernels._optimise(text_of(recorded(busy, 2)))
     assembly = machine.emit_assembly(module)
     packed, single = (len(re.findall(rf"\bv?f?m?(?:add|mul|sub|div)\w*{kind}\b", assembly)) for kind in ("pd", "sd"))
@@ -234,6 +240,7 @@ def test_vectors_are_vectors():
 def test_compiling_that_takes_long_is_logged_before_it_starts(caplog, monkeypatch):
     """Not what is compiled in an instant, and not what is kept already."""
     started = []
+    # counts what is compiled
     whole = kernels._compile
     monkeypatch.setattr(kernels, "_compile", lambda text: started.append(len(caplog.messages)) or whole(text))
 

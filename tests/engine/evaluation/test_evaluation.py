@@ -153,6 +153,7 @@ def test_grids_are_the_points_they_are_made_of(name):
     """No load and rest are among the values of the axes."""
     plan = Plan.of(Configuration(MODELS[name], SCREW, OIL), None, grid(11, 13, 19))
     cut = Evaluation.of(plan, "compiled")
+    # how a grid is cut shows in memory and time alone
     assert cut._row_length == 13 * 19
     found, expected = filled(plan, "compiled"), filled(plan, "numpy")
     for output in found:
@@ -283,6 +284,7 @@ def test_large_work_is_compiled_and_what_is_compiled_is_used():
     assert Evaluation.of(Plan.of(subject, None, points)).engine == "compiled"
     middling = Plan.of(subject, None, random_points(100_000))
     assert Evaluation.of(middling).engine == "compiled"  # as it is compiled by now, for other points
+    # as a new process, which has no kernel loaded
     kernels._kernels.clear()
     assert Evaluation.of(middling).engine == "compiled"  # from disk
 

@@ -67,6 +67,7 @@ def test_numbers_give_the_bits_of_arrays(engine):
             for name, value in found.items():
                 assert np.ndim(value) == 0
                 assert np.array_equal(value, whole[name][i], equal_nan=True), name
+    # so that a few points make several blocks
     f._block_size = 7
     few = f(*[v[:50] for v in values])
     assert all(np.array_equal(few[name], whole[name][:50], equal_nan=True) for name in few)

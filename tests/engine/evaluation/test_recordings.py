@@ -96,6 +96,7 @@ def test_only_so_many_are_kept(monkeypatch, recorded):
     for diameter in np.linspace(0.002, 0.003, 20):
         swept(MODELS["corrected"], dataclasses.replace(SCREW, ball_diameter=float(diameter)))
     assert len(recorded) == 20
+    # nothing public tells how much is kept
     assert recordings._kept._steps <= 1000
     swept(MODELS["corrected"], dataclasses.replace(SCREW, ball_diameter=0.003))
     assert len(recorded) == 20

@@ -3,6 +3,7 @@
 import csv
 import dataclasses
 import math
+from importlib import resources
 from pathlib import Path
 
 import numpy as np
@@ -45,7 +46,7 @@ def found():
     ],
 )
 def test_rows_shipped_are_those_of_the_vendors(file, copy):
-    lines = validation._shipped(file).read_text(encoding="utf-8").splitlines()
+    lines = resources.files("ballscrew").joinpath("data/validation", file).read_text(encoding="utf-8").splitlines()
     assert list(csv.DictReader(line for line in lines if not line.startswith("#"))) == list(
         csv.DictReader((DATA / copy).read_text(encoding="utf-8").splitlines())
     )

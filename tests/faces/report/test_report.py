@@ -349,6 +349,7 @@ def test_torque_that_a_fit_found_besides_is_a_part_of_the_torque():
 
 @pytest.mark.parametrize(("name", "arrows"), [("at rest", False), ("oversize balls", False), ("feed_drive", True)])
 def test_the_caption_tells_of_arrows_where_there_are_some(name, arrows):
+    # one part alone: a report takes seconds
     (picture,) = contents._drawing(run(case_of(name)))
     assert ("arrows" in picture.caption) == arrows
 

@@ -324,7 +324,9 @@ def test_a_cancelled_job_waits_no_more():
             for job in [jobs.begin("select", "", b"{}") for _ in range(16)]:
                 job.cancel()
             await asyncio.sleep(0.05)
+            # what is left of a job that was cancelled shows in memory alone
             assert jobs._limiter.statistics().tasks_waiting == 0
+            # likewise
             assert len(jobs._tasks) == len(running)
         last = jobs.begin("select", "", b"{}")
         running[0].cancel()
@@ -363,6 +365,7 @@ def test_what_is_old_is_forgotten_though_nobody_asks(monkeypatch):
         jobs.begin("select", "", b"{}")
         end = time.monotonic() + LONG
         await asyncio.sleep(0.02)
+        # until all are forgotten
         while jobs._jobs:
             assert time.monotonic() < end
             await asyncio.sleep(0.05)

@@ -93,6 +93,7 @@ def test_memory_stays(server, serve):
 
 def test_what_is_kept_is_bounded():
     """No cache has a case or a text of a request as its key: a thousand different ones leave as many entries as one."""
+    # the cache itself: nothing public tells its size
     from ballscrew.engine.evaluation.outputs import _outputs, known_outputs
     from ballscrew.physics.components.nut import SingleNut
 

@@ -131,6 +131,7 @@ def test_the_bodies_to_try_follow_their_schema():
 
 def test_whatever_may_be_null_is_described():
     """A field that the description does not name may be anything: of null, a client learns from its description."""
+    # all sets at once, without a server
     entries = json.loads(api._validated(tuple(validation.SETS)))
     parts = schema.raw_schema["components"]["schemas"]
     for name, tables in (("ValidationEntry", entries), ("ValidationRow", [row for e in entries for row in e["rows"]])):

@@ -152,6 +152,7 @@ def test_no_remedy_drops_a_word(name, unit):
 def test_units_in_messages_are_of_the_right_kind(name):
     """A unit proposed for a misspelt one is the same but for capitals, and the parser takes it."""
     quantity = KNOWN[name]
+    # all units that messages propose: a message has one or two of them
     for unit in units._usual(quantity):
         assert isinstance(units.parse(name, f"1 {unit}", quantity), float)
         for written in (unit.upper(), unit.lower(), unit.swapcase()):

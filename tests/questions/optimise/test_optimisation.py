@@ -47,6 +47,7 @@ def model_of(tables, engine="numpy", **options):
     need = need_of(tables)
     space = design_space(need, **options)
     centre = {name: math.sqrt(low * high) for name, (low, high) in space.bounds.items()}
+    # the case that a search starts from; a search takes seconds
     case = compute._case(need, space, centre, NO_OPTIONS)
     return need, space, DesignModel.of(case, need, space, 1.0, engine)
 
@@ -79,6 +80,7 @@ def test_constraints_and_objectives_are_those_of_the_check(nut):
         x[:2, column] = space.lower[column] / 10  # so little that the load takes it all
     designs = elastic.designs(x)
     speed = elastic.speed(designs)
+    # the state that objectives and checks share: one solution of it for both
     at = elastic._at(designs, 6000.0, speed)
     numbers = elastic.objectives(designs, speed, at)
     used = elastic.utilisations(designs, speed, at, numbers)
@@ -89,6 +91,7 @@ def test_constraints_and_objectives_are_those_of_the_check(nut):
         variables = {name: float(values[place]) for name, values in space.columns(x).items()}
         balls, preload = float(designs.loaded_balls[place]), float(designs.preload[place])
         tables = compute.tables_of(need, space, variables, balls=balls, preload=preload)
+        # one design by itself, as it is checked at the end of a search
         found = checked("design", compute._built(need, tables, NO_OPTIONS))
         for check in found.checks:
             if check.name in used:
@@ -246,6 +249,7 @@ def test_faults_of_the_space(optimise, words):
 def test_without_pymoo_a_fault_says_how_to_get_it(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "pymoo.core.problem", None)
     with pytest.raises(InputError, match=r'pip install "ballscrew\[optimise\]"'):
+        # where a search begins, without the screws that it would need
         searches._pymoo()
 
 
