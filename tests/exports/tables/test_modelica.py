@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 import ballscrew as bs
 from ballscrew.exports.tables.friction_table import FrictionTable, friction_table
 from ballscrew.exports.tables.lossy_gear import loss_table
-from ballscrew.exports.tables.modelica import export
+from ballscrew.exports.tables.modelica import component, export
 
 RANGES = {"axial_load": (-3000.0, 5000.0)}
 #: Stands in for the Modelica Standard Library, so that the test needs the compiler only.
@@ -122,6 +122,17 @@ def test_the_example_by_hand(handed, exported):
     swung = np.pi * (inertia + mass * travel**2) * 300.0 / 3
     assert amplitude == pytest.approx(friction + swung, rel=0.02)  # the table is off by up to 1 %
     assert 0.1 * friction < swung < 10 * friction  # so that both count
+
+
+def test_the_example_swings_beyond_the_friction_at_its_own_load(handed):
+    """Of a table whose friction is a hundredth of the load in N m: 490.5 N of 50 kg."""
+    axes = {"axial_load": np.array([-3000.0, 0.0, 5000.0]), "screw_speed": np.array([-30.0, 0.0, 60.0])}
+    load = np.repeat(axes["axial_load"][:, None], 3, axis=1)
+    values = {"screw_torque": 0.01 * np.abs(load), "ideal_torque": 8e-4 * load, "drive_torque": 8e-4 * load}
+    text = component(handed, FrictionTable(axes, values, np.ones((3, 3), dtype=bool), {}, 0.0), 0.1, [])
+    inertia = _number(text, r"J = (.*?),") + 50.0 * (0.005 / (2 * np.pi)) ** 2
+    assert _number(text, r"offset = (.*?)\)") == pytest.approx(50 * 9.81 * 8e-4, rel=5e-3)
+    assert _number(text, r"amplitude = (.*?),") == pytest.approx(4.905 + np.pi * inertia * 30.0 / 3, rel=5e-3)
 
 
 @pytest.mark.parametrize(
