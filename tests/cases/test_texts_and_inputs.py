@@ -9,7 +9,8 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis import units
 from ballscrew.basis.errors import MISSING, Fault, InputError
-from ballscrew.cases.case_files import case_file, case_messages, case_text, inputs
+from ballscrew.basis.quantities import Info, Quantity
+from ballscrew.cases.case_files import case_file, case_messages, case_text, fitted_case, inputs
 from ballscrew.cases.schema import law_import
 from ballscrew.cases.schema.case_schema import json_schema
 from ballscrew.cases.schema.option_faults import in_options
@@ -195,3 +196,17 @@ def test_a_function_has_no_numbers():
 def test_a_fault_names_the_option_that_gave_the_field(where, problem, given, expected):
     (fault,) = in_options([Fault(where, problem)], given)
     assert fault.where == expected
+
+
+def test_a_number_of_a_fit_as_a_case_file_has_it():
+    """Behind the sign half of the interval that holds 95 %: 1.96 standard errors; and the section before the name."""
+    friction = Quantity("boundary_friction_coefficient", "1", Info("mu", "a coefficient"))
+    preload = Quantity("preload", "N", Info("F", "a preload", "kN"))
+    one = types.SimpleNamespace(value=0.1, std=0.01, quantity=friction)
+    value, half = fitted_case._written(one).split(" ± ")
+    assert (float(value), float(half)) == (0.1, pytest.approx(0.0196, rel=1e-3))
+    known = types.SimpleNamespace(value=3000.0, std=None, quantity=preload)
+    assert fitted_case._written(known) == "3 kN"
+    places = {"friction.decay": ("model", friction), "nut.preload": ("nut", preload), "lead": ("screw", preload)}
+    found = [fitted_case._place(places, name) for name in places]
+    assert found == ["model.friction.decay", "nut.preload", "screw.lead"]
