@@ -136,6 +136,8 @@ def test_a_motor_by_hand(driven):
     assert driven.states.cycle_time == pytest.approx(whole, rel=1e-12)
     assert driven.torque_rms == pytest.approx(rms, rel=1e-12)
     assert driven.torque_peak == pytest.approx(up, rel=1e-12)
+    largest_load = MASS * 5.0 + 0.01 * MASS * 9.80665 + 30.0
+    assert driven.screw_torque == pytest.approx(largest_load * ARM * (1 / ETA - 1), rel=1e-12)
     assert np.max(np.abs(driven.motor_speed)) == pytest.approx(fastest, rel=1e-12)
     assert up > -down > 0 > -steady
 
