@@ -86,7 +86,7 @@ COMMANDS: dict[str, tuple[str, tuple[str, ...]]] = {
          "residual_rms", "holdout_rms", "rows.used", "rows.outliers"),
     ),
     "service": (
-        "service nut_new.csv nut_worn.csv --case service.toml --model corrected",
+        "service nut_new.csv nut_worn.csv --case service.toml",
         ("results.new.preload", "results.worn.preload", "results.ratio.value", "results.ratio.low",
          "results.ratio.high"),
     ),

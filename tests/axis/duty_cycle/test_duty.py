@@ -52,6 +52,7 @@ def test_a_largest_torque_and_a_change_of_sign_within_a_phase(frequency):
     assert found.energy_drawn == pytest.approx(both_ways * (energy(turns) - energy(0.0)), rel=1e-10)
     assert found.energy_returned == pytest.approx(both_ways * (energy(turns) - energy(math.pi)), rel=1e-8)
     assert np.max(found.power) == pytest.approx(largest * fastest * (1 + math.sin(phi)) / 2, rel=1e-10)
+    assert np.min(found.power) == pytest.approx(-largest * fastest * (1 - math.sin(phi)) / 2, rel=1e-9)
     # the states of the phases alone miss it
     assert (
         found.torque_peak
@@ -69,6 +70,28 @@ def test_a_kink_of_the_friction_within_a_phase():
     both = ((9.80665 + free) ** 2 + (free - 9.80665) ** 2) / (2 * free)
     assert found.energy_lost == pytest.approx(2 * (1 / eta - 1) * mass * amplitude * both, rel=1e-10)
     assert found.energy_drawn - found.energy_returned == pytest.approx(found.energy_lost, rel=1e-10)
+
+
+def test_a_kink_of_the_loss_of_a_belt_within_a_phase():
+    """The loss bends where what the belt passes on changes its sign, not where the torque with the rotor does."""
+    mass, amplitude, drag, eta, inertia, w = 100.0, 0.2, 0.01, 0.8, 5e-3, math.tau * 2.0
+    axis = Axis(mass=mass, transmission_efficiency=eta, inertia=inertia)
+    motion = Sine(stroke=2 * amplitude, frequency=2.0)
+    found = duty(1.0, SCREW, axis=axis, motion=motion, also={"drag": Drag(drag)})
+    moved, friction, fastest = mass * amplitude * w**2 * ARM, drag * amplitude * w / ARM, amplitude * w / ARM
+    passed, phi = math.hypot(moved, friction), math.atan2(friction, moved)
+
+    def energy(theta):
+        """Integral of sin θ cos(θ − φ)."""
+        return -math.cos(2 * theta - phi) / 4 + theta * math.sin(phi) / 2
+
+    turns = phi + math.pi / 2
+    forwards, back = energy(turns) - energy(0.0), energy(turns) - energy(math.pi)
+    both_ways = 2 * passed * fastest / w
+    lost = both_ways * ((1 / eta - 1) * forwards + (1 - eta) * back)
+    assert sum(found.energy_lost_in["transmission"].values()) == pytest.approx(lost, rel=1e-10)
+    rubbed = 2 * drag * fastest**2 * math.pi / 2 / w
+    assert found.energy_lost == pytest.approx(lost + rubbed, rel=1e-10)
 
 
 def test_states_of_cuts_are_those_of_the_motion():
@@ -94,6 +117,8 @@ def test_changes_of_sign_and_largest_values_of_known_functions():
     assert found == pytest.approx([0.1, 0.6, 1.1], abs=1e-12)
     assert largest_within(states, np.cos(math.tau * (t - 0.2))) == pytest.approx([0.2, 1.2], abs=1e-6)
     assert sign_changes(states, np.where(t < 0.5, np.nan, 1 - 2 * t)) == []
+    assert sign_changes(states, np.where(t < 0.5, np.nan, 0.6 - t)) == pytest.approx([0.6], abs=1e-12)
+    assert largest_within(states, -np.cos(math.tau * (t - 0.7)) - 2) == []  # all below zero
     assert largest_within(states, t) == largest_within(states, np.ones_like(t)) == []
     assert sign_changes(states, 1e-14 * np.cos(math.tau * t) + (t > 1.0)) == []  # rounding beside what is large
     late = dataclasses.replace(states, time=np.full_like(t, 1e9))

@@ -418,7 +418,6 @@ LONG = (
     "feed_axis",
     "nut at rest",
     "nut without load",
-    "overloaded",
     "oversize balls",
     "service",
     "skids",

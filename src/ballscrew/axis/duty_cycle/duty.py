@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, cast
 
 import numpy as np
@@ -71,7 +72,8 @@ def duty(
 
     ``model`` is a model of the friction of the ``screw`` with its ``lubricant``, or one efficiency for all of its
     states, which needs no lubricant. ``axis`` is what the screw moves and what turns it; ``motion`` is its motion, or
-    the states of one that are known, to which none is added. ``also`` has further elements on the shaft of the screw,
+    the states of one that are known, to which none is added; those of a motion get more where a torque or a power is
+    the largest, or changes its sign, within a phase. ``also`` has further elements on the shaft of the screw,
     such as support bearings, by name: they get its load and its speed. ``recorded`` evaluates the model by the
     recording that all screws of a kind share: for who asks for many of them.
 
@@ -126,13 +128,18 @@ def with_turns(cycle: Duty) -> Duty:
     states = cycle.states
     if not any(np.ptp(values[part]) > 0 for part in states.parts for values in (states.speed, states.acceleration)):
         return cycle
-    at = sign_changes(states, cycle.torque)
-    for values in (cycle.torque, cycle.power, cycle.screw.torque):
-        at += largest_within(states, np.abs(values))
+    # the loss of belt or gears bends where what they pass on changes its sign
+    found = _with_states(cycle, [*sign_changes(states, cycle.torque), *sign_changes(states, cycle.passed_on)])
+    torque, power = found.torque, found.power
+    of_each = [largest_within(found.states, one) for one in (torque, -torque, power, -power, found.screw.torque)]
+    return _with_states(found, [*itertools.chain(*of_each)])
+
+
+def _with_states(cycle: Duty, at: Sequence[float]) -> Duty:
+    """A cycle with states at more instants, s: the model is asked there, and nowhere again."""
     if not at:
         return cycle
-    found = dataclasses.replace(cycle, states=states.cut_at(at))
-    # the model is asked where there are other states than before, and only there
+    states, found = cycle.states, dataclasses.replace(cycle, states=cycle.states.cut_at(at))
     place = states.places_of(found.states)
     new = place < 0
     place[new] = states.time.size + np.arange(np.sum(new))
@@ -297,6 +304,12 @@ class Duty(ByValue):
         """
         eta, direction = self.axis.transmission_efficiency, self.states.direction
         return np.where(turned * direction > 0, turned * (1 / eta - 1), turned * (eta - 1)) * np.abs(direction)
+
+    @property
+    def passed_on(self) -> Numbers:
+        """Torque that belt or gears pass on, at the motor and without their loss, N m."""
+        besides = ("transmission", "acceleration of what turns", "brake")
+        return total(part for name, part in self.parts.items() if name not in besides)
 
     @lazy
     def torque(self) -> Numbers:

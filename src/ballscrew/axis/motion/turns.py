@@ -21,7 +21,8 @@ _ROUNDING, _GAIN = 1e-12, 1e-7
 def sign_changes(states: MotionStates, values: Numbers) -> list[float]:
     """The instants within phases at which a quantity changes its sign, s; ``values`` is it at the states."""
     found: list[float] = []
-    least = _ROUNDING * float(np.max(np.abs(values)))
+    known = np.abs(values[np.isfinite(values)])
+    least = _ROUNDING * float(np.max(known, initial=0.0))
     for time, own in _parts(states, values):
         seen = np.flatnonzero(np.abs(own) > least)
         sign = np.sign(own[seen])
@@ -33,11 +34,11 @@ def sign_changes(states: MotionStates, values: Numbers) -> list[float]:
 
 
 def largest_within(states: MotionStates, values: Numbers) -> list[float]:
-    """The instants at which a quantity is larger than at all states of its part of a phase, s."""
+    """The instants at which a quantity is larger than at all states of its part of a phase, and than zero, s."""
     found: list[float] = []
     for time, own in _parts(states, values):
         at = int(np.argmax(own))
-        if not 0 < at < own.size - 1 or not np.ptp(own) > _GAIN * own[at]:
+        if not 0 < at < own.size - 1 or not own[at] > 0 or not np.ptp(own) > _GAIN * own[at]:
             continue
         near = 1e-7 * (time[at + 1] - time[at - 1])
         best: Any = minimize_scalar(
