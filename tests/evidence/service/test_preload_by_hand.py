@@ -13,7 +13,6 @@ from scipy.stats import t as student
 import ballscrew as bs
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.sampling import JointNormal
-from ballscrew.evidence.calibration.robust import autocorrelation_lag
 from ballscrew.evidence.service import posterior
 from ballscrew.evidence.service.posterior import Groups, Posterior, conditional
 from ballscrew.evidence.service.preload_estimate import Mixture
@@ -300,7 +299,11 @@ def test_a_trend_of_values_that_follow_each_other_is_that_of_newey_and_west():
     x = np.column_stack([np.ones(60), warm - warm.mean()])
     best = np.linalg.lstsq(x, values, rcond=None)[0]
     off = values - x @ best
-    moments, lag = x * off[:, np.newaxis], autocorrelation_lag(off)
+    # twice the lag before the first correlation that independent numbers could have
+    correlations = [float(off[k:] @ off[:-k] / (off @ off)) for k in range(1, 7)]
+    lag = 2 * next(before for before, one in enumerate(correlations) if one < 2 / math.sqrt(60))
+    assert lag == 6
+    moments = x * off[:, np.newaxis]
     middle = moments.T @ moments
     for k in range(1, lag + 1):
         product = moments[k:].T @ moments[:-k]
@@ -308,7 +311,7 @@ def test_a_trend_of_values_that_follow_each_other_is_that_of_newey_and_west():
     bread = np.linalg.inv(x.T @ x)
     error = math.sqrt((bread @ middle @ bread)[1, 1])
     assert error > linregress(warm, values).stderr
-    assert (found.high - found.low) / 2 == pytest.approx(student.ppf(0.975, 58) * error, rel=0.06)
+    assert (found.high - found.low) / 2 == pytest.approx(student.ppf(0.975, 58) * error, rel=1e-9)
 
 
 def test_what_a_trend_says():

@@ -1,5 +1,7 @@
 """What is said of a cycle: which way an axis goes with its motor off, what holds it, and what is strange."""
 
+import dataclasses
+
 import pytest
 
 from ballscrew.cases.case_files import case_file
@@ -61,6 +63,15 @@ def test_what_stays_by_its_friction_says_by_how_much(report):
     locks = of_brake(report(upright, RULE.replace("0.9", "0.45")))
     assert (locks.severity, locks.holds, locks.value) == ("info", True, 0.0)
     assert "at least 1.22 times the torque of the load" in locks.text
+
+
+def test_of_all_conditions_the_one_that_holds_the_least_counts(report):
+    """Friction that is twice as much in a second condition makes the axis no safer."""
+    found = report({"mass": "100 kg", "inclination": "90 deg"}, RULE.replace("0.9", "0.45"))
+    (one,) = found.brake.conditions
+    twice = dataclasses.replace(one, breakaway_torque=2 * one.breakaway_torque)
+    vars(found)["brake"] = dataclasses.replace(found.brake, conditions=[twice, one])
+    assert "at least 1.22 times" in of_brake(found).text
 
 
 def test_strange_numbers_of_segments_and_of_bearings_are_named(report):

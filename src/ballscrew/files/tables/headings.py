@@ -187,7 +187,7 @@ def fits(unit: str, column: Column) -> bool:
 
 @functools.lru_cache(maxsize=4096)
 def _is_of(unit: str, quantity: Quantity) -> bool:
-    """Whether a unit is of a quantity; a heading is asked for the same few units by each of the columns."""
+    """Test whether a unit is of a quantity; a heading is asked for the same few units by each of the columns."""
     return not isinstance(_scale("", unit, quantity), Fault)
 
 
