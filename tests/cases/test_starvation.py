@@ -38,6 +38,10 @@ COLD = {
 
 
 BATH = "model.inlet.replenishment_constant=0"
+#: A cycle whose screw can be starved has states where either condition turns, one in a full bath its own alone: other
+#: nodes, which integrate friction near rest to 1e-4, and another polynomial through them, with its largest value 2e-6
+#: off.
+OF_NODES, OF_TURNS = 1e-4, 1e-5
 
 
 def record_of(document):
@@ -104,15 +108,20 @@ def test_a_cold_cycle_stands_beside_that_of_a_full_bath():
     bath = document_of_duty("-5 degC", BATH)
     record = record_of(cold)
     found, full = cold["results"], cold["results"]["full_bath"]
-    assert found["flooded_torque"] == full["torque_peak"] == record["value"] == bath["results"]["torque_peak"]
+    assert found["flooded_torque"] == full["torque_peak"] == record["value"]
+    assert full["torque_peak"] == pytest.approx(bath["results"]["torque_peak"], rel=OF_TURNS)
     assert record["limit"] == found["torque_peak"] < record["value"]
     assert cold["units"]["flooded_torque"] == record["unit"] == "N m"
     for name in ("torque_rms", "energy_lost", "screw_torque", "power_peak", "energy_drawn", "energy_returned"):
-        assert full[name] == bath["results"][name]
+        assert full[name] == pytest.approx(bath["results"][name], rel=OF_NODES), name
     assert full["energy_lost"] > 3.5 * found["energy_lost"]
     assert full["screw_torque"] > 3 * found["screw_torque"]
     assert f"{full['energy_lost']:.4g} J" in record["text"]
-    assert found["cycle"]["flooded_torque"] == bath["results"]["cycle"]["torque"]
+    of_bath = dict(zip(*(bath["results"]["cycle"][name] for name in ("time", "torque")), strict=True))
+    of_cold = dict(zip(*(found["cycle"][name] for name in ("time", "flooded_torque")), strict=True))
+    same = of_bath.keys() & of_cold.keys()
+    assert len(same) > len(of_bath) / 4
+    assert {time: of_cold[time] for time in same} == pytest.approx({time: of_bath[time] for time in same}, rel=1e-9)
     assert bath["results"]["cycle"]["flooded_torque"] is None
 
 
@@ -132,11 +141,13 @@ def test_the_motor_is_judged_by_the_larger_torque_and_the_brake_by_the_smaller()
     cold, bath = document_of_duty("-5 degC", *settings), document_of_duty("-5 degC", *settings, BATH)
     of_cold, of_bath = ({check["name"]: check for check in one["checks"]} for one in (cold, bath))
     starved = cold["results"]["torque_peak"]
-    assert starved < 28.5 < of_bath["motor_peak_torque"]["value"] == of_cold["motor_peak_torque"]["value"]
+    assert starved < 28.5 < of_bath["motor_peak_torque"]["value"]
+    assert of_cold["motor_peak_torque"]["value"] == pytest.approx(of_bath["motor_peak_torque"]["value"], rel=OF_TURNS)
     assert of_cold["motor_peak_torque"]["text"].endswith(", in a full bath of oil")
     assert cold["results"]["motor"]["suffices"] is False
     assert cold["results"]["motor"]["worst"]["condition"] == "in a full bath of oil"
-    assert cold["results"]["motor"]["flooded_copper_loss"] == bath["results"]["motor"]["copper_loss"]
+    loss = bath["results"]["motor"]["copper_loss"]
+    assert cold["results"]["motor"]["flooded_copper_loss"] == pytest.approx(loss, rel=OF_NODES)
     said = {record["id"]: record["text"] for record in cold["verdicts"]}
     assert "judged by the larger torque: peak and RMS in a full bath of oil" in said["verdict.motor"]
     assert "the smaller friction, that of the track starved of oil" in said["verdict.brake"]

@@ -77,6 +77,12 @@ MOTION = Trapezoid(stroke=0.3, speed=0.2, acceleration=4.0, dwell=0.5)
 UPRIGHT = Axis(mass=150.0, inclination=np.pi / 2, inertia=3e-3)
 
 
+#: A cycle whose screw can be starved has states where either condition turns, one in a full bath its own alone: other
+#: nodes, which integrate friction near rest to 1e-4, and another polynomial through them, with its largest value 2e-6
+#: off.
+OF_NODES, OF_TURNS = 1e-4, 1e-5
+
+
 def cycle(temperature, nut, constant, grade="ISO VG 100"):
     model = dataclasses.replace(MODEL, inlet=Inlet(replenishment_constant=constant))
     oil = bs.Lubricant.from_grade(grade, temperature + CELSIUS)
@@ -90,14 +96,15 @@ def test_the_torque_that_a_motor_is_judged_by_is_never_below_that_of_either_cond
         motor = Motor(rated_torque=5.0, peak_torque=15.0, largest_speed=300.0)
         checks = {one.name: one.value for one in MotorCheck(starved, motor).checks}
         if starved.starved:
-            for found in (starved, bath):
-                assert checks["motor_rms_torque"] >= found.torque_rms * (1 - 1e-12)
-                assert checks["motor_peak_torque"] >= found.torque_peak * (1 - 1e-12)
-        ratio = np.max((bath.screw.torque / starved.screw.torque)[starved.states.direction != 0])
+            for found, integral, largest in ((starved, 1e-12, 1e-12), (bath, OF_NODES, OF_TURNS)):
+                assert checks["motor_rms_torque"] >= found.torque_rms * (1 - integral)
+                assert checks["motor_peak_torque"] >= found.torque_peak * (1 - largest)
+        full = bath.driven.along(starved.axial_load, starved.screw_speed, starved.states.temperature)
+        ratio = np.max((full.torque / starved.screw.torque)[starved.states.direction != 0])
         assert starved.starved == (ratio > 1.1)
         assert not bath.starved
         assert bath.flooded is bath
-        assert starved.flooded.torque_peak == bath.torque_peak
+        assert starved.flooded.torque_peak == pytest.approx(bath.torque_peak, rel=OF_TURNS)
 
 
 @pytest.mark.parametrize("nut", NUTS, ids=lambda nut: type(nut).__name__)

@@ -129,10 +129,19 @@ def with_turns(cycle: Duty) -> Duty:
     if not any(np.ptp(values[part]) > 0 for part in states.parts for values in (states.speed, states.acceleration)):
         return cycle
     # the loss of belt or gears bends where what they pass on changes its sign
-    found = _with_states(cycle, [*sign_changes(states, cycle.torque), *sign_changes(states, cycle.passed_on)])
-    torque, power = found.torque, found.power
-    of_each = [largest_within(found.states, one) for one in (torque, -torque, power, -power, found.screw.torque)]
-    return _with_states(found, [*itertools.chain(*of_each)])
+    signs = [sign_changes(states, values) for one in _conditions(cycle) for values in (one.torque, one.passed_on)]
+    found = _with_states(cycle, [*itertools.chain(*signs)])
+    largest = [
+        largest_within(found.states, values)
+        for one in _conditions(found)
+        for values in (one.torque, -one.torque, one.power, -one.power, one.screw.torque)
+    ]
+    return _with_states(found, [*itertools.chain(*largest)])
+
+
+def _conditions(cycle: Duty) -> list[Duty]:
+    """The cycle as its inlet is given, and in a full bath of oil where that is another one, at the same states."""
+    return [cycle] if cycle.flooded is cycle else [cycle, cycle.flooded]
 
 
 def _with_states(cycle: Duty, at: Sequence[float]) -> Duty:
@@ -145,6 +154,7 @@ def _with_states(cycle: Duty, at: Sequence[float]) -> Duty:
     place[new] = states.time.size + np.arange(np.sum(new))
     more = found.driven.along(found.axial_load[new], found.screw_speed[new], found.states.temperature[new])
     vars(found)["screw"] = cycle.screw.joined(more, place)
+    vars(found)["flooded"] = found if cycle.flooded is cycle else _with_states(cycle.flooded, at)
     return found
 
 
