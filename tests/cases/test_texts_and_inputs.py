@@ -99,6 +99,7 @@ def test_seals_say_whose_torque_they_have():
         row = dataclasses.replace(ROW, seal_torque=0.2, **fields)
         nut = types.SimpleNamespace(losses={} if torque is None else {"seals": bs.Seals(torque)})
         case = types.SimpleNamespace(row=row, screw=types.SimpleNamespace(nut=nut))
+        # one line of a text, which stands among many
         return [units.filled(one) for one in case_messages._seals_of_row(case)]
 
     of_maker = "seals 0.2 N m: measured by us; give the torque of your seals if you know it"
@@ -203,10 +204,12 @@ def test_a_number_of_a_fit_as_a_case_file_has_it():
     friction = Quantity("boundary_friction_coefficient", "1", Info("mu", "a coefficient"))
     preload = Quantity("preload", "N", Info("F", "a preload", "kN"))
     one = types.SimpleNamespace(value=0.1, std=0.01, quantity=friction)
+    # one line of a text, which stands among many
     value, half = fitted_case._written(one).split(" ± ")
     assert (float(value), float(half)) == (0.1, pytest.approx(0.0196, rel=1e-3))
     known = types.SimpleNamespace(value=3000.0, std=None, quantity=preload)
     assert fitted_case._written(known) == "3 kN"
     places = {"friction.decay": ("model", friction), "nut.preload": ("nut", preload), "lead": ("screw", preload)}
+    # one line of a text, which stands among many
     found = [fitted_case._place(places, name) for name in places]
     assert found == ["model.friction.decay", "nut.preload", "screw.lead"]

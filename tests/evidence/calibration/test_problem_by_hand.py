@@ -105,6 +105,7 @@ def test_a_drift_is_independent_where_the_slopes_explain_less_than_a_fifth(share
     other *= np.linalg.norm(drift) / np.linalg.norm(other)
     slopes = 7 + 3 * (math.sqrt(share) * drift + math.sqrt(1 - share) * other)
     assert np.corrcoef(drift, slopes)[0, 1] ** 2 == pytest.approx(share)
+    # without a log and a fit around it
     assert problems._is_independent(drift, slopes[:, np.newaxis]) is independent
 
 
@@ -147,14 +148,17 @@ def quantity(**bounds):
     ],
 )
 def test_scales_and_bounds_of_a_number(bounds, value, scale, low, high):
+    # without a log and a fit around it
     found = problems._parameter("x", quantity(**bounds), value)
     assert found.scale == pytest.approx(scale)
     assert (found.low, found.high) == (pytest.approx(low, abs=1e-12), pytest.approx(high, abs=1e-12))
 
 
 def test_given_bounds_are_kept_within_the_own():
+    # without a log and a fit around it
     one = problems._parameter("x", quantity(at_least=0, at_most=4), 3.0)
     for given, low, high, start in (((1, 2), 1, 2, 2.0), ((-5, 9), 0, 4, 3.0), ((3.5, 9), 3.5, 4, 3.5)):
+        # without a log and a fit around it
         found = problems._bounded(one, {"x": given})
         assert (found.low, found.high, found.start) == (low, high, start)
     assert problems._bounded(one, {"y": (1, 2)}) is one
@@ -218,6 +222,7 @@ def test_a_preload_of_a_product_of_powers_is_fitted_as_by_logarithms():
      (-0.1, None, False)],
 )  # fmt: skip
 def test_a_number_is_zero_by_chance_where_it_is_below_and_its_interval_is_not(value, interval, by_chance):
+    # without a log and a fit around it
     assert _is_zero_by_chance(types.SimpleNamespace(value=value, interval=lambda: interval)) is by_chance
 
 
@@ -231,6 +236,7 @@ def test_what_a_test_leaves_is_the_inverse_of_both_informations(readings, direct
     random = np.random.default_rng(1)
     root, slopes = random.normal(0, 1, (5, 3)), random.normal(0, 1, (4, directions, 3))
     before = np.linalg.inv(root.T @ root)
+    # without a log and a fit around it
     found = _after(before, slopes, readings)
     for one, left in zip(slopes, found, strict=True):
         assert left == pytest.approx(np.linalg.inv(root.T @ root + readings / directions * one.T @ one))
@@ -273,6 +279,7 @@ def test_a_number_is_told_on_one_side_where_the_torques_go_flat(torque, one_side
         log=types.SimpleNamespace(torque=1.0 - noise),
     )  # fmt: skip
     uncertainty = types.SimpleNamespace(covariance=np.array([[1 / 400]]))
+    # without a log and a fit around it
     assert _one_sided(fitted, uncertainty).tolist() == [one_sided]
     # a number without an error has no sides
     assert _one_sided(fitted, types.SimpleNamespace(covariance=np.zeros((1, 1)))).tolist() == [False]

@@ -291,6 +291,7 @@ def test_logs_of_one_file_are_given_once():
     """By what is in them, whatever they are called."""
     sources = [("a.csv", "1"), ("b.csv", "2"), ("c.csv", "1"), None]
     logs = [types.SimpleNamespace(source=source) for source in sources]
+    # each step of a condition by itself: its answer shows them together
     (fault,) = _faults_of_sources(logs)
     assert "two logs are the same file (a.csv, c.csv)" in str(bs.InputError(fault))
     assert _faults_of_sources([*logs[:2], logs[3], logs[3]]) == []

@@ -216,12 +216,14 @@ def test_the_density_of_samples_is_that_of_a_mixture():
     root = np.array([[0.7, 0.0], [0.2, 0.4]])
     parts = [multivariate_normal([0, 0]).logpdf(scores), multivariate_normal(mean, root @ root.T).logpdf(scores)]
     by_scipy = logsumexp(parts, axis=0, b=np.array([[0.2], [0.8]]))
+    # answers show the weights alone, not what they are made of
     found = posterior._density(scores, mean, root) - math.log(2 * math.pi)
     assert found == pytest.approx(by_scipy)
 
 
 def test_correlated_numbers_are_mixed_as_a_calibration_left_them():
     joint = JointNormal(("x", "b", "a"), np.zeros(3), np.array([[1.0, 0, 0], [0, 4.0, 3.0], [0, 3.0, 9.0]]))
+    # answers show the weights alone, not what they are made of
     mixing = posterior._mixing(["a", "c", "b"], joint)
     assert mixing @ mixing.T == pytest.approx(np.array([[1, 0, 0.5], [0, 1, 0], [0.5, 0, 1]]), abs=1e-6)
 
@@ -229,6 +231,7 @@ def test_correlated_numbers_are_mixed_as_a_calibration_left_them():
 def test_weights_are_flattened_until_an_eighth_of_a_round_counts():
     weights = np.exp(-0.5 * np.linspace(0, 80, 2000) ** 2)
     weights /= weights.sum()
+    # answers show the weights alone, not what they are made of
     flat = posterior._flattened(weights)
     assert flat.sum() == pytest.approx(1)
     assert 1 / np.sum(weights**2) < 64 <= 1 / np.sum(flat**2) < 100

@@ -19,8 +19,8 @@ SUBJECT = Configuration(MODEL, SCREW, OIL)
 
 
 def estimate(preload=PRELOAD, *, temperature=None, beyond=0, rows=10, forward=True, backward=True):
-    log = types.SimpleNamespace(forward=np.array([forward]), backward=np.array([backward]), __len__=None)
-    log = type("Log", (), {"forward": log.forward, "backward": log.backward, "__len__": lambda self: rows})()
+    ways = {"forward": np.array([forward]), "backward": np.array([backward])}
+    log = type("Log", (), {**ways, "__len__": lambda self: rows})()
     fit = types.SimpleNamespace(rows=types.SimpleNamespace(log=log))
     logarithm = Mixture.of(math.log(preload), 0.1)
     return PreloadEstimate(logarithm=logarithm, fit=fit, temperature=temperature, rows_beyond_lift_off=beyond)
@@ -35,6 +35,7 @@ def test_numbers_that_logs_ask_for():
         found = types.SimpleNamespace(
             effective_samples=samples, preloads=preloads, best=1, mean_scores=lambda: dict(enumerate_scores(scores))
         )
+        # each record by itself: a fit at each of their limits would take seconds
         return [(one.id, one.subject) for one in diagnostics._of_numbers(found, ["worn"])]
 
     def enumerate_scores(scores):
@@ -52,6 +53,7 @@ def test_numbers_that_logs_ask_for():
 def test_a_preload_beyond_a_tenth_of_the_rating(worn, said):
     rating = 50e3
     both = {"new": estimate(0.05 * rating), "worn": estimate(worn * rating)}
+    # each record by itself: a fit at each of their limits would take seconds
     records = diagnostics._of_ratings(both, SUBJECT, rating)
     assert [one.subject for one in records] == (["worn.preload"] if said else [])
     assert all((one.limit, one.value) == pytest.approx((5000.0, worn * rating)) for one in records)
@@ -59,10 +61,12 @@ def test_a_preload_beyond_a_tenth_of_the_rating(worn, said):
 
 
 def test_rows_beyond_lift_off_and_directions():
+    # each record by itself: a fit at each of their limits would take seconds
     (record,) = diagnostics._of_lift_off("new", estimate(beyond=3, rows=10))
     assert record.value == 3.0
     assert "in 3 of 10 rows, which tell nothing of it: 7 rows do" in record.text
     assert diagnostics._of_lift_off("new", estimate()) == []
+    # each record by itself: a fit at each of their limits would take seconds
     assert diagnostics._of_directions("new", estimate()) == []
     for one in (estimate(forward=False), estimate(backward=False)):
         assert [record.id for record in diagnostics._of_directions("new", one)] == ["service.one_direction"]
@@ -71,6 +75,7 @@ def test_rows_beyond_lift_off_and_directions():
 @pytest.mark.parametrize(("warmer", "said"), [(5.1, "hotter"), (-5.1, "colder"), (4.9, ""), (-4.9, "")])
 def test_temperatures_of_both_logs(warmer, said):
     logs = {"new": estimate(temperature=WARM), "worn": estimate(temperature=WARM + warmer)}
+    # each record by itself: a fit at each of their limits would take seconds
     records = diagnostics._of_temperatures(logs, SUBJECT)
     assert [one.id for one in records] == (["service.temperatures_differ"] if said else [])
     assert all(said in one.text and one.value == pytest.approx(warmer) for one in records)
@@ -126,6 +131,7 @@ def test_what_is_asked_is_looked_at():
     def log(digest):
         return types.SimpleNamespace(source=None if digest is None else ("a.csv", digest))
 
+    # each record by itself: a fit at each of their limits would take seconds
     assert _faults_of_logs({"worn": log("1")}) == _faults_of_logs({"new": log(None), "worn": log(None)}) == []
     assert _faults_of_logs({"new": log("1"), "worn": log("2")}) == []
     assert [one.where for one in _faults_of_logs({"new": log("1"), "worn": log("1")})] == ["service"]

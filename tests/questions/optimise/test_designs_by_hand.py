@@ -152,6 +152,7 @@ def test_the_torque_that_a_load_has_left_by_hand(needs, holding, used, way):
 def test_a_quantile_is_taken_on_the_bad_side():
     values = np.arange(11.0)[np.newaxis]
     sampled = Sampled({}, 0.9)
+    # a search shows what it ends with, not what it begins with
     assert [float(_quantile(values, name, sampled)[0]) for name in ("loss", "rigidity")] == pytest.approx([9.0, 1.0])
 
 
@@ -161,6 +162,7 @@ def test_samples_have_what_a_calibration_left_correlated():
     space = design_space(need, quantile=0.9, samples=256)
     centre = {name: math.sqrt(low * high) for name, (low, high) in space.bounds.items()}
     options = {"model": "reference", "calibration": "rexroth-2006", "allow_code": False}
+    # a search shows what it ends with, not what it begins with
     case = compute._case(need, space, centre, options)
     factors = _sampled(case, space).factors
     names, covariance = tuple(case.calibration.parameters.values()), np.array(case.calibration.covariance)
@@ -175,6 +177,7 @@ def test_samples_have_what_a_calibration_left_correlated():
 def test_what_is_no_number_does_not_hold():
     costs = np.array([[1.0, 2], [math.nan, 2], [1, math.inf]])
     constraints = np.array([[-1.0], [math.nan], [-math.inf]])
+    # a search shows what it ends with, not what it begins with
     fine, limited = _sound(costs, constraints)
     assert fine.tolist() == [[1, 2], [1e6, 2], [1, 1e6]]
     assert limited.tolist() == [[-1, -1], [1e6, 1], [-1e6, 1]]
@@ -209,6 +212,7 @@ def test_members_by_their_first_objective_with_their_front():
     unjudged = Check.saying(Message("said"), "life", None, None, "1", None, None)
     table = [member(3.0, 9.0), member(1.0, 5.0), member(2.0, 4.0), member(0.5, 99.0, fails),
              member(0.7, 99.0, valid=False), member(2.5, 8.0, unjudged)]  # fmt: skip
+    # a search shows what it ends with, not what it begins with
     found = compute._marked(table, ["loss", "life"])
     assert [one.objectives["loss"] for one in found] == [0.5, 0.7, 1.0, 2.0, 2.5, 3.0]
     assert [one.pareto for one in found] == [False, False, True, False, True, True]
@@ -278,6 +282,7 @@ def test_what_is_said_of_the_kind_of_nut():
 def test_what_a_plan_counts():
     case = types.SimpleNamespace(screw=types.SimpleNamespace(nut=types.SimpleNamespace(one_by_one=True)))
     space = types.SimpleNamespace(options=SearchOptions(population=10, generations=4, elastic_generations=3, members=2))
+    # a search shows what it ends with, not what it begins with
     plain = compute._plan(space, case)
     assert (plain.rigid, plain.elastic, plain.members, plain.total) == (40, 30, 2, 72)
     space.options = SearchOptions(

@@ -230,6 +230,7 @@ def test_numbers_of_a_point_in_a_full_bath(speed, drive, starves):
     )
     life = types.SimpleNamespace(name="running_time", value=7.0)
     found = types.SimpleNamespace(run=types.SimpleNamespace(friction=friction), checks=[check("life", 0.3), life])
+    # numbers of a candidate by hand, without the model that a selection asks
     numbers = candidates._of_point(found, starves=starves)
     more = 0.2 if starves else 0.0
     assert numbers["loss"] == pytest.approx(5.0 + more * abs(speed))
@@ -241,6 +242,7 @@ def test_numbers_of_a_point_in_a_full_bath(speed, drive, starves):
 def test_numbers_of_a_cycle_in_a_full_bath(starves):
     numbers = {"energy_lost": 30.0, "cycle_time": 4.0, "torque_peak": -6.0, "life_time": 9.0}
     report = types.SimpleNamespace(numbers=numbers, full_bath={"energy_lost": 50.0}, motor_torque={"torque_peak": 8.0})
+    # numbers of a candidate by hand, without the model that a selection asks
     found = candidates._of_cycle(report, starves=starves)
     expected = {"loss": 12.5, "drive_torque": 8.0} if starves else {"loss": 7.5, "drive_torque": 6.0}
     assert found == {**expected, "life": 9.0}
@@ -253,6 +255,7 @@ def test_the_shaft_by_hand():
     """A steel cylinder of 40 mm and 1 m has 9.86 kg and 19.7 kg cm²; at a lead of 10 mm that is 779 kg."""
     case = types.SimpleNamespace(installation=None, screw=types.SimpleNamespace(lead=0.010))
     need = types.SimpleNamespace(requirements=Requirements())
+    # numbers of a candidate by hand, without the model that a selection asks
     found = candidates._of_shaft(need, case, 0.040)
     mass = 7850 * math.pi * 0.020**2
     assert found["inertia"] == pytest.approx(mass * 0.020**2 / 2)
@@ -301,6 +304,7 @@ def test_the_length_of_a_nut_by_hand():
     """Its loaded turns and two leads; of two bodies the turns of both."""
     turns = ROW.loaded_turns * ROW.lead
     for nut, length in (("single", turns + 2 * ROW.lead), ("double", 2 * turns + 2 * ROW.lead)):
+        # numbers of a candidate by hand, without the model that a selection asks
         assert candidates._nut_length(Variant(ROW, nut, "", {})) == pytest.approx(length)
 
 
