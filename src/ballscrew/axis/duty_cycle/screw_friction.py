@@ -49,7 +49,7 @@ class ScrewFriction(ByValue):
     #: Largest contact pressure, Pa, and least film parameter; NaN of an element without contacts.
     maximum_pressure: Numbers
     film_parameter: Numbers
-    #: Distinct operating points.
+    #: Operating points that the model was asked for: those of states that were added later count anew.
     points: int
 
     def joined(self, more: ScrewFriction, place: NDArray[np.intp]) -> ScrewFriction:
