@@ -78,8 +78,12 @@ js: $(READY) $(NODE_READY)
 	cd tools/page && npm run --silent check
 
 # into out/docs; one page alone, with its commands and its parts only, into out/page: make docs PAGE=howto/duty
+# What is written while a build goes on is not whole: out/docs/.built stands from its end to the next
 docs: $(READY)
+	@$(if $(PAGE),,rm -f out/docs/.built)
 	OPENBLAS_NUM_THREADS=1 $(BIN)/sphinx-build -W --keep-going -q -b html $(if $(PAGE),$(ALONE),docs out/docs)
+	@$(if $(PAGE),,touch out/docs/.built)
+	$(if $(PAGE),,$(BIN)/python -m pytest -q -n 0 -k built tests/docs/test_links.py)
 
 ALONE = -t alone -D root_doc=$(PAGE) -D include_patterns=$(PAGE).md -d out/page/.doctrees/$(PAGE) docs out/page
 

@@ -11,7 +11,6 @@ import pytest
 from .pages import DOCS, ROOT, blocks, name, pages
 
 BUILT = ROOT / "out" / "docs"
-built = pytest.mark.skipif(not (BUILT / "index.html").is_file(), reason="the pages are not built: make docs")
 
 LINK = re.compile(r"!?\[[^\]]*\]\(<?([^)\s>]+)>?[^)]*\)")
 
@@ -118,13 +117,16 @@ def parsed(path):
     return Page(path)
 
 
+@pytest.fixture
 def built_pages():
+    """The built pages, once all of them are written: ``make docs`` runs these tests at its end."""
+    if not (BUILT / ".built").is_file():
+        pytest.skip("the pages are not built, or are being built: make docs")
     return sorted(BUILT.rglob("*.html"))
 
 
-@built
-def test_no_built_page_asks_for_anything_outside():
-    for path in built_pages():
+def test_no_built_page_asks_for_anything_outside(built_pages):
+    for path in built_pages:
         page = parsed(path)
         assert not [target for target in page.fetched if OUTSIDE.match(target)], path
         assert not [style for style in page.styles if IN_STYLES.search(style)], path
@@ -132,9 +134,8 @@ def test_no_built_page_asks_for_anything_outside():
         assert not IN_STYLES.search(path.read_text(encoding="utf-8")), path
 
 
-@built
-def test_links_of_the_built_pages_lead_somewhere():
-    for path in built_pages():
+def test_links_of_the_built_pages_lead_somewhere(built_pages):
+    for path in built_pages:
         page = parsed(path)
         for target in {*page.links, *page.fetched}:
             parts = urlsplit(target)
