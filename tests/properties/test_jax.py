@@ -35,6 +35,7 @@ OTHERS = {
         rolling=rolling_laws.aihara_rolling,
         ball_force=laws.ProportionalBallForce(),
     ),
+    "Arana": dataclasses.replace(reference, full_film=mixed_friction.arana_traction, inlet=film_laws.flooded_inlet),
     "Eyring": dataclasses.replace(
         corrected,
         full_film=mixed_friction.EyringTraction(),
@@ -50,7 +51,7 @@ OTHERS = {
     ),
 }
 #: What numbers the models leave open.
-GIVEN = {"ball_to_ball_force": 0.02, "pure_rolling_offset": 0.34}
+GIVEN = {"ball_to_ball_force": 0.02, "pure_rolling_offset": 0.34, "pressure_modulus_slope": 0.02}
 #: A play to take differences of; without play there are none relative to it.
 PLAY = {"axial_play": 2e-5}
 #: Inputs that enter late, or at one contact only.

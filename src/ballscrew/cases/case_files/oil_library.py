@@ -26,7 +26,7 @@ LARGEST_FILE = 4_000_000
 _FIELDS = fields_of(DataSheet)
 TEXTS: Mapping[str, str] = {
     "source": "where the numbers are from",
-    "base_oil": "base oil of a grease",
+    "base_oil": "kind of oil, or base oil of a grease",
     "thickener": "thickener of a grease: the viscosities are those of its base oil",
     "nlgi": "consistency of a grease",
 }

@@ -41,7 +41,7 @@ class DefaultUncertainty:
     reason: str
     half_width: float | None = None
     share: float | None = None
-    limits: float | None = None
+    limits: float | tuple[float, float] | None = None
     factor: float | None = None
 
     def about(self, value: float, info: Info) -> Distribution | None:
@@ -55,7 +55,8 @@ class DefaultUncertainty:
         elif self.share is not None:
             found = Normal(value, self.share * above / NORMAL_95)
         elif self.limits is not None:
-            found = Uniform(value * (1 - self.limits), value * (1 + self.limits))
+            below, above = self.limits if isinstance(self.limits, tuple) else (self.limits, self.limits)
+            found = Uniform(value * (1 - below), value * (1 + above))
         else:
             assert self.factor is not None, self.name
             found = LogNormal(value, math.exp(math.log(self.factor) / NORMAL_95))
@@ -67,7 +68,12 @@ def default_uncertainties() -> Mapping[str, DefaultUncertainty]:
     """Those shipped, by the name of the input."""
     text = resources.files("ballscrew").joinpath("data/uncertainties.toml").read_text(encoding="utf-8")
     tables: dict[str, dict[str, Any]] = tomllib.loads(text)
-    return {name: DefaultUncertainty(name=name, **table) for name, table in tables.items()}
+    return {name: DefaultUncertainty(name=name, **_hashable(table)) for name, table in tables.items()}
+
+
+def _hashable(table: Mapping[str, Any]) -> dict[str, Any]:
+    """A table with tuples for its lists."""
+    return {key: tuple(value) if isinstance(value, list) else value for key, value in table.items()}
 
 
 def default_distributions(
@@ -116,6 +122,8 @@ def _counts(name: str, model: FrictionModel, lubricant: Lubricant, exact: Collec
         return traits_of(model.ball_force).uses_imposed_force
     if name == "friction.full_film_friction_coefficient":
         return model.full_film is None
+    if name == "limiting_shear_coefficient":
+        return traits_of(model.full_film).reads_limiting_shear
     if name == "viscosity" and lubricant.follows_temperature:
         return TEMPERATURE.name in exact
     return True

@@ -115,7 +115,7 @@ class DataSheet(ByValue):
     name: str = ""
     #: Where the numbers are from; a key of the bibliography, or words.
     source: str = ""
-    #: Of a grease: its base oil. Empty for an oil.
+    #: The kind of oil, or of the base oil of a grease: "mineral oil", "PAO", "polyglycol"; empty where it is not known.
     base_oil: str = ""
     #: Of a grease: its thickener. Empty for an oil.
     thickener: str = ""

@@ -109,19 +109,35 @@ class Inlet(ByValue):
 
     def __call__(self, conditions: ContactConditions) -> InletFactors:
         """Factors of the film thickness and of the rolling force."""
-        v, u_s = conditions.motion.entrainment_speed, conditions.nominal_sliding_speed
-        xp = namespace(v, u_s)
-        # at rest nothing heats, whatever slides against what
-        slide_to_roll = xp.where(v > 0, film.slide_to_roll_ratio(u_s, xp.where(v > 0, v, 1.0)), 0.0)
-        heating = film.inlet_heating_factor(
-            conditions.maximum_pressure,
-            conditions.equivalent_modulus,
-            conditions.thermal_loading_parameter,
-            slide_to_roll,
-        )
-        oil = conditions.lubricant
+        oil, heating = conditions.lubricant, _heating(conditions)
         replenished = rolling.replenishment_factor(
-            oil.viscosity / oil.density, v, conditions.ball_diameter, self.replenishment_constant
+            oil.viscosity / oil.density,
+            conditions.motion.entrainment_speed,
+            conditions.ball_diameter,
+            self.replenishment_constant,
         )
         supplied = rolling.rolling_starvation_factor(self.inlet_film_ratio)
         return InletFactors(heating, heating * supplied * replenished)
+
+
+@law_traits(alternative=True)
+def flooded_inlet(conditions: ContactConditions) -> InletFactors:
+    """An inlet that its own shear heats (Gupta1992), in a full bath of oil: the track is always full.
+
+    What :class:`Inlet` is without replenishment. Which of the two a ball screw has is not measured.
+    """
+    heating = _heating(conditions)
+    return InletFactors(heating, heating)
+
+
+def _heating(conditions: ContactConditions) -> Ratio:
+    """Share of the film that the heat of the inlet leaves; all of it at rest, whatever slides against what."""
+    v, u_s = conditions.motion.entrainment_speed, conditions.nominal_sliding_speed
+    xp = namespace(v, u_s)
+    slide_to_roll = xp.where(v > 0, film.slide_to_roll_ratio(u_s, xp.where(v > 0, v, 1.0)), 0.0)
+    return film.inlet_heating_factor(
+        conditions.maximum_pressure,
+        conditions.equivalent_modulus,
+        conditions.thermal_loading_parameter,
+        slide_to_roll,
+    )

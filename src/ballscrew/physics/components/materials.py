@@ -35,10 +35,17 @@ from ballscrew.basis.quantities import (
 from ballscrew.basis.records import Message
 from ballscrew.basis.usual_ranges import warn_at_once
 from ballscrew.physics.components.data_sheet import AT_40, AT_100, SHEET_TEMPERATURE, DataSheet, viscosity_index
+from ballscrew.physics.components.oil_grades import (
+    LIMITING_SHEAR_HINT,
+    PARAFFINIC,
+    OilState,
+    oil_of_grade,
+    oil_of_sheet,
+)
 from ballscrew.physics.components.oil_grades import TEMPERATURE as TEMPERATURE
-from ballscrew.physics.components.oil_grades import OilState, oil_of_grade, oil_of_sheet
 from ballscrew.physics.components.oil_grades import grades as grades
 from ballscrew.physics.components.oil_grades import nominal_oil as nominal_oil
+from ballscrew.physics.equations import rheology
 
 
 @names_keywords
@@ -65,7 +72,10 @@ class Material(ByValue):
 
 
 #: The numbers of an oil that its grade, or its data sheet, and its temperature set.
-OF_A_GRADE = ("viscosity", "pressure_viscosity_coefficient", "temperature_coefficient", "density")
+OF_A_GRADE = (
+    "viscosity", "pressure_viscosity_coefficient", "temperature_coefficient", "density", "limiting_shear_coefficient",
+    "pressure_modulus_slope",
+)  # fmt: skip
 
 
 _HOW_TO_MAKE = "make it with Lubricant.from_data_sheet(100e-6, 11.1e-6, 880.0, temperature), or from_grade"
@@ -84,11 +94,12 @@ class Lubricant(ByValue):
     ``dataclasses.replace`` with another ``temperature``, ``sheet`` or ``grade`` changes the numbers that depend on it,
     but for those that are given anew in the same call.
 
-    The temperature coefficient and the conductivity matter where the inlet heats; density and heat
-    capacity are not used yet. The defaults are round figures for mineral oils: the density of
-    Jungnickel2010; the others are from no source (the reference oil FVA 3 has 0.134 W/(m K),
-    Lubricants2023; ISO VG 100 at 40 °C has a temperature coefficient of 0.054 1/K by its constants
-    here, and 0.041 1/K at 60 °C). Raises :class:`~ballscrew.basis.errors.InputError` for
+    The temperature coefficient and the conductivity matter where the inlet heats; density and heat capacity are not
+    used yet. The limit of the shear stress counts where the law of the film asks for it (``full_film`` "arana"). The
+    defaults are round figures for mineral oils: the density of Jungnickel2010, the limit of a paraffinic oil
+    (Arana2019); the others are from no source (the reference oil FVA 3 has 0.134 W/(m K), Lubricants2023; ISO VG 100
+    at 40 °C has a temperature coefficient of 0.054 1/K by its constants here, and 0.041 1/K at 60 °C). Raises
+    :class:`~ballscrew.basis.errors.InputError` for
     values that are not positive.
     """
 
@@ -135,6 +146,26 @@ class Lubricant(ByValue):
         HeatCapacity,
         Info("c_p", "specific heat capacity", above=0, hint="mineral oils have 2000 J/(kg K)", usual=(500.0, 5000.0)),
     ] = 2000.0
+    limiting_shear_coefficient: Annotated[
+        Ratio,
+        Info(
+            r"\Lambda",
+            "limiting shear stress / pressure of the oil",
+            above=0,
+            hint=LIMITING_SHEAR_HINT,
+            usual=(0.005, 0.2),
+        ),
+    ] = PARAFFINIC
+    pressure_modulus_slope: Annotated[
+        Ratio | None,
+        Info(
+            "B",
+            "growth of the pressure modulus 1/alpha with pressure; by default viscosity under pressure is Roelands'",
+            at_least=-0.01,
+            hint="three oils of Arana2019 have 0 to 0.04",
+            usual=(-0.01, 0.1),
+        ),
+    ] = None
 
     #: The grade and the temperature (K) that the oil was made from, where it was: with other ones it is another oil.
     grade: str | None = None
@@ -146,7 +177,7 @@ class Lubricant(ByValue):
 
     def __post_init__(self) -> None:
         temperature = without_unit("lubricant.temperature", self.temperature, TEMPERATURE.unit)
-        faults = faults_of("lubricant", self)
+        faults = faults_of("lubricant", self, optional=("pressure_modulus_slope",))
         if isinstance(temperature, Fault):
             faults.append(temperature)
         elif self.grade is not None and self.sheet is not None:
@@ -176,7 +207,7 @@ class Lubricant(ByValue):
         here, there = (nominal_oil(state) for state in (before, self))
         kept = {name: old for name in OF_A_GRADE if same(getattr(self, name), old := getattr(before, name))}
         ends = {name: (getattr(here, name), getattr(there, name)) for name in kept}
-        moved = {name: old * (ends[name][1] / ends[name][0]) for name, old in kept.items() if not same(*ends[name])}
+        moved = {name: _moved(name, old, *ends[name]) for name, old in kept.items() if not same(*ends[name])}
         return {"grade": there.grade, **moved}
 
     def at(self, temperature: Temperature) -> Lubricant:
@@ -200,6 +231,16 @@ class Lubricant(ByValue):
     def temperature_quantity(self) -> Quantity:
         """The temperature with the bounds that this oil has."""
         return TEMPERATURE if self.sheet is None else SHEET_TEMPERATURE
+
+    def viscosity_under(self, pressure: Pressure) -> Viscosity:
+        """The viscosity under a ``pressure`` (Pa): by the pressure modulus of the oil, without one by Roelands1966.
+
+        The law of the modulus (Mann, in Arana2019) is fitted to measurements to 1 GPa, that of Roelands to 0.5 GPa.
+        """
+        eta_0, alpha_p = self.viscosity, self.pressure_viscosity_coefficient
+        if self.pressure_modulus_slope is not None:
+            return rheology.pressure_modulus_viscosity(eta_0, pressure, alpha_p, self.pressure_modulus_slope)
+        return rheology.roelands_viscosity(eta_0, pressure, rheology.roelands_exponent(eta_0, alpha_p))
 
     @property
     def kinematic_viscosity(self) -> Annotated[KinematicViscosity, Info(r"\nu", "kinematic viscosity", "cSt")]:
@@ -303,3 +344,12 @@ class Lubricant(ByValue):
         """
         state = oil_of_grade(grade, temperature)
         return cls(**{field.name: getattr(state, field.name) for field in dataclasses.fields(state)})
+
+
+def _moved(name: str, old: Any, here: Any, there: Any) -> Any:
+    """A number of an oil at another temperature or grade, by the nominal ones: by their ratio, a slope by their
+    difference, as it may be zero.
+    """
+    if old is None or here is None or there is None:
+        return there
+    return old + (there - here) if name == "pressure_modulus_slope" else old * (there / here)

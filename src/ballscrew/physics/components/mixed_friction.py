@@ -9,6 +9,7 @@ from ballscrew.basis.arrays import ByValue, namespace
 from ballscrew.basis.errors import faults_of, raise_if_any
 from ballscrew.basis.quantities import ArealDensity, Info, Length, Pressure, Ratio, ShearRate, Viscosity
 from ballscrew.physics.components.conditions import ContactConditions
+from ballscrew.physics.components.oil_grades import LIMITING_SHEAR_HINT, PARAFFINIC
 from ballscrew.physics.components.traits import law_traits
 from ballscrew.physics.equations import friction, mixed_lubrication, rheology, traction
 
@@ -227,21 +228,46 @@ def _shared(law: _Friction, asperity_load_share: Ratio, conditions: ContactCondi
 # -- the film alone -------------------------------------------------------------------------------
 
 
+@law_traits(alternative=True, reads_limiting_shear=True)
+def arana_traction(conditions: ContactConditions) -> Ratio:
+    r"""Friction of the film by the oil's own numbers, Arana2019: Eyring's law up to its limit of the shear stress.
+
+    .. math:: \mu_f = \min\left(\frac{\tau_E}{p_m} \sinh^{-1}\left(\frac{\eta u_s}{\tau_E \phi_T h_c}\right),
+        \Lambda\right), \quad \tau_E = \frac{2 \Lambda}{\alpha}
+
+    The viscosity is that at the mean pressure, the coefficient in the Eyring stress that at the greatest one, both by
+    the pressure modulus of the oil where that is known, else by Roelands1966; the film is the central one with the
+    heat of its inlet. Within 0.005 of friction measured between two discs (Arana2019) where the modulus is known.
+    """
+    oil, p_m, u_s = conditions.lubricant, conditions.mean_pressure, conditions.nominal_sliding_speed
+    loaded, moving = p_m > 0, u_s > 0
+    xp = namespace(p_m, u_s, loaded, moving)
+    safe = xp.where(loaded, p_m, 1.0)
+    # below 1 MPa, where a difference of viscosities is lost to rounding, the coefficient is that at 1 MPa
+    greatest = xp.maximum(conditions.maximum_pressure, 1e6)
+    alpha = rheology.secant_pressure_viscosity_coefficient(oil.viscosity, oil.viscosity_under(greatest), greatest)
+    tau_E = traction.arana_eyring_stress(oil.limiting_shear_coefficient, alpha)
+    rate = _shear_rate(conditions, conditions.inlet_film_factor)
+    stress = traction.eyring_shear_stress(oil.viscosity_under(safe), rate, tau_E)
+    limit = traction.limiting_shear_stress(safe, oil.limiting_shear_coefficient)
+    return xp.where(loaded & moving, traction.film_friction_coefficient(xp.minimum(stress, limit), safe), 0.0)
+
+
 @law_traits(alternative=True)
 @dataclasses.dataclass(frozen=True, eq=False)
 class EyringTraction(ByValue):
     """Friction of the film from the mean shear rate and the mean pressure, Eyring's law with a limit.
 
-    Viscosity under pressure by Roelands1966; the stress is that of Eyring1936 but never above the
-    limit of BairWiner1979.
+    Viscosity under pressure by that of the oil (:meth:`~ballscrew.Lubricant.viscosity_under`); the stress is that of
+    Eyring1936 but never above the limit of BairWiner1979. Both numbers are those of the law, not of the oil.
     """
 
     eyring_stress: Annotated[
         Pressure, Info(r"\tau_E", "Eyring stress of the oil", "MPa", above=0, hint="mineral oils have 2 to 10 MPa")
     ] = 5e6
     limiting_shear_coefficient: Annotated[
-        Ratio, Info(r"\Lambda", "limiting shear stress / pressure", above=0, hint="mineral oils have 0.05 to 0.1")
-    ] = 0.08
+        Ratio, Info(r"\Lambda", "limiting shear stress / pressure", above=0, hint=LIMITING_SHEAR_HINT)
+    ] = PARAFFINIC
 
     def __post_init__(self) -> None:
         raise_if_any(faults_of("model.full_film", self))
@@ -263,8 +289,8 @@ class LimitingShearTraction(ByValue):
     """Friction of the film from the mean shear rate and the mean pressure, BairWiner1979."""
 
     limiting_shear_coefficient: Annotated[
-        Ratio, Info(r"\Lambda", "limiting shear stress / pressure", above=0, hint="mineral oils have 0.05 to 0.1")
-    ] = 0.08
+        Ratio, Info(r"\Lambda", "limiting shear stress / pressure", above=0, hint=LIMITING_SHEAR_HINT)
+    ] = PARAFFINIC
 
     def __post_init__(self) -> None:
         raise_if_any(faults_of("model.full_film", self))
@@ -282,14 +308,12 @@ class LimitingShearTraction(ByValue):
 
 
 def _film_viscosity(conditions: ContactConditions) -> Viscosity:
-    oil = conditions.lubricant
-    exponent = rheology.roelands_exponent(oil.viscosity, oil.pressure_viscosity_coefficient)
-    return rheology.roelands_viscosity(oil.viscosity, conditions.mean_pressure, exponent)
+    return conditions.lubricant.viscosity_under(conditions.mean_pressure)
 
 
-def _shear_rate(conditions: ContactConditions) -> ShearRate:
+def _shear_rate(conditions: ContactConditions, inlet_film_factor: Ratio = 1.0) -> ShearRate:
     """Mean shear rate; where there is no film, one so high that only a limit can answer it."""
-    h, u_s = conditions.central_film_thickness, conditions.nominal_sliding_speed
+    h, u_s = conditions.central_film_thickness * inlet_film_factor, conditions.nominal_sliding_speed
     xp = namespace(h, u_s)
     film = h > 0
     return xp.where(film, traction.film_shear_rate(u_s, xp.where(film, h, 1.0)), xp.where(u_s > 0, 1e12, 0.0))

@@ -18,6 +18,7 @@ from ballscrew.basis.quantities import (
     Info,
     PressureCoefficient,
     Quantity,
+    Ratio,
     Temperature,
     TemperatureCoefficient,
     Viscosity,
@@ -26,6 +27,10 @@ from ballscrew.basis.quantities import (
 from ballscrew.basis.records import Message
 from ballscrew.physics.components.data_sheet import ROUNDING, SHEET_TEMPERATURE, DataSheet
 from ballscrew.physics.equations import rheology, viscosity_temperature
+
+#: Limit of the shear stress over the pressure of a paraffinic mineral oil (Höglund, in Arana2019).
+PARAFFINIC = 0.047
+LIMITING_SHEAR_HINT = "paraffinic mineral oils have 0.047, naphthenic ones 0.053, PAO 0.035"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -38,6 +43,8 @@ class OilState:
     pressure_viscosity_coefficient: PressureCoefficient
     temperature_coefficient: TemperatureCoefficient
     density: Density
+    limiting_shear_coefficient: Ratio
+    pressure_modulus_slope: Ratio | None
     sheet: DataSheet | None = None
 
 
@@ -69,7 +76,23 @@ def oil_of_sheet(sheet: DataSheet, temperature: Temperature) -> OilState:
     if fault is not None:
         raise InputError(fault)
     numbers = {name: plain(value) for name, value in sheet.at(temperature)._asdict().items()}
-    return OilState(grade=None, temperature=temperature, sheet=sheet, **numbers)
+    return OilState(
+        grade=None,
+        temperature=temperature,
+        sheet=sheet,
+        limiting_shear_coefficient=limiting_shear_of(sheet.base_oil),
+        pressure_modulus_slope=None,
+        **numbers,
+    )
+
+
+def limiting_shear_of(base_oil: str) -> float:
+    """The limit of shear of a kind of base oil, ``data/oil_grades.toml``; what is mixed or unknown is as mineral oil.
+
+    The words are those of data sheets: "PAO", "mineral oil", "naphthenic mineral oil", "polyglycol".
+    """
+    known = _tables()["limiting_shear"]
+    return float(known.get(base_oil.lower(), PARAFFINIC))
 
 
 def oil_of_grade(grade: str, temperature: Temperature) -> OilState:
@@ -95,6 +118,13 @@ def oil_of_grade(grade: str, temperature: Temperature) -> OilState:
         )
     else:
         alpha_p = rheology.pressure_viscosity_estimate(nu)
+    slope = None
+    if "pressure_modulus_slope_at_0_degC" in oil:
+        slope = plain(
+            rheology.pressure_modulus_slope_linear(
+                temperature, oil["pressure_modulus_slope_at_0_degC"], oil["pressure_modulus_slope_coefficient"]
+            )
+        )
     # numbers were refused above; of an array, elements out of range become NaN
     allowed = is_concrete(temperature) or within_bounds(TEMPERATURE.info, temperature)
     nu = nu if allowed is True else namespace(nu).where(allowed, nu, float("nan"))
@@ -107,6 +137,8 @@ def oil_of_grade(grade: str, temperature: Temperature) -> OilState:
             )
         ),
         density=oil["density"],
+        limiting_shear_coefficient=oil.get("limiting_shear_coefficient", PARAFFINIC),
+        pressure_modulus_slope=slope,
         grade=known[key],
         temperature=temperature,
     )
@@ -135,10 +167,13 @@ def grades() -> list[str]:
     return list(_oils())
 
 
-@functools.cache
 def _oils() -> dict[str, dict[str, Any]]:
-    text = resources.files("ballscrew").joinpath("data/oil_grades.toml").read_text(encoding="utf-8")
-    return tomllib.loads(text)["oils"]
+    return _tables()["oils"]
+
+
+@functools.cache
+def _tables() -> dict[str, dict[str, Any]]:
+    return tomllib.loads(resources.files("ballscrew").joinpath("data/oil_grades.toml").read_text(encoding="utf-8"))
 
 
 def _grade_key(grade: str) -> str:

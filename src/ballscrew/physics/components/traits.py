@@ -38,6 +38,8 @@ class LawTraits:
     lateral_slip: bool = True
     #: Of a law of the force between balls: an imposed force counts.
     uses_imposed_force: bool = True
+    #: Of a law of the film: it reads the limit of the shear stress that the oil has.
+    reads_limiting_shear: bool = False
 
 
 _NONE_DECLARED = LawTraits()

@@ -89,6 +89,19 @@ def pressure_viscosity_linear(
     return 1 / (a_1 + a_2 * (T - 273.15))
 
 
+def pressure_modulus_slope_linear(
+    temperature: Temperature, slope_at_zero: Ratio, slope_per_degree: TemperatureCoefficient
+) -> Ratio:
+    r"""Growth of the pressure modulus with the pressure, linear with temperature.
+
+    .. math:: B = b_1 + b_2 \left(T - 273.15\right)
+
+    SI only: the second number is per degree above 0 °C. Mann, as Arana2019 has it for three oils from 25 to 60 °C.
+    """
+    T, b_1, b_2 = temperature, slope_at_zero, slope_per_degree
+    return b_1 + b_2 * (T - 273.15)
+
+
 def barus_viscosity(
     viscosity: Viscosity, pressure_viscosity_coefficient: PressureCoefficient, pressure: Pressure
 ) -> Viscosity:
@@ -129,6 +142,38 @@ def roelands_viscosity(viscosity: Viscosity, pressure: Pressure, roelands_expone
     eta_0, p, Z = viscosity, pressure, roelands_exponent
     xp = namespace(eta_0, p, Z)
     return eta_0 * xp.exp((xp.log(eta_0) + 9.67) * ((1 + 5.1e-9 * p) ** Z - 1))
+
+
+def pressure_modulus_viscosity(
+    viscosity: Viscosity,
+    pressure: Pressure,
+    pressure_viscosity_coefficient: PressureCoefficient,
+    pressure_modulus_slope: Ratio,
+) -> Viscosity:
+    r"""Viscosity under pressure of an oil whose pressure modulus grows with the pressure.
+
+    .. math:: \eta = \eta_0 \exp\left(\frac{p}{1/\alpha_p + B p}\right)
+
+    Mann, as Arana2019 has it, fitted to measurements to 1 GPa. The inverse of the coefficient is the modulus without
+    pressure; without a slope it is :func:`barus_viscosity`.
+    """
+    eta_0, p, alpha_p, B = viscosity, pressure, pressure_viscosity_coefficient, pressure_modulus_slope
+    xp = namespace(eta_0, p, alpha_p, B)
+    return eta_0 * xp.exp(p / (1 / alpha_p + B * p))
+
+
+def secant_pressure_viscosity_coefficient(
+    viscosity: Viscosity, viscosity_under_pressure: Viscosity, pressure: Pressure
+) -> PressureCoefficient:
+    r"""Pressure–viscosity coefficient of a law by its viscosity at a pressure.
+
+    .. math:: \alpha = \frac{1}{p} \ln\left(\frac{\eta}{\eta_0}\right)
+
+    That of :func:`barus_viscosity` with the same viscosity at this pressure; above zero pressure.
+    """
+    eta_0, eta, p = viscosity, viscosity_under_pressure, pressure
+    xp = namespace(eta_0, eta, p)
+    return xp.log(eta / eta_0) / p
 
 
 def thermal_loading_parameter(

@@ -31,7 +31,7 @@ LAWS: Mapping[str, Mapping[str, Any]] = {
         "root-sum-square": film_laws.root_sum_square_film_parameter,
         "literal": film_laws.literal_film_parameter,
     },
-    "inlet": {"ideal": film_laws.ideal_inlet, "heated": film_laws.Inlet},
+    "inlet": {"ideal": film_laws.ideal_inlet, "heated": film_laws.Inlet, "flooded": film_laws.flooded_inlet},
     "friction": {
         "zhou-hoeprich": mixed_friction.ZhouHoeprich,
         "load-sharing": mixed_friction.LoadSharing,
@@ -41,6 +41,7 @@ LAWS: Mapping[str, Mapping[str, Any]] = {
     },
     "full_film": {
         "none": None,
+        "arana": mixed_friction.arana_traction,
         "eyring": mixed_friction.EyringTraction,
         "limiting-shear": mixed_friction.LimitingShearTraction,
     },
