@@ -36,8 +36,8 @@ from ballscrew.basis.records import Message
 from ballscrew.basis.usual_ranges import warn_at_once
 from ballscrew.physics.components.data_sheet import AT_40, AT_100, SHEET_TEMPERATURE, DataSheet, viscosity_index
 from ballscrew.physics.components.oil_grades import (
-    LIMITING_SHEAR_HINT,
     PARAFFINIC,
+    LimitingShear,
     OilState,
     oil_of_grade,
     oil_of_sheet,
@@ -146,16 +146,7 @@ class Lubricant(ByValue):
         HeatCapacity,
         Info("c_p", "specific heat capacity", above=0, hint="mineral oils have 2000 J/(kg K)", usual=(500.0, 5000.0)),
     ] = 2000.0
-    limiting_shear_coefficient: Annotated[
-        Ratio,
-        Info(
-            r"\Lambda",
-            "limiting shear stress / pressure of the oil",
-            above=0,
-            hint=LIMITING_SHEAR_HINT,
-            usual=(0.005, 0.2),
-        ),
-    ] = PARAFFINIC
+    limiting_shear_coefficient: LimitingShear = PARAFFINIC
     pressure_modulus_slope: Annotated[
         Ratio | None,
         Info(
@@ -233,7 +224,7 @@ class Lubricant(ByValue):
         return TEMPERATURE if self.sheet is None else SHEET_TEMPERATURE
 
     def viscosity_under(self, pressure: Pressure) -> Viscosity:
-        """The viscosity under a ``pressure`` (Pa): by the pressure modulus of the oil, without one by Roelands1966.
+        """Return the viscosity under a ``pressure`` (Pa), in Pa s: by the oil's pressure modulus, or by Roelands1966.
 
         The law of the modulus (Mann, in Arana2019) is fitted to measurements to 1 GPa, that of Roelands to 0.5 GPa.
         """

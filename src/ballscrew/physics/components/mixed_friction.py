@@ -9,7 +9,7 @@ from ballscrew.basis.arrays import ByValue, namespace
 from ballscrew.basis.errors import faults_of, raise_if_any
 from ballscrew.basis.quantities import ArealDensity, Info, Length, Pressure, Ratio, ShearRate, Viscosity
 from ballscrew.physics.components.conditions import ContactConditions
-from ballscrew.physics.components.oil_grades import LIMITING_SHEAR_HINT, PARAFFINIC
+from ballscrew.physics.components.oil_grades import PARAFFINIC, LimitingShear
 from ballscrew.physics.components.traits import law_traits
 from ballscrew.physics.equations import friction, mixed_lubrication, rheology, traction
 
@@ -265,9 +265,7 @@ class EyringTraction(ByValue):
     eyring_stress: Annotated[
         Pressure, Info(r"\tau_E", "Eyring stress of the oil", "MPa", above=0, hint="mineral oils have 2 to 10 MPa")
     ] = 5e6
-    limiting_shear_coefficient: Annotated[
-        Ratio, Info(r"\Lambda", "limiting shear stress / pressure", above=0, hint=LIMITING_SHEAR_HINT)
-    ] = PARAFFINIC
+    limiting_shear_coefficient: LimitingShear = PARAFFINIC
 
     def __post_init__(self) -> None:
         raise_if_any(faults_of("model.full_film", self))
@@ -288,9 +286,7 @@ class EyringTraction(ByValue):
 class LimitingShearTraction(ByValue):
     """Friction of the film from the mean shear rate and the mean pressure, BairWiner1979."""
 
-    limiting_shear_coefficient: Annotated[
-        Ratio, Info(r"\Lambda", "limiting shear stress / pressure", above=0, hint=LIMITING_SHEAR_HINT)
-    ] = PARAFFINIC
+    limiting_shear_coefficient: LimitingShear = PARAFFINIC
 
     def __post_init__(self) -> None:
         raise_if_any(faults_of("model.full_film", self))

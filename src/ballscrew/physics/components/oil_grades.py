@@ -9,7 +9,7 @@ import re
 import tomllib
 from collections.abc import Iterable
 from importlib import resources
-from typing import Any
+from typing import Annotated, Any
 
 from ballscrew.basis.arrays import namespace
 from ballscrew.basis.errors import Fault, InputError, fault_of, is_concrete, nearest
@@ -30,7 +30,16 @@ from ballscrew.physics.equations import rheology, viscosity_temperature
 
 #: Limit of the shear stress over the pressure of a paraffinic mineral oil (Höglund, in Arana2019).
 PARAFFINIC = 0.047
-LIMITING_SHEAR_HINT = "paraffinic mineral oils have 0.047, naphthenic ones 0.053, PAO 0.035"
+LimitingShear = Annotated[
+    Ratio,
+    Info(
+        r"\Lambda",
+        "limiting shear stress / pressure",
+        above=0,
+        hint="paraffinic mineral oils have 0.047, naphthenic ones 0.053, PAO 0.035",
+        usual=(0.005, 0.2),
+    ),
+]
 
 
 @dataclasses.dataclass(frozen=True)
