@@ -130,7 +130,7 @@ def test_what_the_documentation_says(found, name, kind, n, mean, share):
 def test_only_friction_is_calibrated(found):
     names = {name for name, kind in found if kind is not None}
     of_nuts = {"rexroth-double-nut", "rexroth-single-nut", "hiwin-stock", "thk-jis", "xjtu"}
-    assert names == {*of_nuts, "chart-friction"}
+    assert names == {*of_nuts, "chart-friction", "emps", "thk-kr4620a"}
 
 
 def test_the_calibration_reaches_both_kinds_of_nut_with_the_same_numbers(found):

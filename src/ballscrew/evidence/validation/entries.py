@@ -236,6 +236,8 @@ class ValidationSet:
     four_contacts: bool = False
     #: Whether each row could be the one screw that was measured, so that only the range of the ratios says something.
     alternatives: bool = False
+    #: Whether what is stated is of a whole that the screw is a part of: an upper bound, and no value to meet.
+    bound: bool = False
     #: Whether the screws carry a load.
     loaded: bool = False
     #: Of a torque card who measured, when, and what is not stated.

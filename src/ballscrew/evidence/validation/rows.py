@@ -257,6 +257,30 @@ def _unknown_nut(kind: str, known: Mapping[str, Any]) -> Fault:
     return Fault("row.nut", "unknown kind of preloaded nut", kind, remedy)
 
 
+def part_of_a_whole(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
+    """Torque without load of a screw that could be in an axis, against that of the whole axis, which it is a part of.
+
+    Beside it the growth of both from the slowest speed, one over the other. No point of a nut that the model cannot
+    compute.
+    """
+    row, at = screw_of(values), conditions.of(values)
+    kind, whole = str(values["nut"]), float(values["whole_torque"])
+    if kind not in _BRACED:
+        raise InputError(_unknown_nut(kind, _BRACED))
+    nut = _BRACED[kind](preload=float(values["preload"]))
+    if not model.knows(nut):
+        return []
+    speed = float(at.screw_speed)
+    name = f"{row.name}, {speed / RPM:.0f} rpm"
+    band = Band(whole, 0.0, whole)
+    point = _no_load_point(model, row, nut, at, band, name=name, group=row.name, with_model=False, speed=speed)
+    slow = dataclasses.replace(at, screw_speed=float(values["slow_speed"]))
+    growth = point.value / float(_torque_without_load(model, row.screw(nut=nut), slow))
+    return [
+        dataclasses.replace(point, laws={}, definitions={"growth": growth / (whole / float(values["slow_torque"]))})
+    ]
+
+
 def chart_friction(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
     """Friction coefficient of the thread at a tenth of the rating, against the lines of vendors' charts."""
     row, at = screw_of(values), conditions.of(values)

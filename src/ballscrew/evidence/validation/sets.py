@@ -57,6 +57,12 @@ _OF_PLAUSIBLE_SCREWS = {
     **_band_columns("torque", "torque without load of the screws measured"),
 }
 _OF_WIPERS = _quantities(_positive("seal_torque", "N m", "torque of two wipers that could be on the nut"))
+_OF_WHOLES = _quantities(
+    _positive("preload", "N", "preload"),
+    _positive("whole_torque", "N m", "torque of the whole axis"),
+    _positive("slow_speed", "rad/s", "slowest speed of the axis", "rpm"),
+    _positive("slow_torque", "N m", "torque of the whole axis at its slowest speed"),
+)
 _DRAG_LOW, _DRAG_HIGH = (
     Quantity(f"drag_{end}", "N m", Info("T", f"drag torque, {end} end of its range", at_least=0, hint="of a nut"))
     for end in ("low", "high")
@@ -171,6 +177,42 @@ SETS: Mapping[str, ValidationSet] = {
             calibratable=True,
             conditioned=True,
             alternatives=True,
+        ),
+        ValidationSet(
+            name="emps",
+            title="torque without load of a screw that could be in an axis, over the speed",
+            details="size, nut, preload and oil are not stated: each row could be the screw",
+            reference="against the whole, which it must stay below; the growth of both with speed beside it",
+            maker="EMPS",
+            source="EMPS benchmark, Janot, Gautier, Brunot 2019",
+            file="emps.csv",
+            quantity=_torque("N m"),
+            columns=_OF_WHOLES,
+            required=("nut", *_OF_WHOLES),
+            evaluate=rows.part_of_a_whole,
+            axes=("speed", "film_parameter"),
+            calibratable=True,
+            conditioned=True,
+            alternatives=True,
+            bound=True,
+        ),
+        ValidationSet(
+            name="thk-kr4620a",
+            title="torque without load of the screw of an actuator, over the speed with four lubricants",
+            details="preload and temperature are not stated",
+            reference="against the whole, which it must stay below; the growth of both with speed beside it",
+            maker="THK",
+            source="THK, actuators KR",
+            file="thk-kr4620a.csv",
+            quantity=_torque("N m"),
+            columns=_OF_WHOLES,
+            required=("nut", *_OF_WHOLES),
+            evaluate=rows.part_of_a_whole,
+            axes=("speed", "film_parameter"),
+            calibratable=True,
+            conditioned=True,
+            alternatives=True,
+            bound=True,
         ),
         ValidationSet(
             name="chart-friction",

@@ -32,6 +32,7 @@ def _document(entry: Entry) -> dict[str, Any]:
         **({"groups": groups} if (groups := _groups(entry)) else {}),
         **_rules(entry),
         **({"alternatives": True, "range_ratio": list(entry.range_ratio)} if entry.data.alternatives else {}),
+        **({"upper_bound": True} if entry.data.bound else {}),
         **({} if entry.data.card is None else {"card": dict(entry.data.card)}),
         "verdicts": [],
         "checks": documents_of(checks(entry)),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from ballscrew.basis import units
 from ballscrew.basis.output.wrapping import aligned, wrapped
@@ -30,6 +30,7 @@ WORDS: Mapping[str, str] = {
     "at_6_percent": "at a preload of 6 % of the rating",
     "at_8_percent": "at a preload of 8 % of the rating",
     "torque": "torque",
+    "growth": "growth with speed over that of the whole",
     "torque_at_10_rpm": "torque at 10 rpm, as if it were that of a start",
     "uncorrected": "R_nu, without the factor for accuracy",
     "factor_0.55": "R_nu,ar with a factor for accuracy of 0.55",
@@ -78,7 +79,11 @@ def conditions(data: ValidationSet, request: Request) -> str:
     unless = " unless the row has its own" if request.rows is not None else ""
     load = "" if data.loaded else ", no load"
     if data.alternatives:
-        return f"{speed}, oil by row{load}, with and without wipers"
+        return (
+            f"speed and oil by row{load}, no wipers"
+            if data.bound
+            else f"{speed}, oil by row{load}, with and without wipers"
+        )
     wipers = ", no wipers" if data.of_screws else ""
     return f"{speed}, {at.grade} at {temperature}{unless}{load}{wipers}"
 
@@ -96,7 +101,7 @@ def _groups(entries: Sequence[Entry]) -> list[str]:
     """The statistics of each kind of nut, or maker, where there are several; other definitions by the first model."""
     if len(entries[0].groups) < 2:
         return []
-    words = _of_alternatives if entries[0].data.alternatives else _statistics
+    words = _words_of(entries[0].data)
     lines: list[str] = []
     for entry in entries:
         for name, group in entry.groups.items():
@@ -108,8 +113,13 @@ def _groups(entries: Sequence[Entry]) -> list[str]:
     return lines
 
 
+def _words_of(data: ValidationSet) -> Callable[[Entry | RuleEntry], str]:
+    """The statistics that say something of the rows of a set."""
+    return _of_bounds if data.bound else _of_alternatives if data.alternatives else _statistics
+
+
 def _summary(entry: Entry) -> str:
-    words = _of_alternatives if entry.data.alternatives else _statistics
+    words = _words_of(entry.data)
     missing = len(entry.points) - len(entry.counted)
     lost = f", {missing} without a number" if missing else ""
     return f"{_label(entry):<27} n = {len(entry.counted)}, {words(entry)}{lost}"
@@ -117,7 +127,7 @@ def _summary(entry: Entry) -> str:
 
 def _rules(entry: Entry) -> list[str]:
     """Rules of one line over the same rows."""
-    words = _of_alternatives if entry.data.alternatives else _statistics
+    words = _words_of(entry.data)
     return [f"{f'rule: {WORDS[one.rule]}':<52} {words(one)}" for one in entry.rules]
 
 
@@ -134,6 +144,12 @@ def _of_alternatives(found: Entry | RuleEntry) -> str:
     """The range of the ratios of rows that could be the same screw; their mean says nothing."""
     least, greatest = found.range_ratio
     return f"ratio {least:.2f} to {greatest:.2f}, {found.share_in_band or 0:.0%} of these screws in the measured band"
+
+
+def _of_bounds(found: Entry | RuleEntry) -> str:
+    """The range of the shares of a whole."""
+    least, greatest = found.range_ratio
+    return f"{least:.2f} to {greatest:.2f} of the whole, {found.share_in_band or 0:.0%} of the rows below it"
 
 
 def _other_means(entry: Entry) -> list[str]:
