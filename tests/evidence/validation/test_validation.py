@@ -129,7 +129,8 @@ def test_what_the_documentation_says(found, name, kind, n, mean, share):
 
 def test_only_friction_is_calibrated(found):
     names = {name for name, kind in found if kind is not None}
-    assert names == {"rexroth-double-nut", "rexroth-single-nut", "thk-jis", "xjtu", "chart-friction"}
+    of_nuts = {"rexroth-double-nut", "rexroth-single-nut", "hiwin-stock", "thk-jis", "xjtu"}
+    assert names == {*of_nuts, "chart-friction", "emps", "thk-kr4620a"}
 
 
 def test_the_calibration_reaches_both_kinds_of_nut_with_the_same_numbers(found):
@@ -201,6 +202,20 @@ def test_alternatives_have_a_range(found):
     ratios = [point.ratio for point in entry.points]
     assert entry.range_ratio == (min(ratios), max(ratios))
     assert all(point.band == pytest.approx((0.45705, 0.3985, 0.5156)) for point in entry.points)
+
+
+def test_alternatives_stand_with_and_without_wipers(found):
+    """The torque of two wipers is the difference, once by hand: 0.25 N m at 32 mm."""
+    entry = found["xjtu", None]
+    assert {name: len(group.points) for name, group in entry.groups.items()} == {
+        "double": 12, "double, two wipers": 12, "single": 12, "single, two wipers": 12,
+    }  # fmt: skip
+    values = {point.name: point.value for point in entry.points}
+    name = "32 mm, double, VG 100 at 25 °C"
+    assert values[f"{name}, wipers"] == pytest.approx(values[name] + 0.25, rel=1e-12)
+    row = validation.shipped_rows(entry.data)[0]
+    bare = {column: value for column, value in row.items() if column != "seal_torque"}
+    assert len(entry.data.evaluate(entry.model, bare, Conditions())) == 1
 
 
 def test_alternatives_that_a_model_cannot_do_are_left_out():

@@ -20,6 +20,7 @@ from ballscrew.questions.validate import compute as validation
 from ballscrew.questions.validate import document as validation_documents
 from ballscrew.questions.validate import figure as figures
 from ballscrew.questions.validate import text as validation_text
+from support.documents import assert_same
 
 HEADINGS = (
     "nominal_diameter_mm,lead_mm,ball_diameter_mm,circuits,dynamic_load_rating_N,static_load_rating_N,"
@@ -72,7 +73,7 @@ def test_a_list_uncalibrated_first_calibrated_last(every):
     for name, data in SETS.items():
         kinds = [one["calibration"] for one in every if one["set"] == name]
         assert kinds == [None, "rexroth-2006"] if data.calibratable else [None]
-    keys = ["set", "model", "calibration", "n", "mean_ratio", "std_ratio", "share_in_band"]
+    keys = ["set", "model", "calibration", "n", "mean_ratio", "std_ratio", "share_in_band", "used_for"]
     for one in every:
         assert set(keys) | {"rows"} <= set(one)
         assert one["model"] == "reference"
@@ -94,15 +95,49 @@ def test_means_are_those_of_the_rows(every):
         assert one["share_in_band"] == (pytest.approx(sum(bands) / len(bands)) if bands else None)
         for row in one["rows"]:
             assert row["ratio"] == pytest.approx(row["value"] / row["middle"])
+            assert row["band"] == (None if row["low"] is None else [row["low"], row["high"]])
             if row["low"] is not None:
                 assert row["in_band"] == (row["low"] <= row["value"] <= row["high"])
-                assert row["low"] < row["middle"] < row["high"]
+                assert row["low"] < row["middle"]
+                assert row["middle"] == row["high"] if one.get("upper_bound") else row["middle"] < row["high"]
 
 
 def test_static_ratings_stand_beside_the_dynamic_ones(every):
     ratings = next(one for one in every if one["set"] == "hiwin-ratings")
     assert ratings["share_in_band"] is None
     assert all(0.9 < row["static_ratio"] < 1.1 for row in ratings["rows"])
+
+
+def test_bands_of_the_model_stand_beside_those_of_vendors(every):
+    with_bands = {"rexroth-double-nut", "rexroth-single-nut", "hiwin-stock", "thk-jis"}
+    assert {one["set"] for one in every if "share_in_uncertainty_band" in one} == with_bands
+    for one in every:
+        found = [row["in_uncertainty_band"] for row in one["rows"] if "in_uncertainty_band" in row]
+        assert len(found) == (one["n"] if one["set"] in with_bands else 0)
+        for row in one["rows"] if found else ():
+            low, high = row["uncertainty_band"]
+            assert row["in_uncertainty_band"] == (low <= row["middle"] <= high)
+        assert one.get("share_in_uncertainty_band") == (pytest.approx(sum(found) / len(found)) if found else None)
+
+
+def test_what_was_chosen_on_rows_is_told_of_each_set(every):
+    chosen = {one["set"] for one in every if any("calibration" in word for word in one["used_for"])}
+    assert chosen == set(FITTED)
+    never = [one["set"] for one in every if one["used_for"] == []]
+    assert {"hiwin-stock", "thk-jis", "xjtu", "emps", "thk-kr4620a", "support-bearings"} <= set(never)
+
+
+def test_groups_are_kinds_of_nut_or_makers(every):
+    groups = {one["set"]: one.get("groups", {}) for one in every}
+    assert list(groups["hiwin-stock"]) == ["single", "single, spacer balls", "double", "offset"]
+    assert list(groups["support-bearings"]) == ["NSK", "IBC"]
+    for one in every:
+        for name, group in one.get("groups", {}).items():
+            ratios = [row["ratio"] for row in one["rows"] if row["group"] == name]
+            assert group["n"] == len(ratios)
+            assert group["mean_ratio"] == pytest.approx(sum(ratios) / len(ratios))
+            assert group["range_ratio"] == [min(ratios), max(ratios)]
+            assert set(group["exponents"]) <= {"size", "lead"}
 
 
 def test_rows_with_a_maximum_only_are_apart(every):
@@ -129,7 +164,69 @@ def test_own_rows(ballscrew, own):
     assert (before["calibration"], after["calibration"]) == (None, "rexroth-2006")
     shipped = {row["name"]: row for row in documents(ballscrew("validate", "rexroth-single-nut", "--json"))[0]["rows"]}
     for row in before["rows"]:
+        assert_same(row, shipped[row["name"]])
+
+
+STOCK = (
+    "code,nut,starts,spacer_balls,nominal_diameter_mm,pitch_circle_mm,lead_mm,ball_mm,circuits,dynamic_rating_N,"
+    "static_rating_N,drag_low_Nm,drag_high_Nm"
+)
+
+
+def test_a_stock_list_with_its_own_columns(ballscrew, own):
+    """The columns of the list and no others, circuits with and without a product, a least drag of zero among them."""
+    rows = (
+        "R6-1.0T3-FSI,single,1,none,6,6.1,1.0,0.8,1x3,647,1089,0.0,0.01275",
+        "R25-20K3-FSC,single,1,1:1,25,25.6,20,3.175,3,7747,16818,0.03923,0.24517",
+        "R40-8B2-OFSW,offset,1,none,40,41,8,4.763,2.5x2,35637,103980,0.4158,0.86495",
+    )
+    process = ballscrew("validate", "hiwin-stock", "--rows", own(*rows, headings=STOCK), "--json")
+    before, _ = documents(process)
+    assert process.stderr == ""
+    shipped = {row["name"]: row for row in documents(ballscrew("validate", "hiwin-stock", "--json"))[0]["rows"]}
+    assert [row["name"] for row in before["rows"]] == [row.partition(",")[0] for row in rows]
+    for row in before["rows"]:
+        assert_same(row, shipped[row["name"]])
+    assert [row["band"] for row in before["rows"]] == [[0, 0.01275], [0.03923, 0.24517], [0.4158, 0.86495]]
+    assert list(before["groups"]) == ["single", "single, spacer balls", "offset"]
+
+
+def test_bearings_with_their_own_columns(ballscrew, own):
+    headings = "maker,bearing,preload_class,bore_mm,outside_mm,preload_N,rigidity_N_per_um,torque_Nm"
+    rows = ("NSK,TAC B 15x47,C10,15,47,2150,750,0.14", "IBC,BS 17x47,,17,47,875,460,0.04")
+    process = ballscrew("validate", "support-bearings", "--rows", own(*rows, headings=headings), "--json")
+    (found,) = documents(process)
+    assert process.stderr == ""
+    (every,) = documents(ballscrew("validate", "support-bearings", "--json"))
+    shipped = {row["name"]: row for row in every["rows"]}
+    assert [row["name"] for row in found["rows"]] == ["NSK TAC B 15x47, 2150 N", "IBC BS 17x47, 875 N"]
+    for row, rigidity in zip(found["rows"], (750e6, 460e6), strict=True):
         assert row == shipped[row["name"]]
+        assert row["rigidity_ratio"] == row["ratio"] == pytest.approx(row["value"] / rigidity)
+        assert row["torque_ratio"] == row["definitions"]["torque"] != row["rigidity_ratio"]
+
+
+def test_the_summary_is_one_object(ballscrew):
+    found = documents(ballscrew("validate", "rexroth-single-nut", "thk-jis", "--summary", "--json"))["summary"]
+    assert {(row["maker"], row["nut"]) for row in found} == {("Rexroth", "single"), ("THK", "double")}
+    entries = documents(ballscrew("validate", "rexroth-single-nut", "--json"))
+    for entry in entries:
+        (row,) = [
+            one for one in found if one["set"] == entry["set"] and one["name"] == (entry["calibration"] or "reference")
+        ]
+        names = ("n", "mean_ratio", "std_ratio", "share_in_band", "exponents")
+        assert [row[name] for name in names] == [entry[name] for name in names]
+
+
+def test_own_rows_were_never_used(ballscrew, own):
+    file = own(GOOD, OTHER)
+    assert all(one["used_for"] == [] for one in documents(ballscrew("validate", FITTED[1], "--rows", file, "--json")))
+    found = documents(ballscrew("validate", FITTED[1], "--rows", file, "--summary", "--json"))["summary"]
+    assert [row["chosen_on"] for row in found] == [[]] * len(found)
+    faulty = own(GOOD, OTHER.replace("17500", "many"))
+    process = ballscrew("validate", FITTED[1], "--rows", faulty, "--summary", "--json", "--keep-going")
+    assert {row["n"] for row in documents(process)["summary"]} == {1}
+    assert "1 of 2 rows left out" in process.stderr
 
 
 def test_own_rows_with_oil_and_speed(ballscrew, own):
@@ -179,6 +276,8 @@ def test_a_file_needs_its_columns_and_its_set(ballscrew, own):
         (("--temperature", "900 degC"), "--temperature: must be at most 150 degC (900 degC)"),
         (("--speed", "-5 rpm"), "--speed: must not be negative (-5 rpm)"),
         (("--grade", "VG 101010"), "--grade: unknown grade (VG 101010)"),
+        (("--summary", "--to", "ratios.png"), "--summary: is no picture · leave --to out"),
+        (("--summary", "--card", "a.toml"), "--summary: is a table of the sets · leave --card out"),
         (("--to", "ratios.bmp"), "--to: unknown kind of file (ratios.bmp)"),
         (("hiwin-ratings", "--speed", "5 rpm"), "validate: oil and speed do not move these sets (hiwin-ratings)"),
         (
@@ -271,7 +370,8 @@ def test_picture_shows_axes_case_and_all_ratios():
             _, top = panel.get_ylim()
             assert all(0 < point.ratio < top for entry in entries for point in entry.points)
         places = {panel.get_xlabel() for panel in figure.axes}
-        assert places == {"nominal diameter (mm)", "lead / nominal diameter", "speed (rpm)"}
+        of_screws = {"nominal diameter (mm)", "lead / nominal diameter", "lead (mm)", "film parameter at the screw"}
+        assert places == {*of_screws, "speed (rpm)", "bore (mm)", "preload (N)"}
     words = " ".join(" ".join(text.get_text() for text in figure.texts).split())
     for said in (
         "100 rpm, ISO VG 100 at 25 degC",

@@ -15,7 +15,7 @@ from ballscrew.basis.errors import (
     nearest,
 )
 from ballscrew.engine.evaluation.comparison import Candidate
-from ballscrew.engine.evaluation.engines import Engine, engine_faults
+from ballscrew.engine.evaluation.engines import SweepEngine, engine_faults
 from ballscrew.engine.evaluation.outputs import OPERATION, known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.distributions import Distribution, distribution_fault, within
@@ -109,7 +109,7 @@ class BandEvaluator:
         joint: Joint | None,
         point: Mapping[str, Any],
         alternatives: Sequence[Candidate],
-        engine: Engine | None,
+        engine: SweepEngine | None,
         computed: Sequence[str],
     ) -> BandEvaluator:
         """Evaluate the model and the alternatives at the central values."""

@@ -12,7 +12,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ballscrew.engine.evaluation.comparison import Candidate
-from ballscrew.engine.evaluation.engines import Engine
+from ballscrew.engine.evaluation.engines import SweepEngine
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.plan import Configuration, Plan
 from ballscrew.engine.uncertainty.band_evaluation import (
@@ -67,7 +67,7 @@ def bands_of(
     count: int,
     seed: int,
     level: float,
-    engine: Engine | None,
+    engine: SweepEngine | None,
     done: Callable[[int], None] | None = None,
 ) -> PointBands:
     """The bands of :func:`~ballscrew.engine.uncertainty.bands.band` at the points of a group; ``done`` gets the
@@ -104,7 +104,7 @@ def _samples(
     group: PointGroup,
     evaluator: BandEvaluator,
     shares: Values,
-    engine: Engine | None,
+    engine: SweepEngine | None,
     done: Callable[[int], None] | None,
 ) -> Iterator[dict[str, NDArray[Any]]]:
     """The outputs of the samples of each point."""

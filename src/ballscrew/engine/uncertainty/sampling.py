@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from ballscrew.engine.evaluation.engines import Engine
+from ballscrew.engine.evaluation.engines import SweepEngine
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.plan import Configuration, Plan
 from ballscrew.engine.uncertainty.distributions import Distribution, allowed, standard_normal_quantile
@@ -86,7 +86,7 @@ class Sampler:
     fixed: Mapping[str, Any]
     outputs: Sequence[str]
     joint: Joint | None = None
-    engine: Engine | None = None
+    engine: SweepEngine | None = None
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -18,6 +18,8 @@ from ballscrew.basis.quantities import AngularSpeed, Info, Quantity, Temperature
 from ballscrew.basis.records import Record
 from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
 from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.calibrations import calibrations
 from ballscrew.physics.friction.model import FrictionModel
 
 RPM = math.pi / 30
@@ -45,15 +47,14 @@ DESCRIPTORS: Mapping[str, Descriptor] = {
     "preload_share": _descriptor("preload_share", "1", "preload / dynamic load rating"),
     "film_parameter": _descriptor("film_parameter", "1", "film parameter at the screw"),
     "speed": _descriptor("speed", "rad/s", "speed", "rpm"),
+    "bore": _descriptor("bore", "m", "bore", "mm"),
+    "preload": _descriptor("preload", "N", "preload"),
 }
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class Conditions:
-    """Oil and speed at which a model is asked. The defaults are those of the no-load torques of Rexroth2006.
-
-    The vendor names the speed; the oil is an assumption.
-    """
+    """Oil and speed at which a model is asked. The defaults are 100 rpm, which vendors name, and an assumed oil."""
 
     grade: str = "ISO VG 100"
     temperature: Temperature = 298.15
@@ -124,6 +125,15 @@ class UpperLimitOnly(NamedTuple):
         return self.value / self.maximum
 
 
+class OperatingPoint(NamedTuple):
+    """The screw, the oil and the state that a value of a model is of."""
+
+    screw: BallScrew
+    lubricant: Lubricant
+    axial_load: float
+    screw_speed: float
+
+
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class Point:
     """One value of a model and of a row, SI."""
@@ -139,6 +149,12 @@ class Point:
     upper_limits: Sequence[UpperLimitOnly] = ()
     #: Conditions of the model that fail at the point.
     warnings: Sequence[Record] = ()
+    #: What the row is one of, where rows of a set differ in kind: the kind of its nut, or its maker.
+    group: str = ""
+    #: What the value was computed of, where that is one state of one screw.
+    computed_at: OperatingPoint | None = None
+    #: The ends of the uncertainty band of the value, where one was computed.
+    uncertainty: tuple[float, float] | None = None
 
     @property
     def ratio(self) -> float:
@@ -161,6 +177,14 @@ class Point:
         """True where the value lies in the band, ends included; None where there is no band or no value."""
         return self.band.holds(self.value)
 
+    @property
+    def in_uncertainty_band(self) -> bool | None:
+        """True where the middle of the statement lies in the uncertainty band of the value; None without a band."""
+        if self.uncertainty is None or not all(map(math.isfinite, self.uncertainty)):
+            return None
+        low, high = self.uncertainty
+        return low <= self.band.middle <= high
+
 
 Evaluation: TypeAlias = Callable[[FrictionModel, Values, Conditions], list[Point]]
 
@@ -181,8 +205,10 @@ class ValidationSet:
     file: str
     #: Unit of the values, and the one people think in.
     quantity: Quantity
-    #: What the rows state, by column, beside the size of the screw.
-    columns: Mapping[str, Quantity]
+    #: Who states the values, in a word.
+    maker: str
+    #: What the rows state, by column, beside the size of the screw; None is text.
+    columns: Mapping[str, Quantity | None]
     #: Columns without which a row is no use; those of a catalogue row are asked for where it is of a screw.
     required: Sequence[str]
     evaluate: Evaluation
@@ -190,6 +216,16 @@ class ValidationSet:
     axes: tuple[str, str]
     #: Details of the quantity compared.
     details: str = ""
+    #: Other names of columns, by column.
+    aliases: Mapping[str, tuple[str, ...]] = dataclasses.field(default_factory=dict[str, tuple[str, ...]])
+    #: Oil and speed, where they count.
+    conditions: Conditions = dataclasses.field(default_factory=Conditions)
+    #: What of the model was chosen with these rows in sight, calibrations aside; empty where nothing was.
+    used_for: Sequence[str] = ()
+    #: Rules of one line that the stated values are computed by, as far as their digits tell.
+    rules_behind: Sequence[str] = ()
+    #: Names in documents of the ratios of definitions; ``""`` is that of the value compared.
+    ratio_names: Mapping[str, str] = dataclasses.field(default_factory=dict[str, str])
     #: Whether rows are of screws of a catalogue.
     of_screws: bool = True
     #: Whether a friction coefficient or a ball-to-ball force moves the value.
@@ -200,10 +236,17 @@ class ValidationSet:
     four_contacts: bool = False
     #: Whether each row could be the one screw that was measured, so that only the range of the ratios says something.
     alternatives: bool = False
+    #: Whether what is stated is of a whole that the screw is a part of: an upper bound, and no value to meet.
+    bound: bool = False
     #: Whether the screws carry a load.
     loaded: bool = False
     #: Of a torque card who measured, when, and what is not stated.
     card: Mapping[str, Any] | None = None
+
+    @property
+    def calibrations(self) -> list[str]:
+        """The calibrations that were fitted to the torques of these rows."""
+        return [name for name, found in calibrations().items() if self.calibratable and self.file in found.data]
 
     @property
     def description(self) -> str:
@@ -222,6 +265,8 @@ class RuleEntry:
     share_in_band: float | None
     #: Least and greatest ratio.
     range_ratio: tuple[float, float]
+    #: Exponents of the ratio over diameter and lead, see :func:`exponents`.
+    exponents: Mapping[str, float]
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -232,6 +277,11 @@ class Entry:
     model: FrictionModel
     calibration: str | None
     points: Sequence[Point]
+
+    @property
+    def used_for(self) -> list[str]:
+        """What was chosen with these rows in sight: of the model, and the calibrations that were fitted to them."""
+        return [*self.data.used_for, *(f"calibration {name}, fitted" for name in self.data.calibrations)]
 
     @property
     def counted(self) -> Sequence[Point]:
@@ -260,6 +310,29 @@ class Entry:
         return _share([point.in_band for point in self.counted])
 
     @property
+    def share_in_uncertainty_band(self) -> float | None:
+        """Share of the points whose uncertainty band holds the middle of their statement; None where none has one."""
+        return _share([point.in_uncertainty_band for point in self.counted])
+
+    @property
+    def uncertainty_width(self) -> float | None:
+        """Geometric mean of high / low of the uncertainty bands; None where there is none."""
+        ends = [point.uncertainty for point in self.counted if point.in_uncertainty_band is not None]
+        logs = [math.log(one[1] / one[0]) for one in ends if one is not None and one[0] > 0]
+        return math.exp(mean(logs)) if logs else None
+
+    @property
+    def exponents(self) -> Mapping[str, float]:
+        """Exponents of the ratio over diameter and lead, see :func:`exponents`."""
+        return exponents(self.counted, [point.ratio for point in self.counted])
+
+    @property
+    def groups(self) -> dict[str, Entry]:
+        """The points of each group by its name; empty where the points are of no groups."""
+        names = dict.fromkeys(point.group for point in self.points if point.group)
+        return {name: dataclasses.replace(self, points=[p for p in self.points if p.group == name]) for name in names}
+
+    @property
     def rules(self) -> list[RuleEntry]:
         """The rules that have a value for all points, as if each were the model."""
         return [self._rule(name) for name in self.mean_laws]
@@ -275,6 +348,7 @@ class Entry:
             std_ratio=scatter(ratios),
             range_ratio=(min(ratios), max(ratios)),
             share_in_band=_share([p.band.holds(value) for value, p in zip(values, self.points, strict=True)]),
+            exponents=exponents(self.points, ratios),
         )
 
     @property
@@ -318,6 +392,25 @@ def _share(inside: Sequence[bool | None]) -> float | None:
 def _means(found: Sequence[Mapping[str, float]]) -> dict[str, float]:
     names = [name for name in (found[0] if found else ()) if all(name in one for one in found)]
     return {name: mean([one[name] for one in found]) for name in names}
+
+
+#: The descriptors of :func:`exponents`.
+EXPONENTS = ("size", "lead")
+
+
+def exponents(points: Sequence[Point], ratios: Sequence[float]) -> dict[str, float]:
+    """The exponents a and b of ratio ∝ diameter^a · lead^b, one least-squares fit of both to the logarithms.
+
+    Empty where the points do not tell both: fewer than four, or diameters and leads that go together.
+    """
+    if len(points) < 4 or not all(name in point.descriptors for name in EXPONENTS for point in points):
+        return {}
+    columns = [np.log([point.descriptors[name] for point in points]) for name in EXPONENTS]
+    matrix = np.column_stack([np.ones(len(points)), *columns])
+    if np.linalg.matrix_rank(matrix, tol=1e-6) < matrix.shape[1] or min(ratios) <= 0:
+        return {}
+    found, *_ = np.linalg.lstsq(matrix, np.log(ratios))
+    return {name: float(value) for name, value in zip(EXPONENTS, found[1:], strict=True)}
 
 
 # -- which effect is missing ----------------------------------------------------------------------

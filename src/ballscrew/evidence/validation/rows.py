@@ -10,13 +10,17 @@ from typing import Any
 
 import numpy as np
 
+from ballscrew.axis.supports.bearing import SupportBearing
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.quantities import Torque, fields_of
+from ballscrew.basis.quantities import Ratio, Torque, fields_of
 from ballscrew.basis.records import Message
-from ballscrew.evidence.validation.entries import Band, Conditions, Point, UpperLimitOnly, Values
+from ballscrew.evidence.validation.entries import RPM, Band, Conditions, OperatingPoint, Point, UpperLimitOnly, Values
+from ballscrew.files.tables.column_names import YES
 from ballscrew.physics.components.conditions import ContactConditions, Motion
 from ballscrew.physics.components.materials import Lubricant
-from ballscrew.physics.components.nut import Bodies, DoubleNut, Nut, OversizeBallNut, SingleNut
+from ballscrew.physics.components.nut import Bodies, DoubleNut, Nut, OffsetLeadNut, OversizeBallNut, SingleNut
+from ballscrew.physics.components.nut_losses import Seals
+from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import STEEL, BallScrew
 from ballscrew.physics.equations import geometry, hertz, rheology, transmission
 from ballscrew.physics.friction.model import FrictionModel
@@ -38,6 +42,22 @@ USUAL_PRELOAD = 0.10
 
 #: The share of the dynamic load rating at which the friction coefficient is compared with charts that state no load.
 CHART_LOAD = 0.10
+#: The medium preload of HIWIN2016 over the dynamic load rating: printed as 6 to 8 %, of no row by itself.
+MEDIUM_PRELOAD = 0.07
+ENDS_OF_MEDIUM = (0.06, 0.08)
+#: The preload at which Rexroth2006 states nuts with oversize balls.
+USUAL_OF_OVERSIZE = 0.05
+#: Kinds of nut by the words of HIWIN's stock list. Its single nuts that have a drag are braced by oversize balls.
+_STOCK: Mapping[str, type[DoubleNut | OffsetLeadNut | OversizeBallNut]] = {
+    "single": OversizeBallNut, "double": DoubleNut, "offset": OffsetLeadNut,
+}  # fmt: skip
+#: Groups of rows by the kind of nut.
+DOUBLE, SINGLE = "double", "single"
+WITH_SPACERS, WITH_WIPERS = "{nut}, spacer balls", "{nut}, two wipers"
+#: Contact angle of bearings made for screws.
+_OF_SUPPORT_BEARINGS = math.radians(60)
+#: A speed beside that of the set, as some torques of bearings are said to be those of a start, 10 rpm.
+_SLOW = 10 * RPM
 #: Preloaded nuts by the names of case files.
 _BRACED: Mapping[str, type[DoubleNut | OversizeBallNut]] = {"double": DoubleNut, "oversize-balls": OversizeBallNut}
 
@@ -64,19 +84,24 @@ def _descriptors(row: CatalogueRow) -> dict[str, float]:
 
 def _stated(values: Values, name: str) -> Band:
     """The band of two columns. Raises for ends that are the wrong way round."""
-    low, high = float(values[f"{name}_min"]), float(values[f"{name}_max"])
+    return _between(values, f"{name}_min", f"{name}_max")
+
+
+def _between(values: Values, least: str, greatest: str) -> Band:
+    low, high = float(values[least]), float(values[greatest])
     if not low < high:
-        raise InputError(Fault(f"row.{name}_max", "does not exceed the minimum", "", "the smallest torque comes first"))
+        raise InputError(Fault(f"row.{greatest}", "does not exceed the minimum", "", "the smallest torque comes first"))
     return Band((low + high) / 2, low, high)
 
 
 def _unloaded(
     model: FrictionModel, row: CatalogueRow, nut: Nut, conditions: Conditions
-) -> tuple[FrictionResult, dict[str, float]]:
-    """A nut without load at these conditions, and what its row is like."""
-    found = model(row.screw(nut=nut), conditions.lubricant, axial_load=0.0, screw_speed=conditions.screw_speed)
+) -> tuple[OperatingPoint, FrictionResult, dict[str, float]]:
+    """A nut without load at these conditions, its result, and what its row is like."""
+    at = OperatingPoint(row.screw(nut=nut), conditions.lubricant, 0.0, conditions.screw_speed)
+    found = model(at.screw, at.lubricant, axial_load=at.axial_load, screw_speed=at.screw_speed)
     film = float(np.min([np.min(pair.screw.film_parameter) for pair in found.pairs]))
-    return found, {**_descriptors(row), "film_parameter": film}
+    return at, found, {**_descriptors(row), "film_parameter": film}
 
 
 def _drag_laws(
@@ -104,18 +129,18 @@ def _preloaded(values: Values, percent: int) -> float:
 def _no_load_point(
     model: FrictionModel,
     row: CatalogueRow,
-    kind: type[DoubleNut | OversizeBallNut],
-    preload: float,
+    nut: DoubleNut | OffsetLeadNut | OversizeBallNut,
     conditions: Conditions,
     band: Band,
     *,
     name: str = "",
+    group: str = "",
     with_model: bool = True,
     **more: Any,
 ) -> Point:
     """The torque of a preloaded nut without load beside a stated one; ``more`` describes the row further."""
-    found, descriptors = _unloaded(model, row, kind(preload=preload), conditions)
-    two_contacts = kind.contacts_per_ball == 2
+    at, found, descriptors = _unloaded(model, row, nut, conditions)
+    two_contacts, preload = nut.contacts_per_ball == 2, float(nut.preload or 0.0)
     return Point(
         name=name or row.name,
         value=float(found.screw_torque),
@@ -123,6 +148,8 @@ def _no_load_point(
         descriptors={**descriptors, **more},
         laws=_drag_laws(model, row, preload, conditions, band.middle, two_contacts, with_model),
         warnings=found.warning_records,
+        group=group or (DOUBLE if two_contacts else SINGLE),
+        computed_at=at,
     )
 
 
@@ -133,8 +160,7 @@ def double_nut(model: FrictionModel, values: Values, conditions: Conditions) -> 
         _no_load_point(
             model,
             row,
-            DoubleNut,
-            _preloaded(values, percent),
+            DoubleNut(preload=_preloaded(values, percent)),
             at,
             _stated(values, f"no_load_torque_{percent}pct"),
             name=f"{row.name} at {percent} %",
@@ -147,13 +173,11 @@ def double_nut(model: FrictionModel, values: Values, conditions: Conditions) -> 
 def single_nut(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
     """No-load torque of a nut with oversize balls at a preload of 5 %; at 2 % there is a maximum only."""
     row, at = screw_of(values), conditions.of(values)
-    preload, band = _preloaded(values, 5), _stated(values, "no_load_torque_5pct")
-    point = _no_load_point(
-        model, row, OversizeBallNut, preload, at, band, name=f"{row.name} at 5 %", preload_share=0.05
-    )
+    nut, band = OversizeBallNut(preload=_preloaded(values, 5)), _stated(values, "no_load_torque_5pct")
+    point = _no_load_point(model, row, nut, at, band, name=f"{row.name} at 5 %", preload_share=0.05)
     if "no_load_torque_2pct_max" not in values:
         return [point]
-    light, _ = _unloaded(model, row, OversizeBallNut(preload=_preloaded(values, 2)), at)
+    _, light, _ = _unloaded(model, row, OversizeBallNut(preload=_preloaded(values, 2)), at)
     limit = UpperLimitOnly(f"{row.name} at 2 %", float(light.screw_torque), float(values["no_load_torque_2pct_max"]))
     return [dataclasses.replace(point, upper_limits=[limit])]
 
@@ -162,24 +186,99 @@ def worked_example(model: FrictionModel, values: Values, conditions: Conditions)
     """Preload drag of a double nut whose preload is given as a force."""
     row, at = screw_of(values), conditions.of(values)
     band = _stated(values, "drag_torque")._replace(middle=float(values["drag_torque"]))
-    return [_no_load_point(model, row, DoubleNut, float(values["preload"]), at, band)]
+    return [_no_load_point(model, row, DoubleNut(preload=float(values["preload"])), at, band)]
+
+
+def stock_nut(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
+    """Drag of a nut of HIWIN's stock list at a medium preload, with others beside it: those at the ends of what is
+    medium, of single nuts that at 5 %, too.
+
+    No preload is printed for a row. The dynamic load rating that is listed, and so the preload, is taken as that of
+    the circuits of the row: one body of a double nut, one half of a nut with an offset, half of the balls where every
+    second one is a spacer. The ratings by ISO 3408-5 say so: over those listed they are 1.16 to 1.17 for double nuts,
+    1.12 to 1.19 for nuts with an offset and 1.10 to 1.20 for single nuts with spacers in the same circuits of 2.5
+    turns, all by the same turns without load that those circuits have more than the 0.24 taken here. No point of a
+    nut that the model cannot compute.
+    """
+    row, at, kind = screw_of(values), conditions.of(values), str(values["nut"])
+    if kind not in _STOCK:
+        raise InputError(_unknown_nut(kind, _STOCK))
+    spacers = values.get("spacer_balls") == YES
+    rated = float(values["dynamic_load_rating"])
+
+    def nut(share: Ratio) -> DoubleNut | OffsetLeadNut | OversizeBallNut:
+        return _STOCK[kind](preload=share * rated, spacer_balls=spacers)
+
+    if not model.knows(nut(MEDIUM_PRELOAD)):
+        return []
+    band = _between(values, "drag_low", "drag_high")
+    group = WITH_SPACERS.format(nut=kind) if spacers else kind
+    point = _no_load_point(model, row, nut(MEDIUM_PRELOAD), at, band, group=group, preload_share=MEDIUM_PRELOAD)
+    shares = ENDS_OF_MEDIUM if kind != SINGLE else (USUAL_OF_OVERSIZE, *ENDS_OF_MEDIUM)
+    others = np.asarray(_torque_without_load(model, row.screw(nut=nut(np.array(shares))), at))
+    definitions = {
+        f"at_{100 * share:.0f}_percent": float(torque) / band.middle
+        for share, torque in zip(shares, others, strict=True)
+    }
+    return [dataclasses.replace(point, definitions=definitions)]
+
+
+def _torque_without_load(model: FrictionModel, screw: BallScrew, at: Conditions) -> Torque:
+    return model(screw, at.lubricant, axial_load=0.0, screw_speed=at.screw_speed).screw_torque
 
 
 def plausible_screw(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
     """No-load torque of a screw that could be the measured one, against what two of its kind had.
 
-    No point of a nut that the model cannot compute.
+    Where the row has a torque of wipers there is a second point with them. No point of a nut that the model cannot
+    compute.
     """
     row, at = screw_of(values), conditions.of(values)
     kind, preload = str(values["nut"]), float(values["preload"])
     if kind not in _BRACED:
-        remedy = " or ".join(f'"{name}"' for name in _BRACED)
-        raise InputError(
-            Fault("row.nut", "unknown kind of preloaded nut", kind, Message("write {remedy}", {"remedy": remedy}))
-        )
-    if not model.knows(_BRACED[kind](preload=preload)):
+        raise InputError(_unknown_nut(kind, _BRACED))
+    bare = _BRACED[kind](preload=preload)
+    if not model.knows(bare):
         return []
-    return [_no_load_point(model, row, _BRACED[kind], preload, at, _stated(values, "torque"), with_model=False)]
+    group = DOUBLE if bare.contacts_per_ball == 2 else SINGLE
+    nuts = {row.name: (bare, group)}
+    if wipers := float(values.get("seal_torque", 0.0)):
+        sealed = dataclasses.replace(bare, losses={"seals": Seals(wipers)})
+        nuts[f"{row.name}, wipers"] = sealed, WITH_WIPERS.format(nut=group)
+    band = _stated(values, "torque")
+    return [
+        _no_load_point(model, row, nut, at, band, name=name, group=group, with_model=False)
+        for name, (nut, group) in nuts.items()
+    ]
+
+
+def _unknown_nut(kind: str, known: Mapping[str, Any]) -> Fault:
+    remedy = Message("write {remedy}", {"remedy": " or ".join(f'"{name}"' for name in known)})
+    return Fault("row.nut", "unknown kind of preloaded nut", kind, remedy)
+
+
+def part_of_a_whole(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
+    """Torque without load of a screw that could be in an axis, against that of the whole axis, which it is a part of.
+
+    Beside it the growth of both from the slowest speed, one over the other. No point of a nut that the model cannot
+    compute.
+    """
+    row, at = screw_of(values), conditions.of(values)
+    kind, whole = str(values["nut"]), float(values["whole_torque"])
+    if kind not in _BRACED:
+        raise InputError(_unknown_nut(kind, _BRACED))
+    nut = _BRACED[kind](preload=float(values["preload"]))
+    if not model.knows(nut):
+        return []
+    speed = float(at.screw_speed)
+    name = f"{row.name}, {speed / RPM:.0f} rpm"
+    band = Band(whole, 0.0, whole)
+    point = _no_load_point(model, row, nut, at, band, name=name, group=row.name, with_model=False, speed=speed)
+    slow = dataclasses.replace(at, screw_speed=float(values["slow_speed"]))
+    growth = point.value / float(_torque_without_load(model, row.screw(nut=nut), slow))
+    return [
+        dataclasses.replace(point, laws={}, definitions={"growth": growth / (whole / float(values["slow_torque"]))})
+    ]
 
 
 def chart_friction(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
@@ -286,6 +385,42 @@ def rigidity_of_double_nuts(model: FrictionModel, values: Values, conditions: Co
 
 def _tangent(screw: BallScrew, preload: float, bodies: Bodies | None) -> float:
     return float(ball_loads(screw, DoubleNut(preload=preload), 0.0, bodies=bodies).rigidity)
+
+
+# -- bearings of the shaft -------------------------------------------------------------------------
+
+
+def support_bearing(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
+    """Axial rigidity of a preloaded pair of 60° bearings, and its torque beside it, from the contacts of the screw.
+
+    Balls, their number and the grooves are those that :class:`~ballscrew.axis.supports.bearing.SupportBearing` takes
+    where none are given: catalogues print none.
+    """
+    at, preload = conditions.of(values), float(values["preload"])
+    pair = SupportBearing(
+        bore=float(values["bore"]),
+        outside_diameter=float(values["outside"]),
+        contact_angle=_OF_SUPPORT_BEARINGS,
+        lubricant=at.lubricant,
+        preload=preload,
+        model=model,
+    )
+    found, slow = (pair(OperatingState(0.0, speed)) for speed in (at.screw_speed, _SLOW))
+    torque = float(values["torque"])
+    return [
+        Point(
+            name=f"{values['maker']} {values['bearing']}, {preload:g} N",
+            value=float(pair.rigidity()),
+            band=Band(float(values["rigidity"])),
+            descriptors={"bore": float(pair.bore), "preload": preload},
+            definitions={
+                "torque": float(found.friction_effort) / torque,
+                "torque_at_10_rpm": float(slow.friction_effort) / torque,
+            },
+            warnings=found.warning_records,
+            group=str(values["maker"]),
+        )
+    ]
 
 
 # -- balls between rings --------------------------------------------------------------------------

@@ -20,7 +20,10 @@ def validate(
         list[Path] | None,
         typer.Option("--card", metavar="PATH", help="A torque card, or a folder of them, in place of the sets."),
     ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="One JSON list, SI units.")] = False,
+    summary: Annotated[
+        bool, typer.Option("--summary", help="No-load torques by maker and kind of nut in one table, and no rows.")
+    ] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON list, SI units; of --summary one object.")] = False,
     to: Annotated[
         Path | None, typer.Option("--to", "-o", metavar="FILE", help="Also draw the ratios: .png, .svg or .pdf.")
     ] = None,
@@ -51,6 +54,7 @@ def validate(
     from ballscrew.questions.shared import chart_files as files
     from ballscrew.questions.validate import compute as validation
     from ballscrew.questions.validate import document as documents
+    from ballscrew.questions.validate import summary as summaries
     from ballscrew.questions.validate import text
 
     request = validation.request(
@@ -63,19 +67,28 @@ def validate(
         temperature=temperature,
         speed=speed,
         cards=card or [],
+        summary=summary,
+        to=to,
     )
     if to is not None:
         files.check_picture(to)
-    found = []
     for note in request.notes:
         typer.echo(note, err=True)
-    for entries, notes in validation.evaluate(request):
+    found = []
+    for entries, notes in validation.evaluate(request) if not summary else ():
         found.append(entries)
         for note in notes:
             typer.echo(note, err=True)
         if not as_json:
             typer.echo(("\n" if len(found) > 1 else "") + text.text_of(entries, request))
-    if as_json:
+    if summary or (request.everything and not as_json):
+        table, notes = summaries.summary(request, found)
+        for note in notes:
+            typer.echo(note, err=True)
+        if found:
+            typer.echo("")
+        typer.echo(json_text.as_json(summaries.document(table)) if as_json else summaries.text_of(table))
+    elif as_json:
         typer.echo(json_text.as_json(documents.documents([entry for entries in found for entry in entries])))
     if to is not None:
         from ballscrew.questions.validate import figure as figures  # matplotlib is slow to import

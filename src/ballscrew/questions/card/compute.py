@@ -57,6 +57,7 @@ def set_of(card: TorqueCard) -> ValidationSet:
         title=card.title,
         details="torque without load over the speed",
         reference="against the mean of both directions and the uncertainty of the instrument",
+        maker=str(about["who"]),
         source=f"{about['who']}, {about['when'].isoformat()}, {about['licence']}",
         file="",
         quantity=_TORQUE,

@@ -23,6 +23,7 @@ from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.friction.calibrations import Calibration, calibrated, calibration
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.questions.card import compute as torque_cards
+from ballscrew.questions.validate.uncertainty import with_bands
 
 DEFAULT_CALIBRATION = "rexroth-2006"
 _ALIASES: Mapping[str, tuple[str, ...]] = {
@@ -41,13 +42,20 @@ class Request:
     sets: Sequence[ValidationSet]
     model: FrictionModel
     calibration: Calibration | None
-    conditions: Conditions
+    #: Oil and speed in place of those of the sets, by the names of CONDITIONS.
+    given: Mapping[str, Any] = dataclasses.field(default_factory=dict[str, Any])
     rows: Path | None = None
     keep_going: bool = False
     #: Torque cards and folders of them, in place of the sets.
     cards: Sequence[Path] = ()
     #: What is left out of all sets, and why.
     notes: Sequence[str] = ()
+    #: Whether no set was named.
+    everything: bool = False
+
+    def conditions_of(self, data: ValidationSet) -> Conditions:
+        """Oil and speed of a set, but for those that were given."""
+        return dataclasses.replace(data.conditions, **self.given)
 
 
 def request(
@@ -61,6 +69,8 @@ def request(
     temperature: str | None = None,
     speed: str | None = None,
     cards: Sequence[Path] = (),
+    summary: bool = False,
+    to: Path | None = None,
 ) -> Request:
     """The request that options mean. Raises :class:`~ballscrew.basis.errors.InputError` with all faults found."""
     faults = [Fault("validate", "unknown set", name, nearest(name, SETS)) for name in names if name not in SETS]
@@ -72,7 +82,10 @@ def request(
     has_conditions = grade is not None or temperature is not None or speed is not None
     if cards and (names or rows is not None or has_conditions):
         faults.append(Fault("--card", "goes with no set, rows or conditions", "", "a card has its own"))
-    conditions = _conditions(grade, temperature, speed, faults)
+    if summary and (cards or to is not None):
+        problem = "is a table of the sets" if cards else "is no picture"
+        faults.append(Fault("--summary", problem, "", f"leave {'--card' if cards else '--to'} out"))
+    given = _conditions(grade, temperature, speed, faults)
     raise_if_any(faults)
     found, notes = _sets(names, MODELS[model]) if not cards else ([], [])
     if has_conditions and not any(data.conditioned for data in found):
@@ -83,11 +96,12 @@ def request(
         model=MODELS[model],
         # a calibration goes with its model, unless it is asked for
         calibration=chosen if calibration_name or chosen.model == model else None,
-        conditions=conditions,
+        given=given,
         rows=rows,
         keep_going=keep_going,
         cards=cards,
         notes=notes,
+        everything=not names and not cards,
     )
 
 
@@ -102,7 +116,9 @@ def _sets(names: Sequence[str], model: FrictionModel) -> tuple[list[ValidationSe
     return [data for data in wanted if data.name not in cannot], notes
 
 
-def _conditions(grade: str | None, temperature: str | None, speed: str | None, faults: list[Fault]) -> Conditions:
+def _conditions(
+    grade: str | None, temperature: str | None, speed: str | None, faults: list[Fault]
+) -> Mapping[str, Any]:
     """The conditions of the options; what is wrong with them goes to the list of faults."""
     given: dict[str, Any] = {} if grade is None else {"grade": grade}
     for option, name, text in (("--temperature", "temperature", temperature), ("--speed", "screw_speed", speed)):
@@ -116,12 +132,11 @@ def _conditions(grade: str | None, temperature: str | None, speed: str | None, f
         else:
             people = fault if fault is value else units.in_display_units(fault, quantity, text)
             faults.append(dataclasses.replace(people, where=option))
-    conditions = Conditions(**given)
     try:
-        _ = conditions.lubricant
+        _ = Conditions(**given).lubricant
     except InputError as error:
         faults += [dataclasses.replace(fault, where="--grade") for fault in error.faults if "grade" in fault.where]
-    return conditions
+    return given
 
 
 # -- rows -----------------------------------------------------------------------------------------
@@ -134,7 +149,11 @@ def columns_of(data: ValidationSet) -> list[Column]:
     further = [] if not data.conditioned else list(CONDITIONS.items())
     conditions = [Column(name, quantity, _ALIASES.get(name, ())) for name, quantity in further]
     return [
-        dataclasses.replace(column, required=column.required or column.name in data.required)
+        dataclasses.replace(
+            column,
+            required=column.required or column.name in data.required,
+            aliases=(*column.aliases, *data.aliases.get(column.name, ())),
+        )
         for column in (*screw, *own, *conditions)
     ]
 
@@ -147,18 +166,27 @@ def evaluate(request: Request) -> Iterator[tuple[list[Entry], list[str]]]:
         models: list[tuple[FrictionModel, str | None]] = [(request.model, None)]
         if data.calibratable and request.calibration is not None:
             models.append((calibrated(request.model, request.calibration), request.calibration.name))
-        if request.rows is None:
-            with resources.as_file(_shipped(data.file)) as path:
-                points, notes = _points(path, data, models, request)
-        else:
-            points, notes = _points(request.rows, data, models, request)
-        yield (
-            [
-                Entry(data=data, model=model, calibration=name, points=[point for row in points for point in row[i]])
-                for i, (model, name) in enumerate(models)
-            ],
-            notes,
-        )
+        entries, notes = entries_of(data, models, request)
+        # of screws each of which could be the one measured, only the range says something
+        yield entries if data.alternatives else [with_bands(entry) for entry in entries], notes
+
+
+def entries_of(
+    data: ValidationSet, models: Sequence[tuple[FrictionModel, str | None]], request: Request
+) -> tuple[list[Entry], list[str]]:
+    """A set with models and the names of their calibrations, without uncertainty bands, and notes on rows left out."""
+    if request.rows is None:
+        with resources.as_file(_shipped(data.file)) as path:
+            points, notes = _points(path, data, models, request)
+    else:
+        points, notes = _points(request.rows, data, models, request)
+        # nothing was chosen on rows that somebody brings
+        data = dataclasses.replace(data, file="", used_for=(), rules_behind=())
+    entries = [
+        Entry(data=data, model=model, calibration=name, points=[point for row in points for point in row[i]])
+        for i, (model, name) in enumerate(models)
+    ]
+    return entries, notes
 
 
 def _points(
@@ -167,7 +195,7 @@ def _points(
     """The points of each row, model by model."""
     return made(
         read(path, columns_of(data)),
-        lambda row: [data.evaluate(model, row.values, request.conditions) for model, _ in models],
+        lambda row: [data.evaluate(model, row.values, request.conditions_of(data)) for model, _ in models],
         request.keep_going,
     )
 

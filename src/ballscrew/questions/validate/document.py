@@ -10,7 +10,7 @@ from typing import Any
 from ballscrew.basis import units
 from ballscrew.basis.records import Message, Record
 from ballscrew.basis.records import documents as documents_of
-from ballscrew.evidence.validation.entries import Entry, Point
+from ballscrew.evidence.validation.entries import Entry, Point, ValidationSet
 
 
 def documents(entries: Sequence[Entry]) -> list[dict[str, Any]]:
@@ -27,33 +27,73 @@ def _document(entry: Entry) -> dict[str, Any]:
         "mean_ratio": entry.mean_ratio,
         "std_ratio": entry.std_ratio,
         "share_in_band": entry.share_in_band,
-        **({"static_mean_ratio": static} if (static := entry.mean_definitions.get("static")) is not None else {}),
-        **({"rules": rules} if (rules := [dataclasses.asdict(rule) for rule in entry.rules]) else {}),
+        **_more(entry),
+        "used_for": entry.used_for,
+        **({"groups": groups} if (groups := _groups(entry)) else {}),
+        **_rules(entry),
         **({"alternatives": True, "range_ratio": list(entry.range_ratio)} if entry.data.alternatives else {}),
+        **({"upper_bound": True} if entry.data.bound else {}),
         **({} if entry.data.card is None else {"card": dict(entry.data.card)}),
         "verdicts": [],
         "checks": documents_of(checks(entry)),
         "warnings": documents_of(warnings(entry)),
-        "rows": [_row(point, entry.data.quantity.unit) for point in entry.points],
+        "rows": [_row(point, entry.data) for point in entry.points],
     }
 
 
-def _row(point: Point, unit: str) -> dict[str, Any]:
+def _more(entry: Entry) -> dict[str, Any]:
+    """Statistics of rows beyond the ratio and its scatter: own uncertainty bands, exponents, other definitions."""
+    share, means = entry.share_in_uncertainty_band, entry.mean_definitions
+    return {
+        **({} if share is None else {"share_in_uncertainty_band": share, "uncertainty_width": entry.uncertainty_width}),
+        "exponents": dict(entry.exponents),
+        **{f"{name}_mean_ratio": means[name] for name in entry.data.ratio_names if name in means},
+        **({"definitions": dict(means)} if means else {}),
+    }
+
+
+def _groups(entry: Entry) -> dict[str, Any]:
+    """The statistics of the rows of each kind of nut, or of each maker, and the rules over them."""
+    return {
+        name: {
+            "n": len(group.counted),
+            "mean_ratio": group.mean_ratio,
+            "std_ratio": group.std_ratio,
+            "range_ratio": list(group.range_ratio),
+            "share_in_band": group.share_in_band,
+            **_more(group),
+            **_rules(group),
+        }
+        for name, group in entry.groups.items()
+    }
+
+
+def _rules(entry: Entry) -> dict[str, Any]:
+    return {"rules": rules} if (rules := [dataclasses.asdict(rule) for rule in entry.rules]) else {}
+
+
+def _row(point: Point, data: ValidationSet) -> dict[str, Any]:
     ratios = {
         "definitions": dict(point.definitions),
         "laws": dict(point.laws),
         "apart": [{**apart._asdict(), "ratio": apart.ratio} for apart in point.upper_limits],
     }
+    low, high, certain = point.band.low, point.band.high, point.uncertainty
+    named = {key: point.definitions.get(name) if name else point.ratio for name, key in data.ratio_names.items()}
     return {
         "name": point.name,
-        "unit": unit,
+        "unit": data.quantity.unit,
+        **({"group": point.group} if point.group else {}),
         "value": point.value,
         **point.band._asdict(),
+        "band": None if low is None or high is None else [low, high],
         "ratio": point.ratio,
         "in_band": point.in_band,
         "residual": point.residual,
         "residual_in_half_bands": point.deviation,
-        **({"static_ratio": point.definitions["static"]} if "static" in point.definitions else {}),
+        **({} if certain is None else {"uncertainty_band": list(certain)}),
+        **({} if certain is None else {"in_uncertainty_band": point.in_uncertainty_band}),
+        **{key: ratio for key, ratio in named.items() if ratio is not None},
         **{name: found for name, found in ratios.items() if found},
         "descriptors": dict(point.descriptors),
         "warnings": [f"{record.name}: {record.text}" for record in point.warnings],

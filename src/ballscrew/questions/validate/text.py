@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from ballscrew.basis import units
 from ballscrew.basis.output.wrapping import aligned, wrapped
@@ -26,6 +26,12 @@ WORDS: Mapping[str, str] = {
     "tangent_at_30": "tangent at 30 % of the rating",
     "double_nut_at_10": "double nut at a preload of 10 %, rigid bodies",
     "double_nut_at_10_elastic": "double nut at a preload of 10 %, elastic bodies",
+    "at_5_percent": "at a preload of 5 % of the rating",
+    "at_6_percent": "at a preload of 6 % of the rating",
+    "at_8_percent": "at a preload of 8 % of the rating",
+    "torque": "torque",
+    "growth": "growth with speed over that of the whole",
+    "torque_at_10_rpm": "torque at 10 rpm, as if it were that of a start",
     "uncorrected": "R_nu, without the factor for accuracy",
     "factor_0.55": "R_nu,ar with a factor for accuracy of 0.55",
     "factor_0.6": "R_nu,ar with a factor for accuracy of 0.6",
@@ -41,8 +47,10 @@ def text_of(entries: Sequence[Entry], request: Request) -> str:
         f"{data.name}: {data.description}",
         f"  {'; '.join(filter(None, [source_of(data, request), conditions(data, request)]))}",
     ]
+    lines += [f"  {_used(entries[0])}"]
     lines += [f"  {_summary(entry)}" for entry in entries]
     lines += [f"  {line}" for line in (*_rules(entries[0]), *_other_means(entries[0]))]
+    lines += [f"  {line}" for line in _groups(entries)]
     lines += ["", *(f"  {line}" for line in _table(entries))]
     apart = _apart(entries)
     if apart:
@@ -61,8 +69,9 @@ def conditions(data: ValidationSet, request: Request) -> str:
     """``100 rpm, ISO VG 100 at 25 degC, no wipers``; nothing where they do not count."""
     if not data.conditioned:
         return ""
+    at = request.conditions_of(data)
     speed, temperature = (
-        units.shown(getattr(request.conditions, name), quantity)
+        units.shown(getattr(at, name), quantity)
         for name in ("screw_speed", "temperature")
         for quantity in (CONDITIONS[name],)
         if quantity is not None
@@ -70,16 +79,47 @@ def conditions(data: ValidationSet, request: Request) -> str:
     unless = " unless the row has its own" if request.rows is not None else ""
     load = "" if data.loaded else ", no load"
     if data.alternatives:
-        return f"{speed}, oil by row{load}, no wipers"
-    return f"{speed}, {request.conditions.grade} at {temperature}{unless}{load}, no wipers"
+        return (
+            f"speed and oil by row{load}, no wipers"
+            if data.bound
+            else f"{speed}, oil by row{load}, with and without wipers"
+        )
+    wipers = ", no wipers" if data.of_screws else ""
+    return f"{speed}, {at.grade} at {temperature}{unless}{load}{wipers}"
 
 
 def _label(entry: Entry) -> str:
     return f"calibrated ({entry.calibration})" if entry.calibration else f"uncalibrated ({entry.model.name})"
 
 
+def _used(entry: Entry) -> str:
+    """What was chosen with the rows in sight."""
+    return f"chosen on these rows: {'; '.join(entry.used_for) or 'nothing of the model'}"
+
+
+def _groups(entries: Sequence[Entry]) -> list[str]:
+    """The statistics of each kind of nut, or maker, where there are several; other definitions by the first model."""
+    if len(entries[0].groups) < 2:
+        return []
+    words = _words_of(entries[0].data)
+    lines: list[str] = []
+    for entry in entries:
+        for name, group in entry.groups.items():
+            means = group.mean_definitions if entry is entries[0] else {}
+            own = {other: value for other, value in means.items() if other in entry.data.ratio_names}
+            own |= {other: value for other, value in means.items() if other not in entry.mean_definitions}
+            others = "".join(f"; {WORDS[other]} {value:.3f}" for other, value in own.items())
+            lines.append(f"{f'{_label(entry)}, {name}':<52} n = {len(group.counted)}, {words(group)}{others}")
+    return lines
+
+
+def _words_of(data: ValidationSet) -> Callable[[Entry | RuleEntry], str]:
+    """The statistics that say something of the rows of a set."""
+    return _of_bounds if data.bound else _of_alternatives if data.alternatives else _statistics
+
+
 def _summary(entry: Entry) -> str:
-    words = _of_alternatives if entry.data.alternatives else _statistics
+    words = _words_of(entry.data)
     missing = len(entry.points) - len(entry.counted)
     lost = f", {missing} without a number" if missing else ""
     return f"{_label(entry):<27} n = {len(entry.counted)}, {words(entry)}{lost}"
@@ -87,13 +127,16 @@ def _summary(entry: Entry) -> str:
 
 def _rules(entry: Entry) -> list[str]:
     """Rules of one line over the same rows."""
-    words = _of_alternatives if entry.data.alternatives else _statistics
+    words = _words_of(entry.data)
     return [f"{f'rule: {WORDS[one.rule]}':<52} {words(one)}" for one in entry.rules]
 
 
 def _statistics(found: Entry | RuleEntry) -> str:
     share = "" if found.share_in_band is None else f", {found.share_in_band:.0%} of rows in their band"
     scatter = f" ± {found.std_ratio:.3f}" if math.isfinite(found.std_ratio) else ""
+    width = None if isinstance(found, RuleEntry) else found.uncertainty_width
+    if isinstance(found, Entry) and width is not None:
+        share += f"; own 95 % band, high / low {width:.2g}, holds {found.share_in_uncertainty_band:.0%} of the middles"
     return f"mean ratio {found.mean_ratio:.3f}{scatter}{share}"
 
 
@@ -101,6 +144,12 @@ def _of_alternatives(found: Entry | RuleEntry) -> str:
     """The range of the ratios of rows that could be the same screw; their mean says nothing."""
     least, greatest = found.range_ratio
     return f"ratio {least:.2f} to {greatest:.2f}, {found.share_in_band or 0:.0%} of these screws in the measured band"
+
+
+def _of_bounds(found: Entry | RuleEntry) -> str:
+    """The range of the shares of a whole."""
+    least, greatest = found.range_ratio
+    return f"{least:.2f} to {greatest:.2f} of the whole, {found.share_in_band or 0:.0%} of the rows below it"
 
 
 def _other_means(entry: Entry) -> list[str]:
@@ -115,7 +164,8 @@ def _table(entries: Sequence[Entry]) -> list[str]:
     for entry in entries:
         heading += ["calibrated" if entry.calibration else "model", "ratio"]
         heading += [""] if banded else []
-    others = entries[0].mean_definitions
+    # beside two models there is no room for them
+    others = entries[0].mean_definitions if len(entries) == 1 else {}
     lines = [[*heading, *(name.replace("_", " ") for name in others)]]
     for same in zip(*(entry.points for entry in entries), strict=True):
         band = same[0].band

@@ -1,0 +1,137 @@
+"""No-load torques by maker and kind of nut in one table: the model, its calibrations, and rules of one line."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from ballscrew.basis.output.wrapping import aligned, wrapped
+from ballscrew.evidence.validation.entries import Entry, RuleEntry
+from ballscrew.physics.friction.calibrations import calibrated, calibrations
+from ballscrew.physics.sizing.rules import DRAG_RULES, RULES
+from ballscrew.questions.validate.compute import Request, entries_of
+
+#: What the rows of the table are of.
+MODEL, CALIBRATION, RULE = "model", "calibration", "rule"
+_BEHIND = "rule {rule}: the values stated are computed by it"
+_HEADINGS: Sequence[str] = ("maker", "nut", "what", "n", "mean ratio", "scatter", "in band", "d0^", "Ph^", "rows")
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class SummaryRow:
+    """A model or a rule against the no-load torques of one maker for one kind of nut."""
+
+    maker: str
+    nut: str
+    #: The set that the rows are of.
+    set: str
+    #: One of ``model``, ``calibration`` and ``rule``.
+    kind: str
+    name: str
+    n: int
+    mean_ratio: float
+    #: Standard deviation of a sample, divided by n − 1; NaN of one row.
+    std_ratio: float
+    share_in_band: float | None
+    #: Exponents of the ratio over diameter and lead, of one fit of both; empty where the rows do not tell them.
+    exponents: Mapping[str, float]
+    #: What was chosen with these rows in sight; empty where they were never used.
+    chosen_on: Sequence[str]
+
+
+def summary(request: Request, found: Sequence[Sequence[Entry]] = ()) -> tuple[list[SummaryRow], list[str]]:
+    """The table of the sets of a request that are torques of known nuts, and notes on rows left out.
+
+    ``found`` has entries that were computed before, whose notes were said then.
+    """
+    known = {(entry.data.name, entry.calibration): entry for entries in found for entry in entries}
+    rows: list[SummaryRow] = []
+    notes: list[str] = []
+    for entries, of_rows in _entries(request, known):
+        rows += _of_groups(entries)
+        notes += of_rows if not found else []
+    return rows, notes
+
+
+def _entries(
+    request: Request, known: Mapping[tuple[str, str | None], Entry]
+) -> Iterator[tuple[list[Entry], list[str]]]:
+    """Each set with the model, and with every calibration of it, and notes on its rows."""
+    fits = [found for found in calibrations().values() if found.model == request.model.name]
+    for data in request.sets:
+        if not data.of_screws or not data.calibratable or data.loaded or data.alternatives:
+            continue
+        models = [(request.model, None), *((calibrated(request.model, fit), fit.name) for fit in fits)]
+        missing = [(model, name) for model, name in models if (data.name, name) not in known]
+        computed, notes = entries_of(data, missing, request) if missing else ([], [])
+        every = {**known, **{(data.name, entry.calibration): entry for entry in computed}}
+        yield [every[data.name, name] for _, name in models], notes
+
+
+def _of_groups(entries: Sequence[Entry]) -> Iterator[SummaryRow]:
+    """The rows of a set: its models and rules, one kind of nut after the other."""
+    for group in entries[0].groups:
+        of_group = [entry.groups[group] for entry in entries]
+        for entry in of_group:
+            name = entry.calibration or entry.model.name
+            fitted = [f"calibration {name}, fitted"] if name in entry.data.calibrations else []
+            chosen = [*entry.data.used_for, *fitted]
+            yield _row(entry, group, CALIBRATION if entry.calibration else MODEL, name, entry, chosen)
+        for rule in of_group[0].rules:
+            if rule.rule in DRAG_RULES:
+                behind = [_BEHIND.format(rule=rule.rule)] if rule.rule in of_group[0].data.rules_behind else []
+                yield _row(of_group[0], group, RULE, rule.rule, rule, behind)
+
+
+def _row(entry: Entry, group: str, kind: str, name: str, of: Entry | RuleEntry, chosen: Sequence[str]) -> SummaryRow:
+    return SummaryRow(
+        maker=entry.data.maker,
+        nut=group,
+        set=entry.data.name,
+        kind=kind,
+        name=name,
+        n=len(entry.counted) if isinstance(of, Entry) else of.n,
+        mean_ratio=of.mean_ratio,
+        std_ratio=of.std_ratio,
+        share_in_band=of.share_in_band,
+        exponents=of.exponents,
+        chosen_on=chosen,
+    )
+
+
+def document(rows: Sequence[SummaryRow]) -> dict[str, Any]:
+    """The table as a document."""
+    return {"summary": [dataclasses.asdict(row) for row in rows]}
+
+
+def text_of(rows: Sequence[SummaryRow]) -> str:
+    """The table for people, and what was chosen on the rows of each maker."""
+    lines: list[list[str]] = [[*_HEADINGS]]
+    last = ("", "")
+    for row in rows:
+        place = (row.maker, row.nut)
+        words = ["", ""] if place == last else [row.maker, row.nut]
+        lines.append([*words, *_cells(row)])
+        last = place
+    head = "no-load torques by maker and kind of nut: model / middle of the band; exponents of one fit over d0 and Ph"
+    table = [f"  {line}" for line in aligned(lines, of_text=(0, 1, 2, 9))]
+    return "\n".join([head, "", *table, "", *map(wrapped, _choices(rows))])
+
+
+def _choices(rows: Sequence[SummaryRow]) -> list[str]:
+    """A line for each set that something was chosen on."""
+    chosen: dict[str, dict[str, None]] = {}
+    for row in rows:
+        chosen.setdefault(row.set, {}).update(dict.fromkeys(row.chosen_on))
+    return [f"  chosen on {name}: {'; '.join(words)}" for name, words in chosen.items() if words]
+
+
+def _cells(row: SummaryRow) -> list[str]:
+    who = f"rule: {RULES[row.name].title}" if row.kind == RULE else row.name
+    share = "–" if row.share_in_band is None else f"{row.share_in_band:.0%}"
+    exponents = [f"{row.exponents[name]:+.2f}" if name in row.exponents else "–" for name in ("size", "lead")]
+    scatter = f"{row.std_ratio:.2f}" if math.isfinite(row.std_ratio) else "–"
+    used = "chosen on" if row.chosen_on else "never used"
+    return [who, str(row.n), f"{row.mean_ratio:.2f}", scatter, share, *exponents, used]
