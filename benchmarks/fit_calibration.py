@@ -2,8 +2,8 @@
 
 ``rexroth-2006-rubbing`` has one number, the force between balls in units of the load of a ball; ``rexroth-2006`` two,
 that and the boundary friction coefficient. Least squares of (model − middle) / half the band over all no-load torques
-of ``rexroth-double-nut`` (7 and 10 %) and ``rexroth-single-nut`` (5 %), all with the same weight. Nothing else is
-fitted, and nothing by hand.
+of ``rexroth-double-nut`` (7 and 10 %) and ``rexroth-single-nut`` (5 %), all with the same weight. Those of other makers
+are of one number (:mod:`maker_calibrations`). Nothing else is fitted, and nothing by hand.
 
     python benchmarks/fit_calibration.py            print the fits
     python benchmarks/fit_calibration.py --write    and store them in src/ballscrew/data/calibrations.toml
@@ -40,6 +40,9 @@ from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.validate import compute as validation
 from calibration_trends import CLASSES, FITTED, strata_table, trends_table
+from maker_calibrations import FITS as MAKERS
+from maker_calibrations import OBJECTIVE as OF_RATIO
+from maker_calibrations import line_of
 
 OBJECTIVE = "least squares of (model - middle) / half the band, every row with the same weight"
 START = (0.12, 0.0075)
@@ -231,28 +234,54 @@ def fit(rival: Rival, kept: Callable[[Entry, Point], bool] = lambda *_: True) ->
     return Fit(found.x, variance * np.linalg.pinv(found.jac.T @ found.jac), n, cost)
 
 
+class Stored(NamedTuple):
+    """A fit with all that is stored of it."""
+
+    maker: str
+    contacts_per_ball: Sequence[int]
+    symbols: Sequence[str]
+    fit: Fit
+    objective: str
+    sets: Sequence[str]
+
+
+def stored(found: Mapping[str, Fit]) -> dict[str, Stored]:
+    """All calibrations: those of Rexroth's tables, then one number for each of other makers."""
+    every = {
+        name: Stored("Rexroth", (2, 4), DECLARED[name].names, one, OBJECTIVE, FITTED) for name, one in found.items()
+    }
+    for name, of_maker in MAKERS.items():
+        line = line_of(of_maker.rows())
+        fit = Fit(np.array([line.share]), np.array([[line.variance]]), len(line.rows), line.cost)
+        every[name] = Stored(of_maker.maker, (2,), BOTH[1:], fit, OF_RATIO, of_maker.sets)
+    return every
+
+
 def toml_text(found: Mapping[str, Fit]) -> str:
     """The calibrations as they are stored."""
     lines = ["# Fitted by a command and stored as it came out; nothing here is typed by hand."]
-    for name, one in found.items():
-        fitted = [FIELDS[symbol] for symbol in DECLARED[name].names]
+    for name, kept in stored(found).items():
+        one, fitted = kept.fit, [FIELDS[symbol] for symbol in kept.symbols]
         values = dict(zip(PARAMETERS, (BOUNDARY, START[1]), strict=True)) | dict(zip(fitted, one.values, strict=True))
         rows = ", ".join("[" + ", ".join(f"{number:.6e}" for number in row) + "]" for row in one.covariance.tolist())
         lines += [
             f"[{name}]",
             'model = "reference"',
+            f'maker = "{kept.maker}"',
+            "# the kinds of nut that it was fitted to, by the contacts of a ball",
+            f"contacts_per_ball = {json.dumps(kept.contacts_per_ball)}",
             *(f"{field} = {value:.9g}" for field, value in values.items()),
             f"fitted = {json.dumps(fitted)}",
             "# covariance of what was fitted, in that order",
             f"covariance = [{rows}]",
             f"rows = {one.rows}",
             f"cost = {one.cost:.6f}",
-            f'objective = "{OBJECTIVE}"',
+            f'objective = "{kept.objective}"',
             f'version = "{ballscrew.__version__}"',
             'command = "python benchmarks/fit_calibration.py --write"',
             "",
             f"[{name}.data]",
-            *(f'"{SETS[one].file}" = "{validation.fingerprint(SETS[one].file)}"' for one in FITTED),
+            *(f'"{SETS[one].file}" = "{validation.fingerprint(SETS[one].file)}"' for one in kept.sets),
             "",
         ]
     return "\n".join(lines[:-1]) + "\n"

@@ -38,6 +38,7 @@ EXAMPLES: Mapping[str, str | float] = {
     "pour_point": "-24 degC",
     "lowest_temperature": "-20 degC",
     "highest_temperature": "120 degC",
+    "pressure_modulus_slope": 0.02,
     "ball_to_ball_force": "0.0167 N",
     "pure_rolling_offset": 0.34,
     "dynamic_load_rating": "50.3 kN",

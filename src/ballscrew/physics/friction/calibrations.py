@@ -34,6 +34,10 @@ class Calibration(ByValue):
     name: str
     #: The model that was fitted.
     model: str
+    #: Whose rows or rule it was fitted to.
+    maker: str
+    #: The kinds of nut that it was fitted to, by the contacts of a ball.
+    contacts_per_ball: Sequence[int]
     boundary_friction_coefficient: float
     share_of_load: float
     #: The numbers that were fitted, in the order of the covariance; others are those of the model.

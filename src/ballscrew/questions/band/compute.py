@@ -23,7 +23,8 @@ from ballscrew.engine.uncertainty.default_uncertainties import JUDGEMENT
 from ballscrew.engine.uncertainty.distributions import Distribution
 from ballscrew.engine.uncertainty.sampling import Joint, JointParts
 from ballscrew.physics.components.traits import traits_of
-from ballscrew.physics.friction.calibrations import PARAMETERS
+from ballscrew.physics.friction.calibrations import PARAMETERS, calibrated, calibrations
+from ballscrew.physics.solvers.load_distribution import preload_of
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.compare import compute as comparison
 from ballscrew.questions.shared.options import options_of
@@ -33,6 +34,8 @@ if TYPE_CHECKING:  # its solvers are slow to import
 
 #: Points of the curve, of a screw and of a whole nut, and how far it goes beyond the operating point.
 _POINTS, _NUT_POINTS, _BEYOND = 25, 9, 2.0
+#: Slot of the calibrations of makers among the alternatives of a band.
+OF_MAKERS = "calibration"
 #: Share of the samples in a band by default.
 LEVEL = 0.95
 #: Flags of the command line by the fields in which the analysis finds faults.
@@ -66,9 +69,11 @@ class BandReport:
 
 
 def alternatives(case: Case) -> list[Candidate]:
-    """The case's model with each law whose traits declare it an alternative.
+    """The case's model with each law whose traits declare it an alternative, and with what makers' torques ask for.
 
-    The other coefficients that a model has for a law of its own are not an alternative.
+    The other coefficients that a model has for a law of its own are not an alternative. Of a preloaded nut without a
+    calibration it is not known whose rows it would meet: the calibrations of makers (:func:`of_makers`) are as likely as
+    none.
 
     A named calibration holds for the laws that it was fitted with: those whose coefficients it sets are not exchanged.
     With any other law a fit would have found other numbers: of a case that a fit wrote none is exchanged.
@@ -76,14 +81,41 @@ def alternatives(case: Case) -> list[Candidate]:
     if case.fit:
         return []
     _, laws = comparison.candidates(case)
+    makers = of_makers(case)
     numbers = [] if case.calibration is None else PARAMETERS.values()
     fitted = {name.partition(".")[0] for name in numbers}
     return [
-        law
-        for law in laws
-        if law.name in LAWS[law.slot] and traits_of(getattr(law.model, law.slot)).alternative
-        if law.slot not in fitted
+        *(
+            law
+            for law in laws
+            if law.name in LAWS[law.slot] and traits_of(getattr(law.model, law.slot)).alternative
+            if law.slot not in fitted
+        ),
+        *makers,
     ]
+
+
+def of_makers(case: Case) -> list[Candidate]:
+    """The case's model with the calibration of each maker, of one number, for a preloaded nut of the kinds it is of.
+
+    Makers contradict each other by a factor of 1.7 at equal nuts, and nothing tells whose a nut without a calibration
+    is like. None with a calibration, without preload, where spacers part the balls, and where the case says itself what
+    the balls press with.
+    """
+    nut, model = case.screw.nut, case.model
+    pressed = {"ball_force", "ball_chain"} & set(model.changes)
+    if case.calibration is not None or case.fit or pressed or nut.spacer_balls or not _preloaded(case):
+        return []
+    return [
+        Candidate(name, calibrated(model, found), OF_MAKERS)
+        for name, found in calibrations().items()
+        if found.model == model.name and tuple(found.fitted) == ("share_of_load",)
+        if nut.contacts_per_ball in found.contacts_per_ball
+    ]
+
+
+def _preloaded(case: Case) -> bool:
+    return bool(np.any(preload_of(case.screw, case.screw.nut) > 0))
 
 
 @overflow_as_input_error()
