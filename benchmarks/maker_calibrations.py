@@ -1,8 +1,8 @@
 """Calibrations by maker: one number each, the force between balls over the load of a ball, on declared rows.
 
-The torque of a nut without load is linear in that number, so least squares of model / stated − 1 have one step. ``hiwin``
-is fitted on the rows of ``hiwin-stock`` that ``data/validation/splits.toml`` declares, ``jis`` on the rule of JIS B 1192
-for the sizes of ``rexroth-double-nut`` and its worked example. Both are of nuts with two contacts a ball.
+The torque of a nut without load is linear in that number, so least squares of model / stated − 1 have one step.
+``hiwin`` is fitted on the rows of ``hiwin-stock`` that ``data/validation/splits.toml`` declares, ``jis`` on the rule
+of JIS B 1192 for the sizes of ``rexroth-double-nut`` and its worked example. Both are of nuts with two contacts a ball.
 
     python benchmarks/maker_calibrations.py     what they predict of rows that were left out of the fit, as Markdown
 """

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple, overload
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from ballscrew.basis.displayed import Displayed
 from ballscrew.basis.errors import Fault, accepts_units, nearest, raise_if_any
@@ -78,6 +79,16 @@ class OutputBand:
     missing_share: float
 
 
+class Narrowing(NamedTuple):
+    """The band of the first output if one cause were known: an input by its name, or the law of a slot."""
+
+    name: str
+    #: Whether the cause is a slot of laws.
+    of_laws: bool
+    low: float
+    high: float
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class Band(Displayed):
     """Result of :func:`band`, by output."""
@@ -93,6 +104,9 @@ class Band(Displayed):
     #: Share of the samples that lie outside the validity of the model, and of each reason that occurs.
     invalid_share: float
     reasons: Mapping[str, float]
+    #: Of the first output, what narrows its band the most where it is known; None for one that may be negative or where
+    #: nothing is uncertain.
+    narrowing: Narrowing | None = None
     #: The samples themselves, where they were asked for: inputs and outputs by name.
     samples: Mapping[str, Values] | None = None
 
@@ -245,8 +259,44 @@ def band(
         self_locking_share=float(np.mean(locks[numbers])) if np.any(numbers) else float("nan"),
         invalid_share=1 - float(np.mean(found["valid"])),
         reasons={reason: share for reason, share in reasons.items() if share > 0},
+        narrowing=_narrowing(evaluator, outputs[0], found, shares, level) if outputs else None,
         samples=kept if keep_samples else None,
     )
+
+
+#: Samples by the rank of an input: the mean of each of so many classes is what the input explains.
+_CLASSES = 32
+
+
+def _narrowing(
+    evaluator: BandEvaluator, output: str, found: Mapping[str, NDArray[Any]], shares: Values, level: float
+) -> Narrowing | None:
+    """The narrowest of the bands that are left when one cause is known.
+
+    A slot is known by the model's own law. What an input explains is the mean of the logarithm over its rank; without
+    it the rest is left about the mean at its median.
+    """
+    if output not in POSITIVE:
+        return None
+    laws = evaluator.law_factors_at(0)
+    drawn = Sample(**{name: found[name] for name in Sample._fields if name in found})
+    of_laws = shares[evaluator.inputs :]
+    values = DERIVED_OUTPUTS[output](drawn._replace(factor=sample_law_factors(laws, of_laws)))
+    if not np.all(values > 0):
+        return None
+    logs, below_above = np.log(values), tails(level)
+    ends: list[Narrowing] = []
+    for name, place in zip(evaluator.ratios, range(len(laws)), strict=True):
+        kept = [np.ones(1) if i == place else factors for i, factors in enumerate(laws)]
+        left = DERIVED_OUTPUTS[output](drawn._replace(factor=sample_law_factors(kept, of_laws)))
+        ends.append(Narrowing(name, True, *quantiles(left, below_above)))
+    for name, row in zip(evaluator.sampler.names, shares, strict=False):
+        classes = np.minimum((row * _CLASSES).astype(int), _CLASSES - 1)
+        counts = np.bincount(classes, minlength=_CLASSES)
+        means = np.bincount(classes, logs, minlength=_CLASSES) / np.maximum(counts, 1)
+        left = logs - means[classes] + (means[_CLASSES // 2 - 1] + means[_CLASSES // 2]) / 2
+        ends.append(Narrowing(name, False, *map(float, np.exp(quantiles(left, below_above)))))
+    return min(ends, key=lambda one: one.high / one.low, default=None)
 
 
 def _band_over(

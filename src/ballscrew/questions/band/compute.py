@@ -72,8 +72,8 @@ def alternatives(case: Case) -> list[Candidate]:
     """The case's model with each law whose traits declare it an alternative, and with what makers' torques ask for.
 
     The other coefficients that a model has for a law of its own are not an alternative. Of a preloaded nut without a
-    calibration it is not known whose rows it would meet: the calibrations of makers (:func:`of_makers`) are as likely as
-    none.
+    calibration it is not known whose rows it would meet: each calibration of a maker (:func:`of_makers`) is as likely
+    as none.
 
     A named calibration holds for the laws that it was fitted with: those whose coefficients it sets are not exchanged.
     With any other law a fit would have found other numbers: of a case that a fit wrote none is exchanged.

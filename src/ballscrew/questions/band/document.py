@@ -11,11 +11,12 @@ from ballscrew.basis.quantities import Quantity, quantities_of
 from ballscrew.basis.records import Measured, Message, Named, Record, documents
 from ballscrew.cases.case_files.case_file import Case
 from ballscrew.engine.evaluation.outputs import known_outputs
+from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.bands import OutputBand
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.friction.validity import NUT_CONDITIONS
 from ballscrew.questions.band.answer import results
-from ballscrew.questions.band.compute import BandReport
+from ballscrew.questions.band.compute import OF_MAKERS, BandReport
 from ballscrew.questions.run.compute import Run
 from ballscrew.questions.run.document import document as run_document
 from ballscrew.questions.shared import declared
@@ -24,6 +25,8 @@ _TORQUE = "screw_torque"
 _KNOWN = quantities_of(FrictionResult)[_TORQUE]
 #: The numbers of the sentences that are ends of bands, which are rounded outward.
 _LOW_ENDS, _HIGH_ENDS = ("low", "inputs_low", "laws_low"), ("high", "inputs_high", "laws_high", "greatest")
+#: A cause is named where the band is so much narrower without it, as a share of its width on a logarithmic axis.
+_WORTH_SAYING = 0.9
 _CALIBRATED = Message(
     "calibrated to {log}: what the fit held counts as known, no law is exchanged; "
     "on rows held out the model was off by {off}"
@@ -85,7 +88,8 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
     )
     records = [units.record(message, id="band.torque", subject=_TORQUE, value=torque.median, unit=quantity.unit)]
     records += beside_laws(torque, quantity)
-    records += _full_bath(torque.both.high, report.flooded_torque)
+    records += _narrowing(report, case, quantity)
+    records += _full_bath(report)
     if case.fit:
         log, off = case.fit.get("log"), case.fit.get("holdout_rms")
         message = _CALIBRATED.of(log=str(log) if log else Message("a log"), off=_torque_in_file(off, quantity))
@@ -101,24 +105,57 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
     return records
 
 
-def _full_bath(high: float, flooded: float | None) -> list[Record]:
-    """That a band has the starved track only, and where the torque of the full bath lies; empty where none starves."""
+def _narrowing(report: BandReport, case: Case, quantity: Quantity) -> list[Record]:
+    """What narrows the band the most where it is known, and how far; empty where nothing does by a tenth."""
+    found, both = report.band.narrowing, report.band[_TORQUE].both
+    if found is None or not both.low > 0 or not both.high / both.low > 1:
+        return []
+    share = math.log(found.high / found.low) / math.log(both.high / both.low)
+    if not share < _WORTH_SAYING:
+        return []
+    if found.name == OF_MAKERS:
+        cause = Message("whose nut it is like, by a maker's calibration or a torque that was measured")
+    elif found.of_laws:
+        cause = Message("which law of the {slot} holds", {"slot": found.name.replace("_", " ")})
+    else:
+        known = Configuration(case.model, case.screw, case.lubricant).inputs
+        cause = Message(known[found.name][1].info.meaning)
+    message = Message(
+        "what would narrow it the most is {cause}: known, it would end at {low} and {high}, {percent} % as wide",
+        {
+            "cause": cause,
+            "low": Measured(found.low, quantity, toward=-1),
+            "high": Measured(found.high, quantity, toward=1),
+            "percent": Measured(100 * share, digits=2),
+        },
+    )
+    return [units.record(message, id="band.narrowing", subject=_TORQUE, value=share)]
+
+
+def _full_bath(report: BandReport) -> list[Record]:
+    """Where the torque of the full bath lies in a band of both tracks, or beside one of the starved track only."""
+    high, flooded = report.band[_TORQUE].both.high, report.flooded_torque
     if flooded is None:
         return []
     torque = {"torque": Measured(flooded, _KNOWN)}
-    message = (
-        Message(
+    if "inlet" in report.band.alternatives:
+        message = Message(
+            "the band holds oil that comes back into the track late, as in bearings, and a full bath of oil, "
+            "{torque}: which of them a ball screw has is not measured",
+            torque,
+        )
+    elif flooded > high:
+        message = Message(
             "the band takes oil to come back into the track late, as in bearings; "
             "a full bath of oil gives {torque}: above it",
             torque,
         )
-        if flooded > high
-        else Message(
+    else:
+        message = Message(
             "the band takes oil to come back into the track late, as in bearings; "
             "a full bath of oil gives {torque}: within it",
             torque,
         )
-    )
     return [
         units.record(
             message, id="band.flooded", subject=_TORQUE, severity="warning", holds=flooded <= high,
