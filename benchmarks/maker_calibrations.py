@@ -108,7 +108,8 @@ def jis_rows() -> list[Row]:
 
 FITS: Mapping[str, MakerFit] = {
     "hiwin": MakerFit("HIWIN", ("hiwin-stock",), hiwin_rows),
-    "jis": MakerFit("THK", ("rexroth-double-nut", "thk-jis"), jis_rows),
+    # of Rexroth's nuts the sizes alone
+    "jis": MakerFit("THK", ("thk-jis",), jis_rows),
 }
 
 

@@ -60,7 +60,7 @@ def test_json(drive, ballscrew):
         assert found[name]["value"] == pytest.approx(without["results"][name], rel=1e-12)
     assert found["self_locking_share"] == 0
     assert found["inputs"]["temperature"]["distribution"].startswith("normal, mean 313.15 K")
-    assert found["inputs"]["friction.full_film_friction_coefficient"]["source"] == "SKF2018"
+    assert found["inputs"]["friction.full_film_friction_coefficient"]["source"] == "Arana2019"
     assert {law["name"] for law in found["laws"]["rolling"]} == {"olaru", "houpert", "aihara"}
 
 
@@ -111,11 +111,11 @@ def test_ends_are_rounded_outward_and_the_value_is_that_of_the_run(drive, ballsc
 
 
 def test_run_and_report_say_so(example, ballscrew):
-    """Of the vertical axis the band of inputs and laws ends below that of the inputs alone."""
-    vertical = example.with_name("vertical_axis.toml")
-    process = ballscrew("run", vertical, "--band", "--samples", "256")
+    """Of the feed drive the band of inputs and laws ends below that of the inputs alone."""
+    feed = example.with_name("feed_drive.toml")
+    process = ballscrew("run", feed, "--band", "--samples", "256")
     (line,) = [line for line in process.stdout.splitlines() if "below the" in line]
-    case = case_file.load(vertical)
+    case = case_file.load(feed)
     report = band.band(case, band.BandOptions(samples=256))
     torque = report.band["screw_torque"]
     assert torque.both.high < torque.parameters.high
@@ -142,7 +142,7 @@ def test_words(drive, ballscrew):
     assert "95 % of the samples between" in text
     assert "self-locking in none of the samples" in text
     assert "  temperature 45 degC ± 5 K\n" in text
-    assert "  full film: eyring" in text
+    assert "  full film: arana" in text
     assert "(ISO3290-1: grades G3 to G40" in text
     for words in ("inputs and laws", "inputs alone", "laws alone", "efficiency, load drives"):
         assert words in text
@@ -255,6 +255,8 @@ ENSEMBLE = {
     ("friction", "load-sharing"),
     ("friction", "balan"),
     ("friction", "greenwood-tripp"),
+    ("inlet", "flooded"),
+    ("full_film", "arana"),
     ("full_film", "eyring"),
     ("full_film", "limiting-shear"),
     ("rolling", "olaru"),
