@@ -19,6 +19,7 @@ from ballscrew.physics.sizing.rules import RULES
 from ballscrew.questions.shared import chart_files as files
 from ballscrew.questions.validate import compute as validation
 from ballscrew.questions.validate import figure as figures
+from ballscrew.questions.validate import summary as summaries
 from ballscrew.questions.validate import text as text_of
 
 SYMBOLS = {"boundary_friction_coefficient": "µ₀", "share_of_load": "F_B/Q"}
@@ -46,6 +47,10 @@ def write(folder: Path) -> None:
         "trends.md": trends_table(),
         "definitions.md": definitions_table(),
         "oil.md": oil_table(),
+        "makers.md": makers_table(),
+        "stock.md": groups_table("hiwin-stock"),
+        "bearings.md": groups_table("support-bearings"),
+        "used.md": used_table(),
         "rules.md": rules_table(),
         "rule_sources.md": sources_table(),
         "rule_scatter.md": residuals_after_rules(),
@@ -67,6 +72,56 @@ def summary() -> str:
         ratio = _spread(entry) if entry.data.alternatives else f"{entry.mean_ratio:.3f}"
         scatter = "alternatives" if entry.data.alternatives else scatter
         lines.append([entry.data.name, who, str(len(entry.counted)), ratio, scatter, share])
+    return _table(lines)
+
+
+@functools.cache
+def _of_makers():
+    asked, sets = found()
+    return summaries.summary(asked, sets)[0]
+
+
+def makers_table() -> str:
+    """No-load torques by maker and kind of nut: the model, its calibrations, and rules."""
+    lines = [["maker", "nut", "what", "n", "mean ratio", "scatter", "in the band", "over d₀", "over P_h", "rows"]]
+    lines.append(["---"] * len(lines[0]))
+    last = ("", "")
+    for row in _of_makers():
+        place = (row.maker, row.nut)
+        who = f"rule: {RULES[row.name].title}" if row.kind == summaries.RULE else f"**{row.name}**"
+        scatter = "–" if math.isnan(row.std_ratio) else f"{row.std_ratio:.2f}"
+        exponents = [_signed(row.exponents[name]) if name in row.exponents else "–" for name in ("size", "lead")]
+        numbers = [str(row.n), f"{row.mean_ratio:.2f}", scatter, _percent(row.share_in_band), *exponents]
+        used = "chosen on" if row.chosen_on else "never used"
+        lines.append([*(["", ""] if place == last else place), who, *numbers, used])
+        last = place
+    return _table(lines)
+
+
+def used_table() -> str:
+    """The choices of the model that were made with the rows of a set in sight."""
+    lines = [["set", "chosen or fitted with its rows in sight"], ["---"] * 2]
+    for entries in found()[1]:
+        lines.append([f"`{entries[0].data.name}`", "; ".join(entries[0].used_for) or "nothing"])
+    return _table(lines)
+
+
+def groups_table(name: str) -> str:
+    """The kinds of nut, or the makers, of a set: the model as it is and calibrated, and other definitions."""
+    entries = next(entries for entries in found()[1] if entries[0].data.name == name)
+    definitions = list(dict.fromkeys(one for group in entries[0].groups.values() for one in group.mean_definitions))
+    heading = ["rows of", "model", "n", "mean ratio"]
+    heading += ["in the band", "middle in its own 95 % band", "high / low of that"] if entries[0].rules else []
+    lines = [[*heading, *(text_of.WORDS[one] for one in definitions)]]
+    lines.append(["---"] * len(lines[0]))
+    for entry in entries:
+        for group, one in entry.groups.items():
+            cells = [group, entry.calibration or "uncalibrated", str(len(one.counted)), _spread(one)]
+            if one.rules:
+                cells += [_percent(one.share_in_band), _percent(one.share_in_uncertainty_band)]
+                cells.append(f"{one.uncertainty_width:.1f}")
+            means = one.mean_definitions
+            lines.append([*cells, *(f"{means[key]:.2f}" if key in means else "–" for key in definitions)])
     return _table(lines)
 
 
@@ -118,13 +173,17 @@ def residuals_after_rules() -> str:
 SHORT = {
     "rexroth-double-nut": "Rexroth: no-load torque of double nuts",
     "rexroth-single-nut": "Rexroth: no-load torque of single nuts, oversize balls",
+    "hiwin-stock": "HIWIN: drag of stocked nuts, preload not printed, nothing fitted",
     "thk-jis": "THK: no-load torque of a double nut, not fitted",
     "xjtu": "XJTU: torque of two new screws, measured, against sizes that could be theirs",
+    "emps": "EMPS: torque of a whole axis, of which the screw is a part",
+    "thk-kr4620a": "THK: torque of a whole actuator, of which the screw is a part",
     "chart-friction": "THK, HIWIN: friction coefficient of the thread under load",
     "balan-2015": "rolling torque of balls between rings, measured",
     "hiwin-ratings": "HIWIN: dynamic load rating by ISO 3408-5",
     "hiwin-stiffness": "HIWIN: rigidity without preload",
     "rexroth-rigidity": "Rexroth: rigidity R_nu,ar of preloaded double nuts",
+    "support-bearings": "NSK, IBC: axial rigidity of 60° bearings by the same contacts",
 }
 
 
@@ -134,13 +193,13 @@ def vendors_table() -> str:
         ["stated value", "number", "uncalibrated", "calibrated", "within the vendor's band, before and after"],
         ["---"] * 5,
     ]
-    for entries in found()[1]:
+    for words, entries in _lines_of_vendors():
         raw, after = entries[0], entries[-1]
         calibrated = len(entries) > 1
         shares = [_percent(entry.share_in_band) for entry in entries if entry.share_in_band is not None]
         lines.append(
             [
-                SHORT[raw.data.name],
+                words,
                 str(len(raw.counted)),
                 _spread(raw),
                 _spread(after) if calibrated else "–",
@@ -148,6 +207,17 @@ def vendors_table() -> str:
             ]
         )
     return _table(lines)
+
+
+def _lines_of_vendors():
+    """The sets with their names; the kinds of nut of one that has several one by one, as a mean of all says nothing."""
+    for entries in found()[1]:
+        data, groups = entries[0].data, entries[0].groups
+        if data.of_screws and not data.alternatives and len(groups) > 1:
+            for name in groups:
+                yield f"{SHORT[data.name]}: {name}", [entry.groups[name] for entry in entries]
+        else:
+            yield SHORT[data.name], entries
 
 
 #: What stands out in the table of the README, a line for each point.
@@ -163,11 +233,16 @@ THK's worked example of a double nut is missed: {thk:.2f} of its drag, {thk_cali
 by JIS B 1192, whose rule gives {jis:.2f} of Rexroth's double nuts, and Rexroth's rule {thk_rexroth:.2f} of THK's
 example: the vendors contradict each other, and nothing here tells which is closer to a real screw.
 
+HIWIN's stocked double nuts and nuts with an offset, which nothing was chosen on, have twice the drag of the model at a
+preload of 7 % (the middle of what is called medium; none is printed): {stock_double:.2f} and {stock_offset:.2f}. The
+rule of JIS B 1192 meets them there, with {stock_double_jis:.2f} and {stock_offset_jis:.2f}. So two makers of three
+follow that rule, and the third has one of its own.
+
 Measured are two things. The rolling torque of balls between rings is {rings} of the measured one. Of the two new screws
-of XJTU, the only measured torques of ball screws found in public, neither size nor nut nor oil is stated. So the row
-has {n} screws that could be theirs, from {low:.2f} to {high:.2f} of the measured torque; {within} lie between the two
-screws, and those with double nuts all lie below, at {least:.2f} to {most:.2f}. That confirms nothing, and leaves open
-that the model is far too low.
+of XJTU, the only measured torques of ball screws found in public, neither size nor nut, wipers nor oil are stated. So
+the row has {n} screws that could be theirs, from {low:.2f} to {high:.2f} of the measured torque; {within} lie between
+the two screws. Double nuts are at {least:.2f} to {most:.2f} without wipers and at {sealed_least:.2f} to
+{sealed_most:.2f} with two of them: the row says neither that the model is too low nor that it is right.
 """
 
 
@@ -176,7 +251,9 @@ def vendors_in_words() -> str:
     by_key = {(entry.data.name, entry.calibration is not None): entry for entry in _entries()}
     double, thk, screws = (by_key[name, False] for name in ("rexroth-double-nut", "thk-jis", "xjtu"))
     rule = next(rule for rule in double.rules if rule.rule == "rexroth")
-    double_nuts = [point.ratio for point in screws.points if "double" in point.name]
+    least, most = screws.groups["double"].range_ratio
+    sealed_least, sealed_most = screws.groups["double, two wipers"].range_ratio
+    stock = by_key["hiwin-stock", False].groups
     low, high = screws.range_ratio
     words = VENDORS_IN_WORDS.strip().format(
         double_below=_percent(1 - double.mean_ratio),
@@ -192,8 +269,14 @@ def vendors_in_words() -> str:
         low=low,
         high=high,
         within=sum(bool(point.in_band) for point in screws.points),
-        least=min(double_nuts),
-        most=max(double_nuts),
+        least=least,
+        most=most,
+        sealed_least=sealed_least,
+        sealed_most=sealed_most,
+        stock_double=stock["double"].mean_ratio,
+        stock_offset=stock["offset"].mean_ratio,
+        stock_double_jis=stock["double"].mean_laws["jis"],
+        stock_offset_jis=stock["offset"].mean_laws["jis"],
     )
     points = (textwrap.fill(point, 130, initial_indent="- ", subsequent_indent="  ") for point in words.split("\n\n"))
     return "".join(f"{point}\n" for point in points)
@@ -209,7 +292,8 @@ def oil_table() -> str:
         cells = [
             f"{entry.mean_ratio:.2f} ± {entry.std_ratio:.2f}, {_percent(entry.share_in_band)}" for entry in entries
         ]
-        lines.append([f"{asked.conditions.grade}, {temperature.replace('degC', '°C')}", *cells])
+        grade = asked.conditions_of(asked.sets[0]).grade
+        lines.append([f"{grade}, {temperature.replace('degC', '°C')}", *cells])
     return _table(lines)
 
 
@@ -217,7 +301,7 @@ def definitions_table() -> str:
     """Results of other definitions of the same value."""
     lines = [["set", "definition", "mean ratio"], ["---"] * 3]
     for entry in _entries():
-        if entry.mean_definitions and entry.data.name != "hiwin-ratings":
+        if entry.mean_definitions and not (entry.calibration or entry.data.ratio_names or entry.data.bound):
             lines.append(
                 [
                     entry.data.name,
@@ -248,7 +332,7 @@ def trends_table() -> str:
     """Trends of the ratio over properties of the rows."""
     lines = [["set", "model", "against", "exponent", "correlation"], ["---"] * 5]
     for entry in _entries():
-        if not (entry.data.calibratable or entry.data.name == "balan-2015"):
+        if entry.data.bound or not (entry.data.calibratable or entry.data.name == "balan-2015"):
             continue
         for trend in trends(entry.counted):
             words = DESCRIPTORS[trend.descriptor].description
@@ -309,9 +393,38 @@ def numbers() -> dict[str, str]:
         values[f"xjtu_{key}"] = "{:.2f} to {:.2f}".format(*by_key["xjtu", fitted].range_ratio)
     (low, high) = {(p.band.low, p.band.high) for p in by_key["xjtu", False].points}.pop()
     values |= {"xjtu_low": f"{low:.2f}", "xjtu_high": f"{high:.2f}"}
-    oversize = [p for p in by_key["xjtu", True].points if "oversize" in p.name]
+    for key, name in (("double", "double"), ("sealed", "double, two wipers")):
+        values[f"xjtu_{key}"] = "{:.2f} to {:.2f}".format(*by_key["xjtu", False].groups[name].range_ratio)
+    oversize = by_key["xjtu", True].groups["single"].points
     values["xjtu_oversize"] = f"{sum(p.in_band for p in oversize)} of {len(oversize)} calibrated ones lie between them"
+    values |= _numbers_of_stock(by_key["hiwin-stock", False], by_key["hiwin-stock", True])
+    bearings = by_key["support-bearings", False].groups
+    for maker, group in bearings.items():
+        values[f"bearings_{maker.lower()}"] = _spread(group)
+        torques = [point.definitions["torque"] for point in group.points]
+        values[f"bearings_{maker.lower()}_torque"] = f"{min(torques):.1f} to {max(torques):.1f}"
+        values[f"bearings_{maker.lower()}_slow"] = f"{group.mean_definitions['torque_at_10_rpm']:.2f}"
+    for key, name in (("emps", "emps"), ("actuator", "thk-kr4620a")):
+        values[key] = "{:.2f} to {:.2f}".format(*by_key[name, False].range_ratio)
+    double = [one.range_ratio for name, one in by_key["emps", False].groups.items() if name.startswith("double")]
+    values["emps_double"] = f"{min(low for low, _ in double):.2f} to {max(high for _, high in double):.2f}"
     return {f"validation_{key}": value for key, value in values.items()}
+
+
+def _numbers_of_stock(raw, calibrated_entry) -> dict[str, str]:
+    """Numbers of HIWIN's stock list by kind of nut."""
+    values: dict[str, str] = {}
+    kinds = (("double", "double"), ("offset", "offset"), ("single", "single"), ("spacers", "single, spacer balls"))
+    for key, name in kinds:
+        group = raw.groups[name]
+        values[f"stock_{key}"] = _spread(group)
+        values[f"stock_{key}_share"] = _percent(group.share_in_band)
+        values[f"stock_{key}_own"] = _percent(group.share_in_uncertainty_band)
+        values[f"stock_{key}_jis"] = f"{group.mean_laws['jis']:.2f}"
+        values[f"stock_{key}_calibrated"] = _spread(calibrated_entry.groups[name])
+    for key, name in (("single", "single"), ("spacers", "single, spacer balls")):
+        values[f"stock_{key}_at_5"] = f"{raw.groups[name].mean_definitions['at_5_percent']:.2f}"
+    return values
 
 
 def _steep_and_fine(entry) -> tuple[float, float]:
@@ -353,6 +466,10 @@ def _relative_scatter(ratios) -> str:
     mean = sum(ratios) / len(ratios)
     scatter = math.sqrt(sum((ratio - mean) ** 2 for ratio in ratios) / (len(ratios) - 1)) / mean
     return f"{100 * scatter:.1f} %"
+
+
+def _signed(number: float) -> str:
+    return f"{number:+.2f}".replace("-", "−")
 
 
 def _percent(share: float) -> str:

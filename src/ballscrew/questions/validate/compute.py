@@ -73,13 +73,8 @@ def request(
     to: Path | None = None,
 ) -> Request:
     """The request that options mean. Raises :class:`~ballscrew.basis.errors.InputError` with all faults found."""
-    faults = [Fault("validate", "unknown set", name, nearest(name, SETS)) for name in names if name not in SETS]
-    if model not in MODELS:
-        faults.append(Fault("--model", "unknown model", model, nearest(model, MODELS)))
-    if rows is not None and len(names) != 1:
-        given = ", ".join(names) or "none"
-        faults.append(Fault("--rows", "needs exactly one set", given, "name the set whose columns the file has"))
     has_conditions = grade is not None or temperature is not None or speed is not None
+    faults = _faults_of_names(names, model, rows)
     if cards and (names or rows is not None or has_conditions):
         faults.append(Fault("--card", "goes with no set, rows or conditions", "", "a card has its own"))
     if summary and (cards or to is not None):
@@ -103,6 +98,17 @@ def request(
         notes=notes,
         everything=not names and not cards,
     )
+
+
+def _faults_of_names(names: Sequence[str], model: str, rows: Path | None) -> list[Fault]:
+    """Sets and models that are not known, and rows of more or less than one set."""
+    faults = [Fault("validate", "unknown set", name, nearest(name, SETS)) for name in names if name not in SETS]
+    if model not in MODELS:
+        faults.append(Fault("--model", "unknown model", model, nearest(model, MODELS)))
+    if rows is not None and len(names) != 1:
+        given = ", ".join(names) or "none"
+        faults.append(Fault("--rows", "needs exactly one set", given, "name the set whose columns the file has"))
+    return faults
 
 
 def _sets(names: Sequence[str], model: FrictionModel) -> tuple[list[ValidationSet], list[str]]:
