@@ -41,7 +41,7 @@ def test_safety_in_german(visit):
         )
         assert here.text("#duty [data-record='verdict.motor']").startswith("Der Motor reicht")
         assert "Mangelschmierung" in here.text("#verdicts")
-        assert "nach den Regeln der Hersteller ihr Hersteller HIWIN" in here.text("#rules")
+        assert "nach den Regeln der Hersteller: HIWIN, ihr Hersteller, " in here.text("#rules")
         assert "widersprechen einander hier um den Faktor" in here.text("#rules")
         records = here.page.locator(RECORDS).all()
         assert len(records) > 8

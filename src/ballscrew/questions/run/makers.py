@@ -15,8 +15,8 @@ from ballscrew.questions.run.nut_state import NutState
 
 #: Model over rule between which nothing is said of the maker's rule: makers state their torques to a fifth or worse.
 NEAR = (0.8, 1.25)
-_LINE = Message("without load and seals {torque}; by the rules of makers {rules}")
-_OWN = Message("its maker {rule} {torque} (model / rule {ratio})")
+_LINE = Message("without load and seals {torque}; by the rules of makers: {rules}")
+_OWN = Message("{rule}, its maker, {torque} (model / rule {ratio})")
 _OTHER = Message("{rule} {torque} (model / rule {ratio})")
 _CONTRADICTION = Message(
     "the rules of makers contradict each other here by a factor of {factor}; none of them knows oil, speed or balls"

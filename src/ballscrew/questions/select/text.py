@@ -126,7 +126,8 @@ def beside_rules(found: Selection) -> list[str]:
     if best is None or best.candidate.run is None:
         return []
     run = best.candidate.run.run
-    return [wrapped(f"{best.rank}: {units.filled(message)}") for message in makers.messages(run.case, run.nut)]
+    said = "; ".join(map(units.filled, makers.messages(run.case, run.nut)))
+    return [wrapped(f"{best.rank}: {said}")] if said else []
 
 
 def table(ranked: Sequence[Ranked], objectives: Sequence[str], with_oil: bool, *, moves: bool = False) -> list[str]:
