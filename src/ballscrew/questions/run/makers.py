@@ -7,14 +7,16 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from ballscrew.basis import units
-from ballscrew.basis.quantities import Ratio
+from ballscrew.basis.quantities import Ratio, fields_of
 from ballscrew.basis.records import Message, Record, Value
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.makers_rules import BY_RULE, OfRule, by_rules
+from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.questions.run.nut_state import NutState
 
 #: Model over rule between which nothing is said of the maker's rule: makers state their torques to a fifth or worse.
 NEAR = (0.8, 1.25)
+_SPEED = fields_of(OperatingState)["screw_speed"]
 _LINE = Message("without load and seals {torque}; by the rules of makers: {rules}")
 _OWN = Message("{rule}, its maker, {torque} (model / rule {ratio})")
 _OTHER = Message("{rule} {torque} (model / rule {ratio})")
@@ -22,8 +24,8 @@ _CONTRADICTION = Message(
     "the rules of makers contradict each other here by a factor of {factor}; none of them knows oil, speed or balls"
 )
 _VERDICT = Message(
-    "without load and seals the rule of its maker {rule} gives {drag}, the model {torque}, {ratio} times that; "
-    "range of the rule: {range}"
+    "without load and seals the rule of its maker {rule} gives {drag}, the model {torque} at {speed}, {ratio} times "
+    "that; range of the rule: {range}"
 )
 
 
@@ -80,7 +82,10 @@ def verdicts(case: Case, nut: NutState | None) -> list[Record]:
         return []
     quantity = BY_RULE[own.by_rule.rule.name]
     drag, torque = (units.measured(value, quantity) for value in (own.by_rule.torque, nut.drag_of_balls))
-    values = {**own.values, "drag": drag, "torque": torque, "range": Message(own.by_rule.rule.range)}
+    speed = units.measured(case.operation.screw_speed, _SPEED)
+    values = {
+        **own.values, "drag": drag, "torque": torque, "speed": speed, "range": Message(own.by_rule.rule.range),
+    }  # fmt: skip
     return [
         units.record(
             _VERDICT.of(**values), id="verdict.rule_of_maker", subject="preload_drag_of_balls", severity="info",
