@@ -109,6 +109,7 @@ def test_every_answer_shows_the_ratio_of_the_rows_most_like_the_nut(written, nam
     answer = documents.run(run(case))
     assert answer["vendor_rows"] == {
         "set": "rexroth-double-nut",
+        "maker": "Rexroth",
         "calibration": used,
         "mean_ratio": near.mean,
         "std_ratio": near.scatter,

@@ -1,6 +1,7 @@
 """The torque without load is of the whole nut, with seals, everywhere; rules know balls alone, and so their base."""
 
 import json
+import math
 from pathlib import Path
 
 import pytest
@@ -61,6 +62,82 @@ def test_the_table_has_the_base_that_its_changes_are_relative_to(ballscrew):
     assert document["of_balls"]["losses"] == {"seals": 0.3}
 
 
+#: THK's worked example (THKGeneral, A-689): 3 kN on a lead of 10 mm; balls and turns are those of its row.
+BNFN4010 = """
+[screw]
+pitch_circle_diameter = "41.75 mm"
+lead = "10 mm"
+ball_diameter = "6.35 mm"
+loaded_balls = 95
+contact_angle = "45 deg"
+screw_conformity = 0.54
+nut_conformity = 0.54
+[nut]
+type = "double"
+preload = "3 kN"
+[losses]
+seals.seal_torque = "0.4 N m"
+[lubricant]
+grade = "ISO VG 100"
+temperature = "25 degC"
+[operation]
+axial_load = "3 kN"
+screw_speed = "100 rpm"
+"""
+
+
+def test_the_answer_names_what_makers_say(tmp_path, ballscrew):
+    """By the rules of JIS B 1192 (0.865 N m, as THK prints it), Rexroth and HIWIN, beside that of the balls alone."""
+    case = tmp_path / "bnfn4010.toml"
+    case.write_text(BNFN4010, encoding="utf-8")
+    document = json.loads(ballscrew("run", case, "--json").stdout)
+    found, units = document["results"], document["units"]
+    assert found["rules"]["jis"] == pytest.approx(0.865, abs=5e-4)
+    assert found["rules"]["rexroth"] == pytest.approx(0.004 * 3000 * 0.04175, rel=1e-12)
+    phi, rho = math.atan(10 / (math.pi * 41.75)), math.radians(0.286)
+    eta, back = math.tan(phi) / math.tan(phi + rho), math.tan(phi - rho) / math.tan(phi)
+    assert found["rules"]["hiwin"] == pytest.approx((1 / eta - back) * 3000 * 0.010 / (2 * math.pi), rel=1e-12)
+    assert (
+        units["rules"]
+        == dict.fromkeys(found["rules"], units["preload_drag_of_balls"])
+        == dict.fromkeys(("jis", "rexroth", "hiwin"), "N m")
+    )
+    assert found["preload_drag_of_balls"] == pytest.approx(found["preload_drag"] - 0.4, rel=1e-12)
+    assert "rule_of_make" not in found
+    assert document["vendor_rows"]["maker"] == "Rexroth"
+    for command in ("run", "check"):
+        said = " ".join(ballscrew(command, case).stdout.split())
+        balls = found["preload_drag_of_balls"]
+        for label, torque in (("THK (JIS B 1192)", 0.8646), ("Rexroth", 0.501), ("HIWIN", 0.6288)):
+            assert f"by the rule of {label}; model / rule {balls / torque:.2f} {torque:.4g} N m" in said
+        assert "the rules of makers contradict each other here by a factor of 1.73" in said
+        assert "these are rows of Rexroth, and the make of this nut is not known" in said
+
+
+def test_the_rule_of_the_make_comes_first(tmp_path, ballscrew):
+    """Of a table of one's own by its column, else by the row of the catalogue; with a verdict where it is far off."""
+    table = tmp_path / "own.csv"
+    table.write_text(OWN, encoding="utf-8")
+    for name, label, rule in (("A", "THK (JIS B 1192)", "jis"), ("B", "Rexroth", "rexroth")):
+        found = json.loads(ballscrew("check", name, "--rows", table, "--json").stdout)
+        results = found["results"]
+        assert results["rule_of_make"] == rule
+        ratio = results["preload_drag_of_balls"] / results["rules"][rule]
+        told = [one for one in found["verdicts"] if one["id"] == "verdict.rule_of_maker"]
+        assert [one["value"] for one in told] == pytest.approx([ratio] * (not 0.8 <= ratio <= 1.25))
+        text = [" ".join(line.split()) for line in ballscrew("check", name, "--rows", table).stdout.splitlines()]
+        rules = [line for line in text if line.startswith("by the rule of")]
+        assert rules[0].startswith(f"by the rule of {label}, its maker; model / rule {ratio:.2f}")
+        assert len(rules) == 3
+        assert "its maker" not in " ".join(rules[1:])
+
+
+def test_a_nut_without_preload_has_no_rules(ballscrew):
+    found = json.loads(ballscrew("run", AXIS, "--set", "nut.preload=0 N", "--json").stdout)
+    assert {"rules", "rule_of_make", "preload_drag_of_balls"} & found["results"].keys() == set()
+    assert "by the rule of" not in ballscrew("run", AXIS, "--set", "nut.preload=0 N").stdout
+
+
 @pytest.mark.parametrize("command", ["run", "check"])
 def test_what_of_it_are_seals_stands_below_it(ballscrew, command):
     lines = [" ".join(line.split()) for line in ballscrew(command, AXIS).stdout.splitlines()]
@@ -88,3 +165,23 @@ def test_seals_of_another_maker_are_called_so(tmp_path, ballscrew):
     assert "seals 0.4 N m: standard seals of Rexroth2006, not of THK; give the torque of your seals" in text
     assumed = json.loads(ballscrew("check", "A", "--rows", table, "--json").stdout)["assumed"]
     assert any("not of THK" in line for line in assumed)
+    assert "of it seals (standard seals of Rexroth2006, not of THK) 0.4 N m" in text
+
+
+def test_the_source_of_seals_is_in_every_document(tmp_path, ballscrew):
+    table = tmp_path / "own.csv"
+    table.write_text(OWN, encoding="utf-8")
+    wanted = {
+        "A": "standard seals of Rexroth2006, not of THK",
+        "C": None,
+        "D": "standard seals of Rexroth2006, of whatever make the nut is",
+    }
+    for name, source in wanted.items():
+        seals = json.loads(ballscrew("check", name, "--rows", table, "--json").stdout)["inputs"]["losses"]["seals"]
+        assert seals.get("source") == source
+        shown = ballscrew("catalogue", "show", name, "--rows", table)
+        assert (f"0.4 N m ({source})" if source else "0.4 N m\n") in shown.stdout
+        row = json.loads(ballscrew("catalogue", "show", name, "--rows", table, "--json").stdout)
+        assert row["seal_torque_source"] == source
+    changed = ballscrew("check", "A", "--rows", table, "--set", "losses.seals.seal_torque=0.3 N m", "--json").stdout
+    assert "source" not in json.loads(changed)["inputs"]["losses"]["seals"]

@@ -25,6 +25,7 @@ from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.basis.references import bibliography as entries
 from ballscrew.basis.units import DIGITS
 from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.makers_rules import by_rules
 from ballscrew.cases.case_files.named_calibration import vendor_rows_like
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.faces.cli import report as command
@@ -377,6 +378,16 @@ def test_checks_come_first_and_numbers_with_a_band_have_it(content):
         assert max(len(each.replace(".", "").lstrip("0")) for each in (low, high, number.split()[0])) <= DIGITS, words
 
 
+def test_the_rules_of_makers_stand_below_the_torque_without_load(content):
+    """That of the maker first, each with model / rule; below the table how far they contradict each other."""
+    table = next(s for s in content.sections if s.title == "Result").blocks[0].left[0]
+    found = run(case_of("catalogue_screw"))
+    rules = {row[0]: row[1] for row in table.rows if row[0].startswith("by the rule of")}
+    assert list(rules.values()) == [value(one.torque, _TORQUE) for one in by_rules(found.case)]
+    assert next(iter(rules)).startswith("by the rule of Rexroth, its maker; model / rule ")
+    assert "contradict each other" in table.note
+
+
 def test_rows_of_a_vendor_stand_beside_it(content):
     (said, table) = next(s for s in content.sections if s.title == "Beside a vendor's rows").blocks
     near = vendor_rows_like(case_of("catalogue_screw"))
@@ -387,6 +398,7 @@ def test_rows_of_a_vendor_stand_beside_it(content):
     for _, interval, model, ratio in table.rows:
         low, high = (float(end) for end in interval.removesuffix(" N m").split(" to "))
         assert float(model.split()[0]) / ((low + high) / 2) == pytest.approx(float(ratio), rel=0.02)
+    assert "these are rows" not in said.text.lower()  # a screw of the same maker
     assert not [s for s in content_of("feed_drive").sections if s.title == "Beside a vendor's rows"]
 
 

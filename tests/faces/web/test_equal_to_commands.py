@@ -97,6 +97,7 @@ def test_run(server, tables, tmp_path):
     assert words["verdicts"] == [one["text"] for one in found["verdicts"]]
     rigidity = found.get("loads", {}).get("axial_rigidity", {})
     assert rigidity.get("assumed", []) == [as_printed(one) for one in display["rigidity"]]
+    assert len(display["rules"]) == 2 * ("rules" in found["results"])
     text = printed("run", written(tables, tmp_path))
     flat = " ".join(text.split())
     assert " ".join(words["title"].split()) in flat

@@ -95,11 +95,16 @@ def test_the_band_comes_later_where_the_server_is_busy(go):
     assert len(refused) == 1
 
 
-def test_calibration_is_a_button_beside_the_vendors_rows(go):
+def test_calibration_is_a_button_beside_the_vendors_rows(go, server):
     """Defect 6: the calibration stood in a list of names, and the vendor's rows nowhere."""
     here = go(RIGID)
     assert " at 7 %" in here.text("#vendor-rows")
     assert "without calibration" in here.text("#vendor-rows")
+    assert "the rows of Rexroth (rexroth-double-nut)" in here.text("#vendor-rows")
+    assert "the make of this nut is not known" in here.text("#assumed")
+    found = answer(server, here)["results"]
+    for torque in (found["preload_drag_of_balls"], *found["rules"].values()):
+        assert f"{to_digits(torque)} N·m" in here.text("#rules")
     before = here.numbers()["results"]["preload_drag"]
     here.page.locator("#calibrate").click()
     assert "with the calibration rexroth-2006" in here.settle().text("#vendor-rows")

@@ -5,7 +5,8 @@ import re
 #: A screw that its operating point would wear out, and its cycle does not.
 MOVING = "#A=vertical-axis&band=0&cards=duty"
 RECORDS = (
-    "#verdicts p, #duty [data-record], #checks .verdict, #duty .card-result > div .verdict, #warm-up [data-record]"
+    "#verdicts p, #rules p, #duty [data-record], #checks .verdict, #duty .card-result > div .verdict, "
+    "#warm-up [data-record]"
 )
 
 
@@ -40,6 +41,8 @@ def test_safety_in_german(visit):
         )
         assert here.text("#duty [data-record='verdict.motor']").startswith("Der Motor reicht")
         assert "Mangelschmierung" in here.text("#verdicts")
+        assert "nach den Regeln der Hersteller: HIWIN, ihr Hersteller, " in here.text("#rules")
+        assert "widersprechen einander hier um den Faktor" in here.text("#rules")
         records = here.page.locator(RECORDS).all()
         assert len(records) > 8
         for one in records:

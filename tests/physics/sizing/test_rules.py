@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from ballscrew.physics.sizing.rules import CHART_FRICTION, CHART_LINES, DRAG_RULES, RULES, Subject
+from ballscrew.physics.sizing.rules import CHART_FRICTION, CHART_LINES, DRAG_RULES, RULES, Subject, drags, rule_of
 
 #: BNFN4010-5: THK, A-689; and the examples of A-666 and A-743, of screws without preload.
 BNFN4010 = Subject(0.040, 0.04175, 0.010, preload=3000.0)
@@ -61,6 +61,36 @@ def test_the_middle_of_rexroths_bands():
     assert of("rexroth", Subject(0.040, 0.040, 0.010, preload=7210.0)).drag_torque == pytest.approx(1.155, abs=5e-3)
     oversize = Subject(0.040, 0.040, 0.040, preload=1850.0, oversize_balls=True)
     assert of("rexroth", oversize).drag_torque == pytest.approx(0.745, abs=6e-3)
+
+
+def test_one_nut_by_all_makers():
+    """BNFN4010-5 by hand: a lead angle of tan φ = 10/(π 41.75), HIWIN's plane of 0.286°, Rexroth's 0.004 F_pr d_0."""
+    tangent = 10 / (math.pi * 41.75)
+    phi, rho = math.atan(tangent), math.radians(0.286)
+    drive, back = tangent / math.tan(phi + rho), math.tan(phi - rho) / tangent
+    lever = 3000 * 0.010 / (2 * math.pi)
+    found = drags(BNFN4010)
+    assert found == {
+        "jis": pytest.approx(0.05 / math.sqrt(tangent) * lever, rel=1e-12),
+        "rexroth": pytest.approx(0.004 * 3000 * 0.040, rel=1e-12),
+        "hiwin": pytest.approx((1 / drive - back) * lever, rel=1e-12),
+    }
+    assert found["jis"] == pytest.approx(0.865, abs=5e-4)  # as THK prints it, A-689
+    assert all(math.isnan(one) for one in drags(BNFN4010._replace(preload=0.0)).values())
+
+
+@pytest.mark.parametrize(
+    ("make", "name"),
+    [("THK", "jis"), ("Bosch Rexroth AG", "rexroth"), ("hiwin", "hiwin"), ("Kuroda", None), ("", None)],
+)
+def test_the_rule_of_a_make(make, name):
+    found = rule_of(make)
+    assert (None if found is None else found.name) == name
+
+
+def test_every_drag_has_a_maker():
+    assert {name for name, rule in RULES.items() if rule.maker} == set(DRAG_RULES)
+    assert all(rule.label.startswith(rule.maker) for rule in RULES.values())
 
 
 def test_a_rule_without_an_answer_gives_none():

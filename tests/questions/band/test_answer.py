@@ -5,6 +5,7 @@ import pytest
 from ballscrew.basis.output.json_text import plain
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.makers_rules import by_rules
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.band import compute, document
@@ -36,6 +37,24 @@ def test_a_band_is_valid_by_its_schema(answer):
     declared.schema(BandResults).model_validate(answer["band"])
     assert any("reason" in one for one in answer["band"]["inputs"].values())
     assert any(answer["band"]["laws"].values())
+
+
+@pytest.mark.parametrize("preload", ["4326 N", "40 N"])
+def test_without_load_each_rule_is_within_the_band_or_not(preload):
+    """Rules have neither seals nor other losses, which the band has."""
+    settings = [f"nut.preload={preload}", "losses.seals.seal_torque=0.3 N m"]
+    case = case_file.load(ROOT / "examples" / "service.toml", [*settings, "operation.axial_load=0 N"])
+    report = compute.band(case, BandOptions(samples=64))
+    low, high = report.band["screw_torque"].both
+    found = {one.id: one for one in document.verdicts(case, report) if one.id.startswith("band.rule_")}
+    assert found.keys() == {"band.rule_jis", "band.rule_rexroth", "band.rule_hiwin"}
+    for one in by_rules(case):
+        record = found[f"band.rule_{one.rule.name}"]
+        assert record.value == pytest.approx(one.torque + 0.3, rel=1e-9)
+        assert record.holds == (low <= record.value <= high) == record.text.endswith("within the band")
+    loaded = case_file.load(ROOT / "examples" / "service.toml", [*settings, "operation.axial_load=1 kN"])
+    told = document.verdicts(loaded, compute.band(loaded, BandOptions(samples=64)))
+    assert not [one.id for one in told if one.id.startswith("band.rule_")]
 
 
 def test_every_part_is_described():

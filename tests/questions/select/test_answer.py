@@ -5,8 +5,9 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis import units
 from ballscrew.basis.quantities import quantities_of
+from ballscrew.cases.case_files.makers_rules import by_rules
 from ballscrew.faces.web.documents import selection
-from ballscrew.questions.select import document, table
+from ballscrew.questions.select import document, table, text
 from ballscrew.questions.select.answer import BrakeOfNeed, MotorTorque, OfMotion, OneCandidate, OneObjective
 from ballscrew.questions.select.compute import Plan, plan
 from ballscrew.questions.select.objectives import OBJECTIVES
@@ -52,6 +53,30 @@ def test_torques_of_motor_and_brake_are_on_every_face():
             assert answer["units"][part][name] == quantity.unit == described["x-si-unit"]
             assert described["description"].startswith(quantity.info.meaning)
             assert f"{word} {name}".replace("_", " ") in headings
+
+
+def test_the_best_stands_beside_the_rules_of_makers():
+    """In the text; in files every candidate does."""
+    need = {
+        "operation": {"axial_load": "2 kN", "feed": "10 m/min"},
+        "installation": {"unsupported_length": "1 m", "ends": "fixed-supported"},
+        "limits": {"running_time": "100 h"},
+        "need": {"rows": "hiwin-40-20k4"},
+    }
+    found = bs.select({**need, "nut": {"type": "double", "preload": "5 %"}})
+    assert found.best is not None
+    (line,) = text.beside_rules(found)
+    assert line.startswith("1: without load and seals ")
+    assert "HIWIN, its maker, " in " ".join(line.split())
+    of_best = found.best.checked.run
+    sheet = table.of_selection(found.ranked[:1])
+    cells = dict(zip(sheet.headings, sheet.rows[0], strict=True))
+    assert cells["torque without load of balls [N m]"] == pytest.approx(of_best.nut.drag_of_balls, rel=1e-9)
+    for one in by_rules(of_best.case):
+        assert cells[f"torque without load by {one.rule.label} [N m]"] == pytest.approx(one.torque, rel=1e-9)
+    single = bs.select({**need, "nut": {"type": "single"}})
+    assert single.best is not None
+    assert text.beside_rules(single) == []
 
 
 def test_answers_are_valid_by_their_schema(found):

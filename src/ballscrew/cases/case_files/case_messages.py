@@ -10,7 +10,9 @@ from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.basis.records import Measured, Message, Named, Value, listed
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.lubricants import described
+from ballscrew.cases.case_files.makers_rules import by_rules, make_of
 from ballscrew.cases.case_files.named_calibration import vendor_rows_like
+from ballscrew.cases.case_files.nut_tables import seal_torque_source
 from ballscrew.cases.schema.case_schema import LAWS, MODELS, name_of_law
 from ballscrew.cases.screw_tables.catalogue import seal_source
 from ballscrew.cases.screw_tables.nut_kinds import kind_of
@@ -23,6 +25,7 @@ from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.friction.law_names import coefficients
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.sizing.rules import rule_of
 
 #: Kinds of nuts by their names in files.
 NUTS: Mapping[str, Message] = {
@@ -47,6 +50,15 @@ _WITHOUT_CALIBRATION = Message(
 _CALIBRATED = Message(
     "no-load torque at 100 rpm, ISO VG 100 at 25 degC, model / vendor: {mean} ± {scatter} for the {rows} rows of "
     "{data} most like this nut, which {calibration} was fitted to (ballscrew validate)"
+)
+#: Whose rows these are, beside a nut of another maker, or of none that is known.
+_OF_ANOTHER_MAKE = Message(
+    "these are rows of {maker}, and this nut is of {make}: without load and seals it has, by the rules of makers, "
+    "{rules}"
+)
+_OF_NO_MAKE = Message(
+    "these are rows of {maker}, and the make of this nut is not known: without load and seals it has, by the rules of "
+    "makers, {rules}"
 )
 _OPERATION = fields_of(OperatingState)
 _BALL_FORCE = quantities_of(FrictionResult)["ball_to_ball_force"]
@@ -137,8 +149,8 @@ def _bodies(nut: Nut) -> Message:
 
 def _seals_of_row(case: Case) -> list[Message]:
     """The source of the torque of the seals, where it is not that of the row they stand in."""
-    row, seals = case.row, case.screw.nut.losses.get("seals")
-    if row is None or not row.seal_torque_source or getattr(seals, "seal_torque", None) != row.seal_torque:
+    row = case.row
+    if row is None or not seal_torque_source(row, case.screw.nut):
         return []
     of_maker = seal_source(row.make)
     source = of_maker if units.filled(of_maker) == row.seal_torque_source else row.seal_torque_source
@@ -225,8 +237,23 @@ def _against_vendors(case: Case) -> list[Message]:
     mean, scatter = (units.as_written(f"{number:.2f}") for number in (near.mean, near.scatter))
     values: dict[str, Value] = {"mean": mean, "scatter": scatter, "rows": str(len(near.rows)), "data": near.data}
     if case.calibration is None:
-        return [_WITHOUT_CALIBRATION.of(**values)]
-    return [_CALIBRATED.of(**values, calibration=case.calibration.name)]
+        found = _WITHOUT_CALIBRATION.of(**values)
+    else:
+        found = _CALIBRATED.of(**values, calibration=case.calibration.name)
+    whose = whose_rows(case, near.data)
+    return [found if whose is None else Message("{ratio}; {whose}", {"ratio": found, "whose": whose})]
+
+
+def whose_rows(case: Case, data: str) -> Message | None:
+    """Whose rows a set of data has, beside a nut of another make, with what all makers' rules give for it.
+
+    None for a nut of that maker.
+    """
+    make, of_rows = make_of(case), rule_of(data)
+    if of_rows is None or rule_of(make) is of_rows:
+        return None
+    values: dict[str, Value] = {"maker": of_rows.maker, "rules": [one.message for one in by_rules(case)]}
+    return _OF_ANOTHER_MAKE.of(**values, make=make) if make else _OF_NO_MAKE.of(**values)
 
 
 def left_out(case: Case) -> Message | None:

@@ -8,11 +8,12 @@ from typing import Any
 from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.case_files import duty_tables, support_tables
 from ballscrew.cases.case_files.case import USUAL_LIMITS, Case
+from ballscrew.cases.case_files.nut_tables import seal_torque_source
 from ballscrew.cases.schema.case_schema import LAWS, name_of_law
 from ballscrew.cases.schema.duty_schema import CONSTANT_EFFICIENCY
 from ballscrew.cases.screw_tables.nut_kinds import ENDS, kind_of
 from ballscrew.physics.components.nut import Nut
-from ballscrew.physics.components.screw import MATERIALS, BallScrew
+from ballscrew.physics.components.screw import MATERIALS
 from ballscrew.physics.sizing.installation import Installation
 
 
@@ -32,7 +33,7 @@ def inputs(case: Case) -> dict[str, Any]:
         }
         if case.efficiency is None
         else {"name": CONSTANT_EFFICIENCY, "efficiency": case.efficiency},
-        **({} if case.nut is None else _inputs_of_nut(case.nut, case.screw)),
+        **({} if case.nut is None else _inputs_of_nut(case, case.nut)),
         **({} if case.installation is None else {"installation": _mounting(case.installation)}),
         **({} if case.limits is USUAL_LIMITS else {"limits": _numbers(case.limits)}),
         **duty_tables.inputs(case.axis, case.motion, case.motor, case.surroundings),
@@ -40,8 +41,8 @@ def inputs(case: Case) -> dict[str, Any]:
     }
 
 
-def _inputs_of_nut(nut: Nut, screw: BallScrew) -> dict[str, Any]:
-    bodies = None if nut.bodies is None else nut.bodies.sized(screw)
+def _inputs_of_nut(case: Case, nut: Nut) -> dict[str, Any]:
+    bodies = None if nut.bodies is None else nut.bodies.sized(case.screw)
     scatter = nut.parts.get("deviations")
     own = {name: value for name, value in _numbers(nut).items() if value is not None}
     return {
@@ -52,8 +53,15 @@ def _inputs_of_nut(nut: Nut, screw: BallScrew) -> dict[str, Any]:
             else {"bodies": {**_numbers(bodies), "same_side": bodies.same_side, "swelling": bodies.swelling}}
         ),
         **({} if scatter is None else {"deviations": _numbers(scatter)}),
-        **({"losses": {slot: _law(slot, law) for slot, law in nut.losses.items()}} if nut.losses else {}),
+        **({"losses": _losses(case, nut)} if nut.losses else {}),
     }
+
+
+def _losses(case: Case, nut: Nut) -> dict[str, Any]:
+    """The laws of the losses, of seals with the source of their torque where the row of the screw has one."""
+    found = {slot: _law(slot, law) for slot, law in nut.losses.items()}
+    seals, source = found.get("seals"), seal_torque_source(case.row, nut)
+    return {**found, "seals": {**seals, "source": source}} if source and isinstance(seals, dict) else found
 
 
 def _mounting(mounted: Installation) -> dict[str, Any]:

@@ -91,6 +91,14 @@ def dynamic_rating(screw: BallScrew, row: CatalogueRow | None, listed: Mapping[s
     return ratings(screw, row).dynamic, "computed from the geometry (ISO 3408-5)"
 
 
+def seal_torque_source(row: CatalogueRow | None, nut: Nut) -> str:
+    """Where the torque of the seals of a nut is from, where it is that of its row and the row says so; else empty."""
+    seals = nut.losses.get("seals")
+    if row is None or getattr(seals, "seal_torque", None) != row.seal_torque:
+        return ""
+    return row.seal_torque_source
+
+
 def nut_of(
     sections: Sections,
     screw: BallScrew | None,

@@ -362,6 +362,7 @@ def _document(row: CatalogueRow) -> dict[str, Any]:
         "name": row.name,
         "nut": row.nut or None,
         "source": row.source,
+        "seal_torque_source": row.seal_torque_source or None,
         "row": {name: getattr(row, name) for name in FIELDS},
         "derived": {name: getattr(row, name) for name in DERIVED},
     }

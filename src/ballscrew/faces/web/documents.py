@@ -18,6 +18,7 @@ from ballscrew.questions.check import compute as checks
 from ballscrew.questions.check import document as check_documents
 from ballscrew.questions.run import compute as runs
 from ballscrew.questions.run import document as run_documents
+from ballscrew.questions.run import makers
 from ballscrew.questions.select import document as selection_documents
 from ballscrew.questions.select.compute import Selection
 from ballscrew.questions.warm_up.compute import WarmUpReport
@@ -54,7 +55,12 @@ def run(found: runs.Run) -> dict[str, Any]:
             "verdicts": [record["text"] for record in document["verdicts"]],
             "assumed": texts(assumed),
         },
-        "display": {"title": title.document(), "assumed": messages(assumed), "rigidity": messages(rigidity)},
+        "display": {
+            "title": title.document(),
+            "assumed": messages(assumed),
+            "rigidity": messages(rigidity),
+            "rules": messages(makers.messages(case, found.nut)),
+        },
     }
 
 

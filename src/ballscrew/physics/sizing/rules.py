@@ -13,6 +13,7 @@ from collections.abc import Callable, Mapping
 from typing import NamedTuple, TypeAlias
 
 from ballscrew.basis.quantities import Angle, Force, Length, Ratio, Torque
+from ballscrew.basis.records import translatable
 from ballscrew.physics.components.nut_losses import (
     DOUBLE_NUT_DRAG,
     OVERSIZE_BALL_DRAG,
@@ -86,6 +87,10 @@ class Rule:
     checked: str
     range: str
     estimate: RuleFunction
+    #: The maker that computes the drag of its nuts so, and the rule as it is called beside a torque; empty of rules
+    #: that no maker has for a drag of its own.
+    maker: str = ""
+    label: str = ""
 
 
 def _of_efficiency(subject: Subject, efficiency: Ratio, drag: Torque = math.nan) -> Estimate:
@@ -197,8 +202,10 @@ RULES: Mapping[str, Rule] = {
             formula="M_Sa / η + (1/η − η_b) F_pr P_h / 2π",
             source="HIWIN BS-08-2-EN-1704-K, F 3.2 and 3.7.3; ρ of the example in S99TE20-1610",
             checked="read, but for the example with ρ, which is taken from a copy of its numbers",
-            range="100 rpm, ISO VG 68, no wipers; its (1/η − η_b) is said to be 0.1 to 0.3",
+            range=translatable("100 rpm, ISO VG 68, no wipers; its (1/η − η_b) is said to be 0.1 to 0.3"),
             estimate=hiwin,
+            maker="HIWIN",
+            label="HIWIN",
         ),
         Rule(
             name="jis",
@@ -206,8 +213,10 @@ RULES: Mapping[str, Rule] = {
             formula="0.05 (tan φ)^−0.5 F_pr P_h / 2π",
             source="THK General Catalog, A-688, which names JIS B 1192-1997",
             checked="read as the catalogue prints it; the standard itself was not read",
-            range="a tolerance of 10 to 65 % on both sides by size and accuracy grade",
+            range=translatable("a tolerance of 10 to 65 % on both sides by size and accuracy grade"),
             estimate=jis_drag,
+            maker="THK",
+            label="THK (JIS B 1192)",
         ),
         Rule(
             name="rexroth",
@@ -215,8 +224,10 @@ RULES: Mapping[str, Rule] = {
             formula="c F_pr d_0, c = 0.004, with oversize balls 0.010",
             source="Bosch Rexroth R310RU 3301 (2006.02)",
             checked="the coefficients are those behind the tables; the vendor does not print them",
-            range="diameters of 16 to 125 mm, 100 rpm, no wipers",
+            range=translatable("diameters of 16 to 125 mm, 100 rpm, no wipers"),
             estimate=rexroth_drag,
+            maker="Rexroth",
+            label="Rexroth",
         ),
     )
 }  # fmt: skip
@@ -225,3 +236,14 @@ RULES: Mapping[str, Rule] = {
 DRAG_RULES = ("jis", "rexroth", "hiwin")
 #: The rules that give a friction under load without preload, each once.
 LOADED_RULES = ("constant-efficiency", "lead-angle", "feed-drive-library", "hiwin")
+
+
+def drags(subject: Subject) -> dict[str, Torque]:
+    """Torque of a preloaded nut without load or seals by each of :data:`DRAG_RULES`; NaN without preload."""
+    return {name: float(RULES[name].estimate(subject).drag_torque) for name in DRAG_RULES}
+
+
+def rule_of(make: str) -> Rule | None:
+    """The rule for the drag of the maker that a text names, in any letters; None of other makers."""
+    named = make.casefold()
+    return next((rule for rule in RULES.values() if rule.maker and rule.maker.casefold() in named), None)

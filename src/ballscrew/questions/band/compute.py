@@ -51,6 +51,8 @@ class BandReport:
     inputs: Mapping[str, Uncertain]
     #: The friction torque in a full bath of oil, N m, where that of the case is starved of oil; None elsewhere.
     flooded_torque: float | None = None
+    #: Seals and other losses of the case at its operating point, N m.
+    losses: float = 0.0
 
     @property
     def given(self) -> int:
@@ -138,7 +140,7 @@ def band(case: Case, options: BandOptions, done: Done | None = None, heat: HeatS
             done=done,
         )
     assert isinstance(found, Band), "an operating point is no axis"
-    return BandReport(found, inputs, _flooded_torque(case))
+    return BandReport(found, inputs, *_full_bath_and_losses(case))
 
 
 @contextlib.contextmanager
@@ -151,10 +153,10 @@ def options_named() -> Generator[None]:
         raise InputError(*faults) from None
 
 
-def _flooded_torque(case: Case) -> float | None:
+def _full_bath_and_losses(case: Case) -> tuple[float | None, float]:
     load, speed = case.operation.axial_load, case.operation.screw_speed
     found = case.model(case.screw, case.lubricant, axial_load=load, screw_speed=speed)
-    return float(found.flooded_torque) if found.starvation else None
+    return float(found.flooded_torque) if found.starvation else None, float(sum(found.losses.values()))
 
 
 def axis_of_curve(case: Case) -> str:

@@ -10,6 +10,7 @@ from ballscrew.basis.errors import Fault
 from ballscrew.basis.quantities import Quantity, quantities_of
 from ballscrew.basis.records import Measured, Message, Named, Record, documents
 from ballscrew.cases.case_files.case_file import Case
+from ballscrew.cases.case_files.makers_rules import by_rules
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.bands import OutputBand
@@ -90,6 +91,7 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
     records += beside_laws(torque, quantity)
     records += _narrowing(report, case, quantity)
     records += _full_bath(report)
+    records += _rules(case, report)
     if case.fit:
         log, off = case.fit.get("log"), case.fit.get("holdout_rms")
         message = _CALIBRATED.of(log=str(log) if log else Message("a log"), off=_torque_in_file(off, quantity))
@@ -162,6 +164,34 @@ def _full_bath(report: BandReport) -> list[Record]:
             value=flooded, limit=high, unit=_KNOWN.unit,
         )
     ]  # fmt: skip
+
+
+def _rules(case: Case, report: BandReport) -> list[Record]:
+    """Of each rule of a maker whether the band of a preloaded nut holds it; only without load, as rules have none."""
+    if float(case.operation.axial_load) != 0:
+        return []
+    low, high = report.band[_TORQUE].both
+    ends = {"low": Measured(low, _KNOWN, toward=-1), "high": Measured(high, _KNOWN, toward=1)}
+    found: list[Record] = []
+    for one in by_rules(case):
+        torque = float(one.torque) + report.losses
+        within = low <= torque <= high
+        values = {"rule": one.rule.label, "torque": Measured(torque, _KNOWN), **ends}
+        message = (
+            Message("the rule of {rule} gives {torque} with the losses of the case: within the band", values)
+            if within
+            else Message(
+                "the rule of {rule} gives {torque} with the losses of the case: outside the band of {low} to {high}",
+                values,
+            )
+        )
+        found.append(
+            units.record(
+                message, id=f"band.rule_{one.rule.name}", subject="preload_drag", holds=within, value=torque,
+                unit=_KNOWN.unit,
+            )
+        )  # fmt: skip
+    return found
 
 
 def beside_laws(torque: OutputBand, quantity: Quantity) -> list[Record]:

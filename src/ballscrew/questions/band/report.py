@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from ballscrew.basis import units
 from ballscrew.basis.quantities import quantities_of
+from ballscrew.cases.case_files import case_messages
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.named_calibration import vendor_rows_like
 from ballscrew.engine.uncertainty.bands import Interval
@@ -140,6 +141,9 @@ def vendor_blocks(case: Case) -> list[Block]:
         f"For the {len(rows)} rows of {near.data} most like this nut in diameter and lead the model gives "
         f"{near.mean:.2f} ± {near.scatter:.2f} times the vendor's no-load torque, {how}."
     )
+    whose = case_messages.whose_rows(case, near.data)
+    if whose is not None:
+        said = f"{said} {sentence(units.filled(whose))}."
     note = "At 100 rpm without wipers, ISO VG 100 at 25 degC; after the sizes the preload, by the dynamic rating."
     columns = ("diameter x lead x ball - turns", "vendor", "model", "model / vendor's middle")
     return [Paragraph(said), Table("Torque without load", columns, rows, note=note)]

@@ -11,14 +11,14 @@ import numpy as np
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Info, Quantity, fields_of
 from ballscrew.basis.records import Message
+from ballscrew.cases.case_files.makers_rules import subject_of
 from ballscrew.cases.torque_cards import torque_card
 from ballscrew.cases.torque_cards.torque_card import TorqueCard, TorquePoint
 from ballscrew.evidence.validation.entries import Band, Conditions, Entry, Point, ValidationSet, Values
 from ballscrew.physics.friction.calibrations import Calibration, calibrated
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.physics.sizing.rules import DRAG_RULES, RULES
+from ballscrew.physics.sizing.rules import drags
 from ballscrew.physics.solvers.load_distribution import preload_of
-from ballscrew.questions.compare.compute import subject_of
 
 _TORQUE = Quantity("torque", "N m", Info("T", "torque", "N m"))
 
@@ -85,12 +85,11 @@ def _preload(card: TorqueCard) -> float:
 
 def points(card: TorqueCard, model: FrictionModel) -> list[Point]:
     """The torque of a model at each speed of a card."""
-    subject = subject_of(card.case)
-    drags = {name: float(RULES[name].estimate(subject).drag_torque) for name in DRAG_RULES}
-    return [_point(card, point, model, drags) for point in card.points]
+    by_rules = drags(subject_of(card.case))
+    return [_point(card, point, model, by_rules) for point in card.points]
 
 
-def _point(card: TorqueCard, point: TorquePoint, model: FrictionModel, drags: dict[str, float]) -> Point:
+def _point(card: TorqueCard, point: TorquePoint, model: FrictionModel, by_rules: dict[str, float]) -> Point:
     screw, uncertainty = card.case.screw, float(card.setup.torque_uncertainty)
     found = model(
         screw, card.case.lubricant, axial_load=0.0, screw_speed=point.screw_speed, temperature=point.temperature
@@ -104,6 +103,6 @@ def _point(card: TorqueCard, point: TorquePoint, model: FrictionModel, drags: di
             "speed": float(point.screw_speed),
             "film_parameter": float(np.min([np.min(pair.screw.film_parameter) for pair in found.pairs])),
         },
-        laws={name: drag / point.torque for name, drag in drags.items()},
+        laws={name: drag / point.torque for name, drag in by_rules.items()},
         warnings=found.warning_records,
     )

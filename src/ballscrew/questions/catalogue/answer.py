@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pydantic import Field
+
 from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.questions.shared.answer_parts import Closed, Tables
@@ -24,6 +26,7 @@ class CatalogueEntry(with_answers(row=ListedRow, derived=DerivedRow)):
     name: str
     nut: str | None
     source: str
+    seal_torque_source: str | None = Field(description="of whose seals the torque is, where it is not the row's own")
 
 
 class RowUnits(Closed):

@@ -44,7 +44,7 @@ def show_text(row: CatalogueRow) -> str:
     lines = [f"{row.name} ({row.source}){kind}", "", "Listed"]
     unlisted = assumed(row)
     lines += [
-        _line(q, getattr(row, n)) + (_source_of_nut(row) if n == "nut_outer_diameter" else "")
+        _line(q, getattr(row, n)) + _source(row, n)
         for n, q in FIELDS.items()
         if n not in unlisted and getattr(row, n) is not None
     ]
@@ -57,8 +57,10 @@ def show_text(row: CatalogueRow) -> str:
     return "\n".join(lines)
 
 
-def _source_of_nut(row: CatalogueRow) -> str:
-    return f" ({row.nut_outer_diameter_source})" if row.nut_outer_diameter_source else ""
+def _source(row: CatalogueRow, name: str) -> str:
+    """Where a number is from that is not the row's own."""
+    source = getattr(row, f"{name}_source", "")
+    return f" ({source})" if source else ""
 
 
 def _line(quantity: Quantity, value: Any) -> str:

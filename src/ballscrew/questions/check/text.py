@@ -14,7 +14,7 @@ from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.check.compute import Checked, Rated
 from ballscrew.questions.run.nut_state import NutState
-from ballscrew.questions.run.text import rigidity_rows, stiffness_fields, unloaded_rows
+from ballscrew.questions.run.text import rigidity_rows, rules_contradict, stiffness_fields, unloaded_rows
 from ballscrew.questions.shared.check_lines import check_lines, shown
 from ballscrew.questions.shared.text_tables import shown_or_dash
 
@@ -44,7 +44,8 @@ def text(found: Checked) -> str:
             _line(_RESULT[name].info.meaning, shown_or_dash(getattr(friction, name), _RESULT[name]))
             for name in ("screw_torque", "drive_torque", "efficiency", "back_driving_efficiency", "friction_power")
         ),
-        *(_line(label, shown_or_dash(torque, _RESULT["screw_torque"])) for label, torque in unloaded_rows(found.nut)),
+        *(_line(label, shown_or_dash(torque, _RESULT["screw_torque"])) for label, torque in unloaded_rows(found.run)),
+        *(f"  {text}" for text in rules_contradict(found.run)),
         *(f"  {record.text}" for record in ([] if found.heating is None else found.heating.records)),
         *(f"  {record.text}" for record in found.run.verdicts),
         "",

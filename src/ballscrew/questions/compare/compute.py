@@ -9,10 +9,11 @@ from typing import Any
 
 from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.makers_rules import subject_of
 from ballscrew.cases.schema.case_schema import LAWS, MODELS, coefficients_of, name_of_law
 from ballscrew.engine.evaluation.comparison import Candidate, ComparedRule, Comparison, OfBalls, Row, compare, same_law
 from ballscrew.physics.components.traits import traits_of
-from ballscrew.physics.sizing.rules import RULES, Estimate, Subject
+from ballscrew.physics.sizing.rules import RULES, Estimate
 from ballscrew.physics.solvers.load_distribution import preload_of
 
 
@@ -83,20 +84,6 @@ def _drag_torque(case: case_file.Case) -> tuple[float, float]:
     speed = case.operation.screw_speed
     idle = case.model(case.screw, case.lubricant, axial_load=0.0, screw_speed=speed)
     return float(idle.screw_torque), float(sum(idle.losses.values()))
-
-
-def subject_of(case: case_file.Case) -> Subject:
-    """Sizes, load and preload of a case; the pitch circle stands for a nominal diameter that it does not state."""
-    screw = case.screw
-    nominal = screw.pitch_circle_diameter if case.row is None else case.row.nominal_diameter
-    return Subject(
-        nominal_diameter=float(nominal),
-        pitch_circle_diameter=float(screw.pitch_circle_diameter),
-        lead=float(screw.lead),
-        axial_load=abs(float(case.operation.axial_load)),
-        preload=float(preload_of(screw, screw.nut)),
-        oversize_balls=screw.nut.contacts_per_ball > 2,
-    )
 
 
 def _rules(case: case_file.Case, balls: OfBalls) -> list[ComparedRule]:

@@ -8,12 +8,14 @@ from typing import Annotated, NamedTuple
 
 from ballscrew.basis.quantities import Info, Ratio, Torque, fields_of, quantities_of
 from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.makers_rules import BY_RULE, by_rules
 from ballscrew.cases.case_files.named_calibration import vendor_rows_like
 from ballscrew.physics.components.contact import RaceState
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction.result import FrictionResult, Quadrant
+from ballscrew.physics.sizing.rules import DRAG_RULES, rule_of
 from ballscrew.questions.run.compute import OF_ONE_BALL, Run
-from ballscrew.questions.shared.declared import LEFT_OUT, table_of
+from ballscrew.questions.shared.declared import LEFT_OUT, OneOf, table_of
 
 _OF_CONTACT = quantities_of(RaceState)
 #: The numbers and truth values of a result, without the inputs among them.
@@ -21,6 +23,10 @@ _OF_RUN = {name: one for name, one in quantities_of(FrictionResult).items() if n
 #: Those that are true or false.
 _MASKS = ("valid", "self_locking")
 _NUMBERS = {name: quantity for name, quantity in _OF_RUN.items() if name not in _MASKS}
+
+
+class MakersRules(table_of(BY_RULE)):
+    """Torque of the preloaded nut without load and seals by the rules of makers."""
 
 
 class Contact(table_of(_OF_CONTACT, at_times=_OF_CONTACT)):
@@ -36,6 +42,15 @@ class RunResults(table_of(_NUMBERS, at_times=OF_ONE_BALL)):
     preload_drag: Annotated[
         Torque | None, Info("M_0", "torque of the nut without load, seals and other losses included"), LEFT_OUT
     ]
+    preload_drag_of_balls: Annotated[
+        Torque | None,
+        Info("M_0", "torque of the preloaded nut without load, seals and other losses left out"),
+        LEFT_OUT,
+    ]
+    #: The same by the rules of makers, which know neither oil nor speed; of a preloaded nut.
+    rules: Annotated[MakersRules | None, LEFT_OUT]
+    #: The rule of the maker of the nut; where its row has a make with a rule.
+    rule_of_make: Annotated[str | None, OneOf(DRAG_RULES), LEFT_OUT]
     #: Parts of the friction torque.
     contributions: Mapping[str, Torque]
     #: The four combinations of load and rotation, by name.
@@ -50,7 +65,7 @@ class RunResults(table_of(_NUMBERS, at_times=OF_ONE_BALL)):
 
 def results(run: Run) -> RunResults:
     """The results of a run."""
-    found, nut = run.friction, run.nut
+    found, nut, by_rule = run.friction, run.nut, by_rules(run.case)
     numbers = {name: getattr(found, name) if name in run.quantities else None for name in _OF_RUN}
     if nut is not None:
         numbers |= nut.drag_coefficients
@@ -58,6 +73,9 @@ def results(run: Run) -> RunResults:
     return RunResults(
         **numbers,
         preload_drag=None if nut is None else nut.preload_drag,
+        preload_drag_of_balls=nut.drag_of_balls if nut is not None and nut.preload else None,
+        rules=MakersRules(**{one.rule.name: one.torque for one in by_rule}) if by_rule else None,
+        rule_of_make=next((one.rule.name for one in by_rule if one.is_own), None),
         contributions=found.contributions,
         quadrants=run.quadrants,
         validity=found.validity,
@@ -70,6 +88,8 @@ class VendorRows(NamedTuple):
 
     #: The table of the vendor.
     set: str
+    #: The maker whose rows they are; the set where it names none.
+    maker: str
     #: The calibration of the model; null without one.
     calibration: str | None
     mean_ratio: Annotated[Ratio, Info("", "mean of model over vendor")]
@@ -84,4 +104,7 @@ def vendor_rows(case: Case) -> VendorRows | None:
     if near is None:
         return None
     calibration = None if case.calibration is None else case.calibration.name
-    return VendorRows(near.data, calibration, near.mean, near.scatter, near.rows)
+    maker = rule_of(near.data)
+    return VendorRows(
+        near.data, near.data if maker is None else maker.maker, calibration, near.mean, near.scatter, near.rows
+    )

@@ -28,6 +28,7 @@ from ballscrew.physics.friction import starvation
 from ballscrew.physics.friction.result import QUADRANTS, FrictionResult, Quadrant
 from ballscrew.physics.sizing.rigidity import AxialRigidity, rigidity_iso3408
 from ballscrew.physics.solvers.load_distribution import BallLoads, preload_of
+from ballscrew.questions.run import makers
 from ballscrew.questions.run.nut_state import Flank, NutState, Touching
 
 _KNOWN = quantities_of(FrictionResult)
@@ -102,12 +103,14 @@ class Run:
 
     @property
     def verdicts(self) -> list[Record]:
-        """Starvation; the quadrant, if not the usual one; whether the load drives; skidding; loss of the preload."""
+        """Starvation; the quadrant, if not the usual one; whether the load drives; skidding; the rule of the maker, if
+        it is far off; loss of the preload.
+        """
         starved = units.in_display_units_of(self.friction.starvation)
         if float(self.friction.axial_load) == 0:
             none = Message("no axial load")
             found = [units.record(none, id="verdict.no_load", subject="axial_load", value=0.0, unit="N")]
-            return [*starved, *found, *self._lost()]
+            return [*starved, *found, *self._of_maker(), *self._lost()]
         moving = bool(self.friction.screw_speed)
         found = _holding(Holding.of(self.friction), "", self.at_rest.drives) if moving else []
         return [
@@ -116,6 +119,7 @@ class Run:
             *found,
             *_holding(self.at_rest, "at_rest"),
             *self._skid(moving),
+            *self._of_maker(),
             *self._lost(),
         ]
 
@@ -177,6 +181,9 @@ class Run:
                 value=share, limit=1.0, unit=_SHARE.unit,
             )
         ]  # fmt: skip
+
+    def _of_maker(self) -> list[Record]:
+        return makers.verdicts(self.case, self.nut)
 
     def _lost(self) -> list[Record]:
         if self.nut is None or not self.nut.preload_is_lost:

@@ -49,6 +49,11 @@ class NutState:
     relieved: Flank | None
 
     @property
+    def drag_of_balls(self) -> float:
+        """Torque of the balls alone without load: without seals and other losses, N m."""
+        return self.preload_drag - sum(self.idle_losses.values())
+
+    @property
     def preload_is_lost(self) -> bool:
         """The load has lifted the balls off the other flank."""
         return self.preload > 0 and float(self.loads.remaining_preload) <= 0

@@ -14,7 +14,7 @@ from ballscrew.physics.components.contact import RaceState
 from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.run.compute import Run
-from ballscrew.questions.run.text import SHORT, rigidity_rows, stiffness_fields, unloaded_rows
+from ballscrew.questions.run.text import SHORT, rigidity_rows, rules_contradict, stiffness_fields, unloaded_rows
 from ballscrew.questions.shared.report_blocks import Bar, Block, Bullets, Paragraph, Table, sentence
 from ballscrew.questions.shared.report_blocks import value as value_of
 from ballscrew.questions.shared.report_numbers import banded
@@ -49,12 +49,13 @@ def results(run: Run, bands: Mapping[str, OutputBand]) -> list[Table]:
     rows = [_with_band(run.friction, name, run.quantities, bands) for name in known]
     stiff, whose = [], "Contacts of each ball"
     if run.nut is not None:
-        rows[1:1] = [(label, value_of(torque, _TORQUE), "") for label, torque in unloaded_rows(run.nut)]
+        rows[1:1] = [(label, value_of(torque, _TORQUE), "") for label, torque in unloaded_rows(run)]
         stiff = [_row(run.nut.loads, name, _LOADS) for name in stiffness_fields(run.nut)]
         stiff.append(_row(run.nut, "maximum_pressure", _ONE))
         stiff += rigidity_rows(run.nut.rigidity)
         whose = "Contacts of the most loaded ball"
-    tables = [Table("Torque, efficiency and power", ("", "value", "band"), rows)]
+    note = ". ".join(map(sentence, rules_contradict(run)))
+    tables = [Table("Torque, efficiency and power", ("", "value", "band"), rows, note=note and f"{note}.")]
     if stiff:
         tables.append(Table("How the nut gives way", ("", "value"), stiff))
     return [*tables, _contacts(whose, run.contacts, run.curvature_alone)]

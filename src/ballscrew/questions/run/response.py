@@ -29,6 +29,7 @@ class RunDisplay(Closed):
     title: Message
     assumed: list[Message]
     rigidity: list[Message] = field("what the axial rigidity rests on")
+    rules: list[Message] = field("the torque without load beside the rules of makers; none of a nut without preload")
 
 
 class Document(with_answers(results=RunResults, loads=LOADS, vendor_rows=VENDOR_ROWS)):

@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ballscrew.basis.quantities import quantities_of
+from ballscrew.cases.case_files.makers_rules import BY_RULE
 from ballscrew.cases.screw_tables.nut_kinds import NUT_FIELDS, kind_of
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.sizing.rules import RULES
 from ballscrew.physics.solvers.load_distribution import BallLoads
+from ballscrew.questions.run.answer import results
 from ballscrew.questions.run.compute import Run
 from ballscrew.questions.shared.row_tables import Cells, RowTable, of_cells, put
 
@@ -34,6 +37,11 @@ def of_run(name: str, run: Run) -> Cells:
     nut = run.nut
     put(cells, NUT_FIELDS["preload"], None if nut is None else nut.preload)
     put(cells, _RESULT["screw_torque"], None if nut is None else nut.preload_drag, "torque without load")
+    found = results(run)
+    put(cells, _RESULT["screw_torque"], found.preload_drag_of_balls, "torque without load of balls")
+    for name, quantity in BY_RULE.items():
+        torque = None if found.rules is None else getattr(found.rules, name)
+        put(cells, quantity, torque, f"torque without load by {RULES[name].label}")
     put(cells, _RIGIDITY, None if nut is None else nut.loads.rigidity)
     cells["valid"] = int(run.friction.valid)
     cells["warnings"] = "; ".join(record.text for record in run.warnings)

@@ -13,11 +13,15 @@ from ballscrew.basis import units
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files import descriptions
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.nut_tables import seal_torque_source
 from ballscrew.physics.components.contact import RaceState
 from ballscrew.physics.friction.result import MECHANISMS, FrictionResult, Quadrant
 from ballscrew.physics.sizing.rigidity import RECALLED_ACCURACY_FACTORS, AxialRigidity
 from ballscrew.physics.solvers.load_distribution import BallLoads
-from ballscrew.questions.run.compute import NutState, Run
+from ballscrew.questions.run.compute import Run
+from ballscrew.questions.run.makers import beside_rules, contradiction
+from ballscrew.questions.run.nut_state import NutState
 from ballscrew.questions.shared.text_tables import shown_or_dash, table_of
 
 #: The first results, in this order; a nut has no contact load and entrainment speed of all its balls.
@@ -70,6 +74,8 @@ def print_run(run: Run) -> None:
         line(text, "dim")
     console.print()
     console.print(_results(run))
+    for text in rules_contradict(run):
+        line(text, "dim")
     for record in run.verdicts:
         line(record.text, "bold")
     for record in _warnings(run):
@@ -101,7 +107,7 @@ def _results(run: Run) -> Table:
             known = run.quantities[name]
             table.add_row(known.info.meaning, shown_or_dash(getattr(run.friction, name), known))
     if run.nut is not None:
-        for label, torque in unloaded_rows(run.nut):
+        for label, torque in unloaded_rows(run):
             table.add_row(label, shown_or_dash(torque, _TORQUE))
         for name, value in run.nut.drag_coefficients.items():
             if math.isfinite(value):
@@ -109,10 +115,27 @@ def _results(run: Run) -> Table:
     return table
 
 
-def unloaded_rows(nut: NutState) -> list[tuple[str, float]]:
-    """The torque of the nut without load, and what of it are seals and other losses."""
-    losses = ((f"of it {MECHANISMS.get(name, name)}", torque) for name, torque in nut.idle_losses.items() if torque)
-    return [("torque without load", nut.preload_drag), *losses]
+def unloaded_rows(run: Run) -> list[tuple[str, float]]:
+    """The torque of the nut without load, what of it are losses and balls, and that of the balls by makers' rules."""
+    nut = run.nut
+    if nut is None:
+        return []
+    losses = [(_of_loss(name, run.case), torque) for name, torque in nut.idle_losses.items() if torque]
+    rules = [(one.label, float(one.by_rule.torque)) for one in beside_rules(run.case, nut)]
+    balls = [("of it balls", nut.drag_of_balls)] if losses and rules else []
+    return [("torque without load", nut.preload_drag), *losses, *balls, *rules]
+
+
+def rules_contradict(run: Run) -> list[str]:
+    """By how much the rules of makers contradict each other; nothing of a nut without preload."""
+    found = beside_rules(run.case, run.nut)
+    return [units.filled(contradiction(found))] if found else []
+
+
+def _of_loss(name: str, case: Case) -> str:
+    """A loss, of seals with the table that their torque is from, where it is not the row's own."""
+    source = seal_torque_source(case.row, case.screw.nut) if name == "seals" else ""
+    return f"of it {MECHANISMS.get(name, name)}" + (f" ({source})" if source else "")
 
 
 def parts_table(contributions: Mapping[str, Any], total: float, encoding: str) -> Table:

@@ -9,6 +9,7 @@ from ballscrew.basis import units
 from ballscrew.basis.output.wrapping import aligned_beside, wrapped
 from ballscrew.basis.quantities import fields_of
 from ballscrew.questions.duty.compute import NUMBERS, DutyReport
+from ballscrew.questions.run import makers
 from ballscrew.questions.select.candidates import Candidate
 from ballscrew.questions.select.compute import Plan, Ranked, Selection
 from ballscrew.questions.select.document import verdict
@@ -107,6 +108,7 @@ def text(found: Selection, ranked: Sequence[Ranked], most: int = USUAL_LINES) ->
         lines.append(wrapped(words))
     if not ranked:
         lines.append("none is left of these")
+    lines += beside_rules(found)
     named = " and ".join(LABELS[name] for name in found.objectives)
     lines += ["", wrapped(f"*  of those of which no check fails, no other is better in {named}, taken together")]
     lines += ["", "assumed", *(wrapped(f"  {note}") for note in found.need.notes)] if found.need.notes else []
@@ -116,6 +118,16 @@ def text(found: Selection, ranked: Sequence[Ranked], most: int = USUAL_LINES) ->
     elif found.best is None and not reason:
         lines += ["", "no candidate holds within the validity of the model: look at what fails first, and by how much"]
     return "\n".join(lines)
+
+
+def beside_rules(found: Selection) -> list[str]:
+    """The torque of the best candidate without load beside the rules of makers; nothing of one without preload."""
+    best = next((each for each in found.ranked if each.candidate is found.best), None)
+    if best is None or best.candidate.run is None:
+        return []
+    run = best.candidate.run.run
+    said = "; ".join(map(units.filled, makers.messages(run.case, run.nut)))
+    return [wrapped(f"{best.rank}: {said}")] if said else []
 
 
 def table(ranked: Sequence[Ranked], objectives: Sequence[str], with_oil: bool, *, moves: bool = False) -> list[str]:

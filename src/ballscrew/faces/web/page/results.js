@@ -174,6 +174,7 @@ export function show(answer, { band, checks }) {
     );
   });
   byId("numbers").replaceChildren(element("dl", {}, ...rows));
+  byId("rules").replaceChildren(...display.rules.map((one) => element("p", { class: "small" }, said(one))));
   showVendorRows(answer);
   showContacts(answer, warnings.filter(isOfContact));
   showAssumptions(answer);
@@ -191,10 +192,10 @@ function showVendorRows({ vendor_rows: near }) {
   if (!near) return;
   const ratio = units.digits(near.mean_ratio, 2);
   const spread = units.digits(near.std_ratio, 1);
-  const { calibration, set } = near;
+  const { calibration, maker, set } = near;
   const how = calibration ? text("vendor.calibrated", { calibration }) : text("vendor.plain");
-  place.textContent = text("vendor.rows", { ratio, spread, how, set, rows: near.rows.join(", ") });
-  byId("calibrate").textContent = text(calibration ? "vendor.undo" : "vendor.calibrate");
+  place.textContent = text("vendor.rows", { ratio, spread, how, set, maker, rows: near.rows.join(", ") });
+  byId("calibrate").textContent = calibration ? text("vendor.undo") : text("vendor.calibrate", { maker });
 }
 
 /** @param {Run} answer */
