@@ -18,7 +18,9 @@ from ballscrew.basis.records import Measured, Message, Record
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
 from ballscrew.engine.uncertainty.distributions import Distribution
 from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.mixed_friction import FRESH_BOUNDARY_FRICTION, LoadSharing
 from ballscrew.physics.components.nut import Nut
+from ballscrew.physics.components.oil_grades import has_additives
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.calibrations import Calibration
@@ -29,6 +31,17 @@ from ballscrew.physics.sizing.installation import Installation, Limits
 
 _CALIBRATED = Message("calibrated, and {verdict}")
 _TOO_MANY = Message("{balls} loaded balls, and the {turns} turns of {row} hold {most}: check the number")
+_OTHER_NUTS = Message(
+    "the calibration {calibration} was fitted to nuts with {fitted} contacts a ball, and this one has {contacts}"
+)
+_NEW_SURFACES = Message(
+    "boundary friction of {given} is that of surfaces that have reacted with additives; "
+    "on new ones {fresh} was measured, and it rose while they ran in"
+)
+_BARE_OIL = Message(
+    "boundary friction of {given} is that of surfaces that have reacted with additives, and this oil has none; "
+    "{fresh} was measured before a film of reacted oil had grown"
+)
 #: The limits of the checks where a case gives none.
 USUAL_LIMITS = Limits()
 
@@ -129,9 +142,15 @@ class Case(Displayed):
     @property
     def doubts(self) -> list[Record]:
         """Warnings that the parts cannot tell: fitted numbers that no screw has, numbers that could be others, balls
-        beyond the turns of the row.
+        beyond the turns of the row, a calibration of other nuts, boundary friction of surfaces that have not reacted.
         """
-        return [*_of_fit(self.fit), *self.doubtful_numbers, *_too_many_balls(self.screw, self.row)]
+        return [
+            *_of_fit(self.fit),
+            *self.doubtful_numbers,
+            *_too_many_balls(self.screw, self.row),
+            *_of_other_nuts(self.calibration, self.screw.nut),
+            *_not_reacted(self.model, self.lubricant),
+        ]
 
 
 def _of_fit(table: Mapping[str, Any]) -> list[Record]:
@@ -142,6 +161,40 @@ def _of_fit(table: Mapping[str, Any]) -> list[Record]:
             severity="warning", holds=False,
         )
         for place, text in enumerate(table.get("verdicts", ()))
+    ]  # fmt: skip
+
+
+def _of_other_nuts(calibration: Calibration | None, nut: Nut) -> list[Record]:
+    """A warning of a calibration that was fitted to nuts whose balls have another number of contacts."""
+    if calibration is None or nut.contacts_per_ball in calibration.contacts_per_ball:
+        return []
+    message = _OTHER_NUTS.of(
+        calibration=calibration.name,
+        fitted=Measured(float(calibration.contacts_per_ball[0])),
+        contacts=Measured(float(nut.contacts_per_ball)),
+    )
+    return [
+        units.record(
+            message, id="calibration.other_nuts", subject="model.calibration", severity="warning", holds=False,
+            value=float(nut.contacts_per_ball), limit=float(calibration.contacts_per_ball[0]),
+        )
+    ]  # fmt: skip
+
+
+def _not_reacted(model: FrictionModel, lubricant: Lubricant) -> list[Record]:
+    """A warning of boundary friction as of reacted surfaces for new ones, or for an oil without additives."""
+    friction = getattr(model.friction, "boundary_friction_coefficient", None)
+    is_new = isinstance(model.friction, LoadSharing)
+    bare = not has_additives(lubricant.grade)
+    if friction is None or not (is_new or bare) or not float(friction) > 1.5 * FRESH_BOUNDARY_FRICTION:
+        return []
+    template = _BARE_OIL if bare else _NEW_SURFACES
+    message = template.of(fresh=Measured(FRESH_BOUNDARY_FRICTION), given=Measured(float(friction)))
+    return [
+        units.record(
+            message, id="friction.not_reacted", subject="model.friction", severity="warning", holds=False,
+            value=float(friction), limit=FRESH_BOUNDARY_FRICTION,
+        )
     ]  # fmt: skip
 
 

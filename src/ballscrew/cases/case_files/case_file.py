@@ -24,7 +24,7 @@ from ballscrew.cases.case_files.case import USUAL_LIMITS
 from ballscrew.cases.case_files.case import Case as Case
 from ballscrew.cases.case_files.inputs import inputs as inputs
 from ballscrew.cases.case_files.lubricants import lubricant_of
-from ballscrew.cases.case_files.named_calibration import calibrated_by_table, with_calibration
+from ballscrew.cases.case_files.named_calibration import calibrated_by_table, of_make, with_calibration
 from ballscrew.cases.case_files.provenance import references as references
 from ballscrew.cases.case_files.spelling import doubtful
 from ballscrew.cases.schema.case_schema import (
@@ -152,6 +152,8 @@ def build(
     efficiency = duty_tables.efficiency(sections, model, moves, faults)
     faults += _missing_sections(tables, duty_tables.needed(_NEEDED, moves, efficiency))
     made = _screw(sections, folder, rows, faults) if "screw" in sections else _NO_SCREW
+    if (known := of_make(tables, made.row, faults)) is not tables:
+        tables, sections = known, validated_sections(known)
     lubricant, oil = lubricant_of(sections, folder, faults) if "lubricant" in sections else (None, {})
     moved = duty_tables.moved(sections, folder, faults)
     moved = moved._replace(axis=support_tables.guided(sections, moved.axis, folder, lubricant, faults))

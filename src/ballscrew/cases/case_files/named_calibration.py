@@ -6,13 +6,21 @@ import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
-from ballscrew.basis.errors import Fault, raise_if_any
+from ballscrew.basis.errors import Fault, either, raise_if_any
+from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.schema.case_schema import name_of_law
 from ballscrew.evidence.validation.nearest import NearRows, near_rows
-from ballscrew.physics.friction.calibrations import calibrated, calibration
+from ballscrew.physics.friction.calibrations import (
+    BY_MAKE,
+    calibrated,
+    calibration,
+    calibration_of_make,
+    calibrations,
+)
 from ballscrew.physics.friction.law_names import coefficients
 from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.sizing.catalogue import CatalogueRow
 
 #: Written for a calibration on the command line: the model as it is.
 NO_CALIBRATION = "none"
@@ -27,6 +35,21 @@ def with_calibration(tables: Mapping[str, Any], name: str | None) -> Mapping[str
         return tables
     others = {key: value for key, value in table.items() if key != "calibration"}
     return {**tables, "model": others if name == NO_CALIBRATION else {**others, "calibration": name}}
+
+
+def of_make(tables: Mapping[str, Any], row: CatalogueRow | None, faults: list[Fault]) -> Mapping[str, Any]:
+    """Tables with the calibration of the make of the row, where the case leaves the choice to it; else as they are."""
+    table = tables.get("model", {})
+    if not isinstance(table, dict) or table.get("calibration") != BY_MAKE:
+        return tables
+    make = "" if row is None else row.make
+    found = calibration_of_make(make)
+    if found is None:
+        known = either(dict.fromkeys(one.maker for one in calibrations().values()))
+        remedy = Message("take a row of {known}, or the name of a calibration", {"known": known})
+        faults.append(Fault("model.calibration", "there is none of this make", make or "none", remedy))
+        return {**tables, "model": {key: value for key, value in table.items() if key != "calibration"}}
+    return {**tables, "model": {**table, "calibration": found.name}}
 
 
 def calibrated_by_table(model: FrictionModel, table: Mapping[str, Any]) -> FrictionModel:

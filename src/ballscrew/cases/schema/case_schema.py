@@ -33,7 +33,7 @@ from ballscrew.physics.components.nut import Bodies, DoubleNut, Scatter
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.outside_laws import name_of as outside_name
 from ballscrew.physics.components.screw import MATERIALS, BallScrew
-from ballscrew.physics.friction.calibrations import calibrations
+from ballscrew.physics.friction.calibrations import BY_MAKE, calibrations
 from ballscrew.physics.friction.law_names import LAWS as LAWS
 from ballscrew.physics.friction.law_names import coefficients
 from ballscrew.physics.friction.model import FrictionModel, presets
@@ -153,7 +153,7 @@ def sections() -> Mapping[str, type[BaseModel]]:
         "model": section_of(
             "Model", fields_of(FrictionModel), FrictionModel, required=False, uncertain=fields_of(FrictionModel),
             name=(model_name, Field(default=None, json_schema_extra={"default": DEFAULT_MODEL})),
-            calibration=(_one_of(calibrations(), "named calibration of two of its numbers"), None),
+            calibration=(_one_of((*calibrations(), BY_MAKE), "named calibration, or that of the row's make"), None),
             efficiency=efficiency_field(),
             **{slot: _slot(slot) for slot in LAWS},
         ),

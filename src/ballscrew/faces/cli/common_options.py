@@ -22,7 +22,7 @@ ModelName = Annotated[
 ]
 CalibrationName = Annotated[
     str | None,
-    typer.Option("--calibration", metavar="NAME", help=f"{CALIBRATION_NAMES}, or none; wins over the file."),
+    typer.Option("--calibration", metavar="NAME", help=f"{CALIBRATION_NAMES}, by-make or none; wins over the file."),
 ]
 Settings = Annotated[
     list[str] | None,

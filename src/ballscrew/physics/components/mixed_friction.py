@@ -13,6 +13,9 @@ from ballscrew.physics.components.oil_grades import PARAFFINIC, LimitingShear
 from ballscrew.physics.components.traits import law_traits
 from ballscrew.physics.equations import friction, mixed_lubrication, rheology, traction
 
+#: Boundary friction between steel and steel before a film of reacted oil has grown (PCSTraction: 0.057 to 0.118).
+FRESH_BOUNDARY_FRICTION = 0.06
+
 Boundary = Annotated[
     Ratio,
     Info(

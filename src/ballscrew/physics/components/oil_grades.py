@@ -95,6 +95,11 @@ def oil_of_sheet(sheet: DataSheet, temperature: Temperature) -> OilState:
     )
 
 
+def has_additives(grade: str | None) -> bool:
+    """False for an oil of a grade that is known to have none: reference and base oils."""
+    return grade is None or bool(_oils().get(grade, {}).get("additives", True))
+
+
 def limiting_shear_of(base_oil: str) -> float:
     """The limit of shear of a kind of base oil, ``data/oil_grades.toml``; what is mixed or unknown is as mineral oil.
 

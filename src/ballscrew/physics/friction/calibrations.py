@@ -71,6 +71,16 @@ class Calibration(ByValue):
         return self.covariance[0][1] / (one * other)
 
 
+#: Written for a calibration: that of the make of the catalogue row.
+BY_MAKE = "by-make"
+
+
+def calibration_of_make(make: str) -> Calibration | None:
+    """The calibration of a maker, of several the one of most numbers; None of a maker that has none."""
+    found = [one for one in calibrations().values() if make and one.maker.casefold() == make.casefold()]
+    return max(found, key=lambda one: len(one.fitted), default=None)
+
+
 @functools.cache
 def calibrations() -> Mapping[str, Calibration]:
     """The calibrations shipped, by name (``data/calibrations.toml``)."""

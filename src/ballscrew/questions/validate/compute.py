@@ -79,7 +79,8 @@ def request(
         faults.append(Fault("--card", "goes with no set, rows or conditions", "", "a card has its own"))
     if summary and (cards or to is not None):
         problem = "is a table of the sets" if cards else "is no picture"
-        faults.append(Fault("--summary", problem, "", f"leave {'--card' if cards else '--to'} out"))
+        remedy = Message("leave {option} out", {"option": "--card" if cards else "--to"})
+        faults.append(Fault("--summary", problem, "", remedy))
     given = _conditions(grade, temperature, speed, faults)
     raise_if_any(faults)
     found, notes = _sets(names, MODELS[model]) if not cards else ([], [])
