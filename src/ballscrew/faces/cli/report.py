@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import importlib.util
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 import typer
 
@@ -13,9 +12,6 @@ from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, CaseF
 from ballscrew.faces.cli.flags import flags_of
 from ballscrew.faces.report.options import ReportOptions
 
-#: What each kind of file needs beyond the core.
-_NEEDS = {".html": ("jinja2",), ".pdf": ("typst",)}
-_KINDS: dict[str, Literal["pdf", "html"]] = {".html": "html", ".pdf": "pdf"}
 _TO = "--to"
 #: Designs beside the first, as :mod:`ballscrew.faces.report.several` has letters for.
 _MOST_BESIDE = 3
@@ -44,21 +40,10 @@ def report(
     """
     from ballscrew.basis.errors import Fault, InputError
     from ballscrew.basis.records import Message
+    from ballscrew.faces.report.files import check_kind
 
-    kind = to.suffix.lower()
-    if kind not in _NEEDS:
-        raise InputError(Fault(_TO, "unknown kind of file", str(to), "end it in .pdf or .html"))
-    missing = [name for name in _NEEDS[kind] if importlib.util.find_spec(name) is None]
-    if missing:
-        raise InputError(
-            Fault(
-                _TO,
-                Message("needs {names}", {"names": " and ".join(missing)}),
-                str(to),
-                'pip install "ballscrew[report]"',
-            )
-        )
-    from ballscrew.basis.atomic_files import atomic_write, check_writable
+    kind = check_kind(_TO, to)
+    from ballscrew.basis.atomic_files import atomic_write
     from ballscrew.cases.case_files import case_file
     from ballscrew.faces.report.heading import Heading
     from ballscrew.questions.shared.option_values import read
@@ -78,12 +63,11 @@ def report(
     )
     options = read(ReportOptions, written)
     heading = Heading.of(options.project, options.date)
-    check_writable(_TO, to)
     from ballscrew.faces.cli.progress import progress
     from ballscrew.faces.report.files import report_bytes
 
     with progress("report") as done:
-        made = report_bytes(loaded, _KINDS[kind], done, options.samples, heading, others)
+        made = report_bytes(loaded, kind, done, options.samples, heading, others)
     with atomic_write(_TO, to) as path:
         path.write_bytes(made)
     typer.echo(f"{to}: report of {case.name}, {len(made) // 1000} kB")

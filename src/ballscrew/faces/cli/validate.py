@@ -27,6 +27,10 @@ def validate(
     to: Annotated[
         Path | None, typer.Option("--to", "-o", metavar="FILE", help="Also draw the ratios: .png, .svg or .pdf.")
     ] = None,
+    report: Annotated[
+        Path | None,
+        typer.Option("--report", metavar="FILE", help="Also write all of it as one paper: .pdf or .html."),
+    ] = None,
     keep_going: Annotated[
         bool, typer.Option("--keep-going", help="Leave faulty rows out, and say which; fails if none is good.")
     ] = False,
@@ -72,6 +76,10 @@ def validate(
     )
     if to is not None:
         files.check_picture(to)
+    if report is not None:
+        from ballscrew.faces.report.files import check_kind
+
+        check_kind("--report", report)
     for note in request.notes:
         typer.echo(note, err=True)
     found = []
@@ -90,6 +98,12 @@ def validate(
         typer.echo(json_text.as_json(summaries.document(table)) if as_json else summaries.text_of(table))
     elif as_json:
         typer.echo(json_text.as_json(documents.documents([entry for entries in found for entry in entries])))
+    if report is not None:
+        from ballscrew.faces.report.files import written
+        from ballscrew.questions.validate.report import report as report_of
+
+        whole = report_of(request, found, summaries.summary(request, found)[0])
+        typer.echo(f"{report}: report, {written('--report', report, whole) // 1000} kB", err=as_json)
     if to is not None:
         from ballscrew.questions.validate import figure as figures  # matplotlib is slow to import
 

@@ -3,15 +3,24 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+import importlib.util
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Literal
 
+from ballscrew.basis.atomic_files import atomic_write, check_writable
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.case import Case
 from ballscrew.faces.report import contents, several
 from ballscrew.faces.report.contents import ALL, Done
 from ballscrew.faces.report.heading import Heading
+from ballscrew.questions.shared.report_blocks import Report
 
 Kind = Literal["pdf", "html"]
+#: What each kind of file needs beyond the core.
+_NEEDS = {".html": ("jinja2",), ".pdf": ("typst",)}
+_KINDS: Mapping[str, Kind] = {".html": "html", ".pdf": "pdf"}
 #: Nobody says whose report it is.
 NO_HEADING = Heading()
 
@@ -30,15 +39,43 @@ def report_bytes(
     is. Needs the extra ``report``.
     """
     whole = several.content([case, *beside], done, samples) if beside else contents.content(case, done, samples)
-    found = dataclasses.replace(whole, heading=heading.lines)
+    made = bytes_of(dataclasses.replace(whole, heading=heading.lines), kind)
+    if done is not None:
+        done(ALL, ALL)
+    return made
+
+
+def bytes_of(report: Report, kind: Kind) -> bytes:
+    """A report as a PDF or HTML file. Needs the extra ``report``."""
     if kind == "html":
         from ballscrew.faces.report.html import html_bytes
 
-        written = html_bytes(found)
-    else:
-        from ballscrew.faces.report.pdf import pdf_bytes
+        return html_bytes(report)
+    from ballscrew.faces.report.pdf import pdf_bytes
 
-        written = pdf_bytes(found)
-    if done is not None:
-        done(ALL, ALL)
-    return written
+    return pdf_bytes(report)
+
+
+def check_kind(option: str, to: Path) -> Kind:
+    """The kind of report by the ending of a file that can be written.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for another ending, a package that is missing, and a file that
+    cannot be written.
+    """
+    kind = to.suffix.lower()
+    if kind not in _NEEDS:
+        raise InputError(Fault(option, "unknown kind of file", str(to), "end it in .pdf or .html"))
+    missing = [name for name in _NEEDS[kind] if importlib.util.find_spec(name) is None]
+    if missing:
+        problem = Message("needs {names}", {"names": " and ".join(missing)})
+        raise InputError(Fault(option, problem, str(to), 'pip install "ballscrew[report]"'))
+    check_writable(option, to)
+    return _KINDS[kind]
+
+
+def written(option: str, to: Path, report: Report) -> int:
+    """Write a report to a file, whole or not at all, and return its bytes."""
+    made = bytes_of(report, check_kind(option, to))
+    with atomic_write(option, to) as path:
+        path.write_bytes(made)
+    return len(made)

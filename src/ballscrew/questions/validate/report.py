@@ -1,0 +1,234 @@
+"""``ballscrew validate --report``: all data, all laws and all rules in one paper, with what is circular and "
+"what nobody
+has measured.
+
+The numbers are those of ``ballscrew validate`` and of its summary.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from ballscrew.basis import units
+from ballscrew.basis.version import __version__
+from ballscrew.evidence.validation.entries import Entry, Point
+from ballscrew.physics.sizing.rules import RULES
+from ballscrew.questions.shared import charts
+from ballscrew.questions.shared.chart_svg import named, svg_of
+from ballscrew.questions.shared.report_blocks import Block, Bullets, Paragraph, Picture, Report, Section, Table
+from ballscrew.questions.validate.compute import Request
+from ballscrew.questions.validate.summary import CALIBRATION, MODEL, RULE, SummaryRow
+from ballscrew.questions.validate.text import WORDS
+
+_TITLE = "What friction models of ball screws are worth"
+_PAGES = 16
+_MARKS = {MODEL: ("o", charts.BLUE), CALIBRATION: ("D", charts.RED), RULE: ("|", charts.INK)}
+
+#: What no source that could be read has measured, in the order of what it would settle.
+NOT_MEASURED = (
+    "The torque of any ball screw with its size, balls, nut, preload, oil, temperature and speed all stated. Of "
+    "the one public set of measured screws neither diameter nor nut nor oil is stated.",
+    "A full complement of balls against spacer balls at equal load of each ball: whether neighbours rub on each other.",
+    "The same nut with two leads on one diameter: the makers' rules differ there by a factor of two.",
+    "The torque of a preloaded nut below 0 °C: whether oil comes back into the track in time.",
+    "The gap that is left in a circuit of balls, and the deviation of its grooves over a turn.",
+    "Friction over the first degrees after a reversal, slowly, with the force of the nut measured.",
+)
+#: The day at a rig that would settle it.
+EXPERIMENT = (
+    "An adjustable double nut without wipers, its preload measured, torque to 1 mN m, both ways.",
+    "1 to 2000 rpm at 20 and 40 °C: rolling from boundary friction.",
+    "Preloads of 2, 5 and 10 % of the rating: the exponent of the load.",
+    "Full complement against spacer balls 1:1 at equal load of each ball: the force between neighbours.",
+    "Oils of VG 10 and VG 220 at equal temperature: film from boundary friction.",
+    "Leads of 5 and 20 mm on one diameter: JIS B 1192 has twice the torque, the rules of Rexroth and HIWIN the same.",
+)
+
+
+def report(request: Request, found: Sequence[Sequence[Entry]], table: Sequence[SummaryRow]) -> Report:
+    """The report of all sets of a request, with the table of all makers."""
+    plain = [entries[0] for entries in found]
+    sections = [
+        Section("In short", [Paragraph(text, strong=not place) for place, text in enumerate(_in_short(plain, table))]),
+        Section("All makers", [_makers(table), _picture(table)]),
+        Section("Does the band hold them?", [_coverage(plain)]),
+        Section("What is circular", [Bullets(_circular(table))]),
+        Section("Other statements", [_others(plain)]),
+        Section("What nobody has measured", [Bullets(NOT_MEASURED)]),
+        Section("The experiment that would settle it", [Bullets(EXPERIMENT), _CALL]),
+        *(Section(entry.data.name, _rows(entry)) for entry in plain),
+    ]
+    subtitle = [f"model {request.model.label}; ratios are model / middle of what is stated"]
+    return Report(_TITLE, subtitle, sections, f"ballscrew {__version__}", _PAGES)
+
+
+_CALL = Paragraph(
+    "Whoever has such torques: a torque card (ballscrew card) holds what was measured and on what, is checked "
+    "by a command, and is compared with all laws by ballscrew validate --card. Twenty of them would decide more than "
+    "all tables of makers."
+)
+
+
+def _in_short(entries: Sequence[Entry], table: Sequence[SummaryRow]) -> list[str]:
+    model = [row for row in table if row.kind == MODEL and row.n > 1]
+    low, high = (one(model, key=lambda row: row.mean_ratio) for one in (min, max))
+    rules = [row for row in table if row.kind == RULE and row.nut == "double" and row.maker == "Rexroth" and row.n > 1]
+    spread = max(row.mean_ratio for row in rules) / min(row.mean_ratio for row in rules) if rules else math.nan
+    judged = [point for entry in entries for point in entry.counted if point.in_uncertainty_band is not None]
+    inside = sum(bool(point.in_uncertainty_band) for point in judged)
+    said = [
+        f"Uncalibrated, the model has {_of(low)} to {_of(high)} of the torque without load that makers state, "
+        "by maker and kind of nut; no row was fitted.",
+        "These torques are acceptance bands of catalogues, most of them computed by rules of one line. "
+        + (
+            f"On the same double nuts the rules of three makers differ by a factor of {spread:.2f}: no model "
+            "can agree with all of them, and agreement with one is agreement with its rule."
+            if math.isfinite(spread)
+            else ""
+        ),
+    ]
+    if judged:
+        said.append(
+            "The 95 % band of an uncalibrated nut, which draws the calibrations of makers as alternatives, holds the "
+            f"middle of {inside} of {len(judged)} statements ({100 * inside / len(judged):.0f} %)."
+        )
+    said.append(
+        "No measured torque of a ball screw that is described well enough to test a model could be found in public."
+    )
+    return said
+
+
+def _of(row: SummaryRow) -> str:
+    return f"{row.mean_ratio:.2f} ({row.maker}, {row.nut})"
+
+
+def _makers(table: Sequence[SummaryRow]) -> Table:
+    rows = [
+        [
+            row.maker,
+            row.nut,
+            RULES[row.name].title if row.kind == RULE else row.name,
+            str(row.n),
+            f"{row.mean_ratio:.2f}" + (f" ± {row.std_ratio:.2f}" if math.isfinite(row.std_ratio) else ""),
+            "–" if row.share_in_band is None else f"{100 * row.share_in_band:.0f} %",
+            *(f"{row.exponents[name]:+.2f}" if name in row.exponents else "–" for name in ("size", "lead")),
+            "chosen on" if row.chosen_on else "never used",
+        ]
+        for row in table
+    ]
+    heads = ["maker", "nut", "model, calibration or rule", "n", "ratio", "in band", "d0^", "Ph^", "rows"]
+    note = (
+        "In band: share of the rows in the maker's own band. Exponents of one fit of the ratio over diameter "
+        "and lead. Rows on which something was chosen are no evidence for it."
+    )
+    return Table("No-load torque, model / middle of the band", heads, rows, texts=(0, 1, 2, 8), wide=2, note=note)
+
+
+def _picture(table: Sequence[SummaryRow]) -> Picture:
+    words = "ratios of the model, its calibrations and rules to what makers state, by maker and kind of nut"
+    caption = (
+        "Mean ratio to the middle of what is stated: the model (circles), its calibrations (diamonds) and rules "
+        "of one line (strokes); lines are one standard deviation of the model."
+    )
+    return Picture(named(svg_of(lambda: _ratios(table), "makers"), words), words, caption)
+
+
+def _ratios(table: Sequence[SummaryRow]) -> Figure:
+    """The mean ratios of all makers on one logarithmic axis."""
+    places = list(dict.fromkeys((row.maker, row.nut) for row in table))
+    figure, [panel] = charts.new_figure("", rows=1, columns=1, height=0.45 * len(places) + 1.2)
+    panel.axvline(1.0, color=charts.INK, linewidth=0.9)
+    for kind, (mark, colour) in _MARKS.items():
+        rows = [row for row in table if row.kind == kind]
+        y = [-places.index((row.maker, row.nut)) for row in rows]
+        panel.plot([row.mean_ratio for row in rows], y, mark, color=colour, markersize=6, label=kind)
+    for row in table:
+        if row.kind == MODEL and math.isfinite(row.std_ratio):
+            ends = [max(row.mean_ratio - row.std_ratio, 0.05), row.mean_ratio + row.std_ratio]
+            panel.plot(ends, [-places.index((row.maker, row.nut))] * 2, color=charts.BLUE, linewidth=1.2)
+    panel.set_xscale("log")
+    panel.set_xticks([0.3, 0.5, 0.7, 1.0, 1.5, 2.0], ["0.3", "0.5", "0.7", "1", "1.5", "2"])
+    panel.minorticks_off()
+    panel.set_yticks([-place for place in range(len(places))], [f"{maker}, {nut}" for maker, nut in places])
+    panel.set_ylim(-len(places) + 0.4, 0.6)
+    panel.set_xlabel("model or rule / middle of what is stated")
+    panel.legend(loc="lower left", bbox_to_anchor=(0, 1), ncols=3, borderaxespad=0.2)
+    return figure
+
+
+def _coverage(entries: Sequence[Entry]) -> Table:
+    """How often the band of the model holds the middle of a statement, and how wide it is."""
+    rows: list[list[str]] = []
+    for entry in entries:
+        for group, of_group in (entry.groups or {"": entry}).items():
+            share, width = of_group.share_in_uncertainty_band, of_group.uncertainty_width
+            if share is not None and width is not None:
+                count = len(of_group.counted)
+                rows.append(
+                    [entry.data.maker, group or entry.data.name, str(count), f"{100 * share:.0f} %", f"{width:.1f}"]
+                )
+    note = (
+        "The width is the geometric mean of the upper over the lower end. "
+        "Preloads that are not stated are those of the set."
+    )
+    heads = ["maker", "nut", "rows", "middle within the band", "upper / lower end"]
+    return Table("95 % band of an uncalibrated nut", heads, rows, texts=(0, 1), wide=1, note=note)
+
+
+def _circular(table: Sequence[SummaryRow]) -> list[str]:
+    """What was chosen with which rows in sight."""
+    chosen: dict[str, dict[str, None]] = {}
+    for row in table:
+        chosen.setdefault(row.set, {}).update(dict.fromkeys(row.chosen_on))
+    return [
+        f"{name}: {'; '.join(words) if words else 'nothing was chosen on these rows'}."
+        for name, words in chosen.items()
+    ]
+
+
+def _others(entries: Sequence[Entry]) -> Table:
+    """What is stated beside torques without load, in a line each."""
+    rows: list[list[str]] = []
+    for entry in entries:
+        if entry.data.alternatives or entry.data.bound:
+            low, high = entry.range_ratio
+            ratio = f"{low:.2f} to {high:.2f}"
+        else:
+            scatter = f" ± {entry.std_ratio:.2f}" if math.isfinite(entry.std_ratio) else ""
+            ratio = f"{entry.mean_ratio:.2f}{scatter}"
+        rows.append([entry.data.name, entry.data.title, entry.data.source, str(len(entry.counted)), ratio])
+        rows += [
+            ["", WORDS.get(name, name.replace("_", " ")), "", "", f"{value:.2f}"]
+            for name, value in entry.mean_definitions.items()
+        ]
+    heads = ["set", "stated", "source", "n", "model / stated"]
+    return Table("Each set of data, uncalibrated", heads, rows, texts=(0, 1, 2), wide=1)
+
+
+def _rows(entry: Entry) -> list[Block]:
+    """Every row of a set."""
+    quantity = entry.data.quantity
+
+    def shown(value: float | None) -> str:
+        return "–" if value is None or not math.isfinite(value) else f"{units.from_si(value, quantity):.4g}"
+
+    def line(point: Point) -> list[str]:
+        low, high = point.band.low, point.band.high
+        ends = point.uncertainty
+        return [
+            point.name,
+            "–" if low is None else f"{shown(low)} to {shown(high)}",
+            shown(point.band.middle),
+            shown(point.value),
+            "–" if not np.isfinite(point.ratio) else f"{point.ratio:.2f}",
+            "–" if ends is None else f"{shown(ends[0])} to {shown(ends[1])}",
+        ]
+
+    heads = ["row", "stated band", "middle", "model", "ratio", "band of the model"]
+    title = f"{entry.data.title}, {quantity.shown_in}"
+    words = Paragraph(f"{entry.data.description}. Source: {entry.data.source}.")
+    return [words, Table(title, heads, [line(point) for point in entry.points], texts=(0,), wide=0)]
