@@ -374,7 +374,8 @@ def test_picture_shows_axes_case_and_all_ratios():
         assert places == {*of_screws, "speed (rpm)", "bore (mm)", "preload (N)"}
     words = " ".join(" ".join(text.get_text() for text in figure.texts).split())
     for said in (
-        "100 rpm, ISO VG 100 at 25 degC",
+        "No-load torques: 100 rpm, ISO VG 100 at 25 degC",
+        "; hiwin-stock: 100 rpm, ISO VG 68 at 25 degC, no load",
         "Model reference",
         "boundary friction 0.143",
         "0.011 of the load",

@@ -87,6 +87,8 @@ def test_what_was_chosen_on_rows_is_said(table):
     assert all("rexroth-2006" not in word for word in chosen["Rexroth", "reference"])
     assert chosen["Rexroth", "jis"] == chosen["THK", "reference"] == chosen["THK", "rexroth-2006"] == []
     assert "jis" in chosen["THK", "jis"][0]
+    other, _ = summaries.summary(validation.request(["rexroth-double-nut"], model="olaru2005"))
+    assert [(row.name, bool(row.chosen_on)) for row in other if row.kind != summaries.RULE] == [("olaru2005", False)]
 
 
 def test_sets_declare_what_was_chosen_on_them():

@@ -220,7 +220,7 @@ class ValidationSet:
     aliases: Mapping[str, tuple[str, ...]] = dataclasses.field(default_factory=dict[str, tuple[str, ...]])
     #: Oil and speed, where they count.
     conditions: Conditions = dataclasses.field(default_factory=Conditions)
-    #: What of the model was chosen with these rows in sight, calibrations aside; empty where nothing was.
+    #: What of the reference model was chosen with these rows in sight, calibrations aside; empty where nothing was.
     used_for: Sequence[str] = ()
     #: Rules of one line that the stated values are computed by, as far as their digits tell.
     rules_behind: Sequence[str] = ()
@@ -368,9 +368,11 @@ class Entry:
 
     @property
     def warnings(self) -> dict[str, int]:
-        """The model's warnings, and for how many points each."""
-        every = [f"{record.name}: {record.text}" for point in self.points for record in point.warnings]
-        return {warning: every.count(warning) for warning in dict.fromkeys(every)}
+        """The model's warnings, each in the words of the first point that has it, and for how many points."""
+        every = [record for point in self.points for record in point.warnings]
+        ids = [record.id for record in every]
+        first = {record.id: record for record in reversed(every)}
+        return {f"{first[id].name}: {first[id].text}": ids.count(id) for id in dict.fromkeys(ids)}
 
 
 def mean(numbers: Sequence[float]) -> float:

@@ -10,11 +10,13 @@ from typing import Any
 from ballscrew.basis.output.wrapping import aligned, wrapped
 from ballscrew.evidence.validation.entries import Entry, RuleEntry
 from ballscrew.physics.friction.calibrations import calibrated, calibrations
+from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.sizing.rules import DRAG_RULES, RULES
 from ballscrew.questions.validate.compute import Request, entries_of
 
 #: What the rows of the table are of.
 MODEL, CALIBRATION, RULE = "model", "calibration", "rule"
+_CHOSEN_MODEL = FrictionModel.reference().name
 _BEHIND = "rule {rule}: the values stated are computed by it"
 _HEADINGS: Sequence[str] = ("maker", "nut", "what", "n", "mean ratio", "scatter", "in band", "d0^", "Ph^", "rows")
 
@@ -77,7 +79,8 @@ def _of_groups(entries: Sequence[Entry]) -> Iterator[SummaryRow]:
         for entry in of_group:
             name = entry.calibration or entry.model.name
             fitted = [f"calibration {name}, fitted"] if name in entry.data.calibrations else []
-            chosen = [*entry.data.used_for, *fitted]
+            # what was chosen is of the reference; other models have none of it
+            chosen = [*(entry.data.used_for if entry.model.name == _CHOSEN_MODEL else ()), *fitted]
             yield _row(entry, group, CALIBRATION if entry.calibration else MODEL, name, entry, chosen)
         for rule in of_group[0].rules:
             if rule.rule in DRAG_RULES:

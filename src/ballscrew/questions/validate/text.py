@@ -212,13 +212,21 @@ def source_and_fit(data: ValidationSet, request: Request) -> str:
     return f"{source_of(data, request)}; {words}"
 
 
+def _conditions_of(sets: Sequence[ValidationSet], request: Request) -> str:
+    """Oil and speed of sets with torques without load; those that differ from the first with the name of their set."""
+    torques = [data for data in sets if data.conditioned and data.of_screws]
+    usual = [data for data in torques if not data.alternatives and not data.loaded] or torques[:1]
+    told = {data.name: conditions(data, request) for data in usual}
+    first = next(iter(told.values()), "")
+    return "; ".join([first, *(f"{name}: {words}" for name, words in told.items() if words != first)])
+
+
 def caption(found: Sequence[Sequence[Entry]], request: Request) -> str:
     """The caption of the picture."""
     entries = [entry for one in found for entry in one]
     words = ["Ratio of the model to what the table states (for a band its middle); grey: the vendor's bands."]
-    if any(entry.data.conditioned for entry in entries):
-        data = next(entry.data for entry in entries if entry.data.conditioned)
-        words.append(f"No-load torques: {conditions(data, request)}.")
+    if told := _conditions_of([one[0].data for one in found], request):
+        words.append(f"No-load torques: {told}.")
     words.append(f"Model {request.model.name}.")
     if request.calibration is not None and any(entry.calibration for entry in entries):
         fitted = request.calibration
