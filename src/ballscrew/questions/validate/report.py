@@ -54,9 +54,7 @@ def report(request: Request, found: Sequence[Sequence[Entry]], table: Sequence[S
     plain = [entries[0] for entries in found]
     sections = [
         Section("In short", [Paragraph(text, strong=not place) for place, text in enumerate(_in_short(plain, table))]),
-        Section("All makers", [_makers(table), _picture(table)]),
-        Section("Does the band hold them?", [_coverage(plain)]),
-        Section("What is circular", [Bullets(_circular(table))]),
+        *(_of_makers(plain, table) if table else ()),
         Section("Other statements", [_others(plain)]),
         Section("What nobody has measured", [Bullets(NOT_MEASURED)]),
         Section("The experiment that would settle it", [Bullets(EXPERIMENT), _CALL]),
@@ -64,6 +62,15 @@ def report(request: Request, found: Sequence[Sequence[Entry]], table: Sequence[S
     ]
     subtitle = [f"model {request.model.label}; ratios are model / middle of what is stated"]
     return Report(_TITLE, subtitle, sections, f"ballscrew {__version__}", _PAGES)
+
+
+def _of_makers(entries: Sequence[Entry], table: Sequence[SummaryRow]) -> list[Section]:
+    """The sections on torques without load that makers state."""
+    return [
+        Section("All makers", [_makers(table), _picture(table)]),
+        Section("Does the band hold them?", [_coverage(entries)]),
+        Section("What is circular", [Bullets(_circular(table))]),
+    ]
 
 
 _CALL = Paragraph(
@@ -74,23 +81,24 @@ _CALL = Paragraph(
 
 
 def _in_short(entries: Sequence[Entry], table: Sequence[SummaryRow]) -> list[str]:
-    model = [row for row in table if row.kind == MODEL and row.n > 1]
-    low, high = (one(model, key=lambda row: row.mean_ratio) for one in (min, max))
+    model = [row for row in table if row.kind == MODEL]
     rules = [row for row in table if row.kind == RULE and row.nut == "double" and row.maker == "Rexroth" and row.n > 1]
     spread = max(row.mean_ratio for row in rules) / min(row.mean_ratio for row in rules) if rules else math.nan
     judged = [point for entry in entries for point in entry.counted if point.in_uncertainty_band is not None]
     inside = sum(bool(point.in_uncertainty_band) for point in judged)
-    said = [
-        f"Uncalibrated, the model has {_of(low)} to {_of(high)} of the torque without load that makers state, "
-        "by maker and kind of nut; no row was fitted.",
-        "These torques are acceptance bands of catalogues, most of them computed by rules of one line. "
-        + (
-            f"On the same double nuts the rules of three makers differ by a factor of {spread:.2f}: no model "
-            "can agree with all of them, and agreement with one is agreement with its rule."
-            if math.isfinite(spread)
-            else ""
-        ),
-    ]
+    said: list[str] = []
+    if model:
+        low, high = (one(model, key=lambda row: row.mean_ratio) for one in (min, max))
+        said.append(
+            f"Uncalibrated, the model has {_of(low)} to {_of(high)} of the torque without load that makers state, "
+            "by maker and kind of nut; no row was fitted."
+        )
+    said.append("Torques in catalogues are acceptance bands, most of them computed by rules of one line.")
+    if math.isfinite(spread):
+        said.append(
+            f"On the same double nuts the rules of three makers differ by a factor of {spread:.2f}: no model can agree "
+            "with all of them, and agreement with one is agreement with its rule."
+        )
     if judged:
         said.append(
             "The 95 % band of an uncalibrated nut, which draws the calibrations of makers as alternatives, holds the "
