@@ -4,14 +4,17 @@ The torque of a nut without load is linear in that number, so least squares of m
 ``hiwin`` is fitted on the rows of ``hiwin-stock`` that ``data/validation/splits.toml`` declares, ``jis`` on the rule
 of JIS B 1192 for the sizes of ``rexroth-double-nut`` and its worked example. Both are of nuts with two contacts a ball.
 
-    python benchmarks/maker_calibrations.py     what they predict of rows that were left out of the fit, as Markdown
+    python benchmarks/maker_calibrations.py             what they predict of rows left out of the fit, as Markdown
+    python benchmarks/maker_calibrations.py --write     the same into docs/maker_calibrations.inc
 """
 
 from __future__ import annotations
 
+import argparse
 import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from importlib import resources
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -25,6 +28,7 @@ from ballscrew.questions.validate import compute as validation
 OBJECTIVE = "least squares of model / stated - 1, every row with the same weight"
 #: Boundary friction and the force between balls of the reference model.
 BOUNDARY, SHARE = 0.12, 0.0075
+PAGE = Path(__file__).parents[1] / "docs" / "maker_calibrations.inc"
 
 
 class Row(NamedTuple):
@@ -160,5 +164,15 @@ def table() -> str:
     return "".join("| " + " | ".join(line) + " |\n" for line in lines)
 
 
+def main() -> None:
+    """Print the table, and store it where that was asked for."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--write", action="store_true", help="store the table in docs/maker_calibrations.inc")
+    text = table()
+    print(text, end="")
+    if parser.parse_args().write:
+        PAGE.write_text(text, encoding="utf-8")
+
+
 if __name__ == "__main__":
-    print(table())
+    main()

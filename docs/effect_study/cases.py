@@ -243,8 +243,8 @@ def sensitivities(case: Case) -> tuple[Sensitivity, ...]:
         (
             "friction of the full film",
             "0.05",
-            "0.02 (Olaru2005), 0.1 (transmission fluids, SKF2018)",
-            torques(*(friction(full_film_friction_coefficient=mu) for mu in (0.02, 0.1))),
+            "0.035 (PAO), 0.053 (naphthenic), Arana2019",
+            torques(*(friction(full_film_friction_coefficient=mu) for mu in (0.035, 0.053))),
         ),
         (
             "running in of the surfaces: λ_r",

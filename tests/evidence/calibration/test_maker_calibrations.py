@@ -55,6 +55,11 @@ def test_the_fit_is_the_least_of_its_sum(fits):
     assert left(share) == pytest.approx(calibrations()["hiwin"].cost, rel=1e-3)
 
 
+def test_the_page_has_what_is_predicted(fits):
+    """If this was meant to move: python benchmarks/maker_calibrations.py --write."""
+    assert fits.PAGE.read_text(encoding="utf-8") == fits.table()
+
+
 def test_rows_are_declared_and_half_are_kept_aside():
     for name, split in SPLITS.items():
         found = {point.name.partition(" at ")[0]: point.group for point in points(name, FrictionModel.reference())}

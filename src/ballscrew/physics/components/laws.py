@@ -261,11 +261,11 @@ class ProportionalBallForce(ByValue):
     """A force that grows with the load of the ball; an imposed one does not count.
 
     The load of a ball is that of its contacts with one race: one on two contacts, the sum of both flank
-    pairs on four. No measured value is known. The default is an estimate of its order: neighbours whose contact
-    angles differ by one or two degrees want to travel at speeds that differ by two thousandths, where the spin in their
-    contacts, which sets how stiffly creep is held, is a hundredth; so they press on each other with about a tenth
-    of what friction can hold. Known to a factor of three at best. The paper's 1 N / z is 0.0002 at the paper's load,
-    where it is a net braking force.
+    pairs on four. No measured value is known. The default is that of a full circuit without gaps whose
+    grooves are some 2 µm off their place: along the circuit the balls want to travel at speeds that differ by some
+    2.4e-4, and the creep of their contacts holds them with nine to twenty times the load for each unit of it.
+    With the gap of a usual fill the mechanics gives a tenth and less; the torques of makers ask for 0.012 to 0.029
+    (``data/calibrations.toml``). The paper's 1 N / z is 0.0002 at the paper's load, where it is a net braking force.
     """
 
     share_of_load: Annotated[
