@@ -1,11 +1,13 @@
 """What all tests share: the paper's screw, its oil, the models, and how hypothesis runs."""
 
+import ctypes
 import functools
 import gc
 import importlib.util
 import math
 import os
 import subprocess
+import sys
 from pathlib import Path
 
 # One thread of BLAS a worker, set before NumPy is loaded: with a worker on each processor, more would compete.
@@ -43,6 +45,35 @@ MODELS = {
 
 #: Folders of tests with random parts, many of which no ball screw has.
 RANDOM = (ROOT / "tests" / "oracles", ROOT / "tests" / "properties")
+
+
+#: Resident memory, MB, above which a worker gives back what the tests of a module have left.
+MEMORY = 600
+
+
+@pytest.fixture(scope="module", autouse=True)
+def memory_given_back():
+    """What a module leaves is given back to the system: compiled functions of JAX, and pages that the C library keeps.
+
+    Without it each worker grows to the sum of what all its modules need at their most.
+    """
+    yield
+    if _resident_memory() > MEMORY:
+        if "jax" in sys.modules:
+            sys.modules["jax"].clear_caches()
+        gc.collect()
+        trim = getattr(ctypes.CDLL(None), "malloc_trim", None)  # of glibc alone
+        if trim is not None:
+            trim(0)
+
+
+def _resident_memory() -> float:
+    """Memory of this process, MB; zero where the system has no /proc."""
+    try:
+        pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
+    except OSError:
+        return 0.0
+    return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
 
 
 @pytest.fixture(scope="session", autouse=True)

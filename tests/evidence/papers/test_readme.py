@@ -79,20 +79,17 @@ def test_the_comparison_with_vendors_is_up_to_date(make_readme, text):
 
 
 def test_the_inputs_said_to_move_the_torque_most_are_those_of_the_command(text):
-    """In the order of ``ballscrew sensitivity examples/feed_drive.toml``; two of them are about as large."""
+    """In the order of ``ballscrew sensitivity examples/feed_drive.toml``."""
     case = case_file.load(ROOT / "examples" / "feed_drive.toml")
     total = sensitivity(case, SensitivityOptions(samples=256)).result.total
     shares = {name.rpartition(".")[2]: one.value for name, one in total.items()}
-    first, *next_two, fourth = sorted(shares, key=shares.__getitem__, reverse=True)[:4]
+    first, second, third = sorted(shares, key=shares.__getitem__, reverse=True)[:3]
     assert first == "share_of_load"
-    assert shares[first] > 2 * shares[next_two[0]]
-    assert sorted(next_two) == ["ball_friction_coefficient", "full_film_friction_coefficient"]
-    assert fourth == TEMPERATURE.name
-    assert shares["boundary_friction_coefficient"] < 0.05
-    assert (
-        "force between balls, far ahead; friction of the full film and friction between balls; temperature of the oil."
-        in " ".join(text.split())
-    )
+    assert shares[first] > 2 * shares[second]
+    assert (second, third) == ("ball_friction_coefficient", TEMPERATURE.name)
+    assert max(shares["boundary_friction_coefficient"], shares["full_film_friction_coefficient"]) < 0.05
+    said = "force between balls, far ahead; friction between balls; temperature of the oil."
+    assert said in " ".join(text.split())
 
 
 def test_the_python_example_is_ten_lines_and_readable(make_readme, text):
