@@ -123,6 +123,11 @@ def test_list_with_words(ballscrew):
     refused(ballscrew("catalogue", "list", "nsk"), "catalogue: no row has these words (nsk) · leave them out")
 
 
+def test_words_choose_the_rows_that_have_all_of_them():
+    singles = [name for name in ROWS if name.startswith("rexroth") and name.endswith("single")]
+    assert [row.name for row in people.chosen(ROWS, "Single REXROTH")] == singles
+
+
 def test_sizes_are_those_of_the_row_and_not_of_its_name(ballscrew):
     def names(*words):
         return [line.split()[0] for line in ballscrew("catalogue", "list", *words).stdout.splitlines()[1:]]

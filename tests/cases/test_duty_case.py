@@ -134,6 +134,13 @@ def test_a_case_of_other_commands_may_have_a_motion():
     assert {k: v for k, v in case_file.inputs(moving).items() if k not in ("axis", "motion")} == case_file.inputs(plain)
 
 
+def test_the_example_of_an_efficiency_can_be_written():
+    """No screw gives more work than it takes."""
+    (example,) = schema.json_schema()["$defs"]["Model"]["properties"]["efficiency"]["examples"]
+    case = built(SCREW + MOVING, "model.name=constant-efficiency", f"model.efficiency={example}")
+    assert 0 < case.efficiency <= 1
+
+
 def test_one_efficiency_needs_no_oil():
     text = SCREW.partition("[lubricant]")[0] + MOVING
     case = built(text, "model.name=constant-efficiency", "model.efficiency=0.9")

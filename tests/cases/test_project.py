@@ -87,6 +87,18 @@ def test_a_table_opened_is_its_rows_by_their_numbers(tmp_path):
     assert any("row 3" in note for note in found.notes)
 
 
+@pytest.mark.parametrize(
+    ("headings", "is_log"),
+    [("axial load [N],torque [N m]", True), ("part,torque [N m]", False), ("part,speed [rpm]", False)],
+)
+def test_a_table_is_a_log_where_it_has_a_torque_and_what_belongs_to_it(headings, is_log, tmp_path):
+    path = tmp_path / "bench.csv"
+    path.write_text(f"{headings}\n1000,2\n2000,3\n")
+    with pytest.raises(InputError) as error:
+        opened(path)
+    assert ("is a log of torques" in str(error.value)) is is_log
+
+
 def test_results_are_no_case(tmp_path):
     path = tmp_path / "answer.json"
     path.write_text('{"inputs": {"screw": 1}, "results": {}}')

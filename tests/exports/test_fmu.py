@@ -1,6 +1,7 @@
 """FMUs: read, checked and run by importers that are not ours, with an empty PATH."""
 
 import ctypes
+import re
 import zipfile
 from urllib.parse import quote
 from xml.etree import ElementTree
@@ -154,6 +155,16 @@ def test_what_is_in_it(file, version):
     assert listed["axial_load"].get("causality") == "input"
     assert listed["preload"].get("causality") == listed[BOUNDARY].get("causality") == "parameter"
     assert "holds nothing" in listed["regularisation_speed"].get("description")
+
+
+def test_each_description_begins_with_its_encoding(file):
+    """FMI 3.0, FMI description schema: the first line must contain the encoding scheme, which is always UTF-8."""
+    with zipfile.ZipFile(file) as archive:
+        descriptions = [archive.read(name) for name in archive.namelist() if name.endswith(".xml")]
+    assert descriptions
+    for content in descriptions:
+        first = content.decode("utf-8").splitlines()[0]
+        assert re.fullmatch(r"""<\?xml version=(["'])1\.0\1 encoding=(["'])UTF-8\2\?>""", first), first
 
 
 @needs_a_compiler

@@ -38,6 +38,14 @@ def test_moves_with_limited_jerk_against_a_planner():
             assert a == pytest.approx(there[2][0], abs=1e-9 * acceleration + 1e-14 * jerk * found.total)
 
 
+def test_a_rest_is_its_two_ends_and_its_middle():
+    """Nothing changes in a rest: more states of it would be more rows of a table, and no more is known."""
+    states = Trapezoid(stroke=0.4, speed=0.5, acceleration=5.0, dwell=0.3).states()
+    way = 0.4 / 0.5 + 0.5 / 5.0
+    rests = [start + share * 0.3 for start in (way, 2 * way + 0.3) for share in (0.0, 0.5, 1.0)]
+    assert states.time[states.direction == 0] == pytest.approx(rests, rel=1e-12)
+
+
 @pytest.mark.parametrize(("distance", "cruises"), [(1.0, True), (0.05, False)])
 def test_a_trapezoid_of_speed_and_a_triangle(distance, cruises):
     v, a = 0.5, 4.0

@@ -25,12 +25,12 @@ PLAIN = Surroundings(shaft_length=1.2)
 COOLED = dataclasses.replace(PLAIN, nut_conductance=60.0)
 
 
-def to_and_fro(rpm, nut=None, oil=OIL, stroke=0.5):
+def to_and_fro(rpm, nut=None, oil=OIL, stroke=0.5, model=MODEL):
     """A long stroke at one speed, without a mass."""
     speed = rpm / 60 * ROW.lead
     ways = [Segment(duration=stroke / speed, speed=sign * speed) for sign in (1, -1)]
     screw = ROW.screw(nut=nut or bs.DoubleNut(preload=3500.0))
-    return duty(MODEL, screw, oil, axis=Axis(mass=0.0, bearing_torque=0.1), motion=Segments(segments=tuple(ways)))
+    return duty(model, screw, oil, axis=Axis(mass=0.0, bearing_torque=0.1), motion=Segments(segments=tuple(ways)))
 
 
 @pytest.fixture(scope="module")
@@ -96,6 +96,20 @@ def test_runaway_is_a_verdict():
     assert hot.nut_temperature[-1] > hot.nut_temperature[0]
     assert math.isnan(end.nut_temperature)
     assert {record.id for record in hot.records} == {"verdict.equilibrium", "warning.bracing", "warning.stopped"}
+
+
+def test_a_full_bath_is_a_run_of_its_own_that_takes_as_long():
+    """Where oil comes back late there is less friction than in a full bath, which is another run, of another model."""
+    cold = dataclasses.replace(PLAIN, ambient=268.15)
+    inlet = dataclasses.replace(MODEL.inlet, replenishment_constant=0.0)
+    starved, bath = (
+        warm_up(to_and_fro(1000, model=model), cold, time=1200.0, cool_down=600.0)
+        for model in (MODEL, dataclasses.replace(MODEL, inlet=inlet))
+    )
+    assert starved.flooded.screw_torque[0] == pytest.approx(bath.screw_torque[0], rel=1e-12)
+    assert starved.flooded.screw_torque[0] > 2 * starved.screw_torque[0]
+    assert starved.flooded.time[-1] == starved.time[-1] == 1800.0
+    assert bath.flooded is bath
 
 
 def test_a_coolant_in_the_shaft():

@@ -21,7 +21,7 @@ from ballscrew.evidence.calibration.posterior import Posterior
 from ballscrew.evidence.calibration.priors import Priors
 from ballscrew.evidence.calibration.problem import Problem
 from ballscrew.evidence.calibration.robust import Noise, Solution
-from ballscrew.evidence.calibration.torque_conventions import CONVENTIONS
+from ballscrew.evidence.calibration.torque_conventions import CONVENTIONS, identify_convention
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 from support.power_law import BOUNDARY_FRICTION, MODEL, PER_KELVIN, SPEED, P, torque_of
 from support.service_logs import OIL, PRELOAD, SCREW, WARM
@@ -309,3 +309,17 @@ def test_the_torque_by_a_kelvin_of_a_product_of_powers():
     found = torque_per_kelvin(subject, ["nut.preload"], points, weights)
     assert found == pytest.approx([PER_KELVIN * torque_of(), 0.0], rel=1e-4)
     assert torque_per_kelvin(subject, ["viscosity"], points, weights).tolist() == [0.0, 0.0]
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_drift_is_no_error_of_the_sensor_where_friction_has_one_sign(sign):
+    """Of friction that rises and falls alike before and after the middle, a fit leaves a drift as it is.
+
+    The scatter is the median of its size, by 1.4826 that of a normal distribution.
+    """
+    time = np.linspace(-0.5, 0.5, ROWS)
+    friction = 0.4 + 0.2 * np.cos(20 * time)
+    torques, speed = np.stack([np.zeros(ROWS), friction]), np.full(ROWS, sign * SPEED)
+    measured = sign * (friction + 0.1 * time)
+    _, scatter = identify_convention(measured, torques, np.zeros(ROWS), speed, time, "friction")
+    assert scatter == pytest.approx(1.4826 * np.median(np.abs(0.1 * time)), rel=1e-5)

@@ -1,5 +1,6 @@
 """Friction curves for controls and drives: read back, and run by LinuxCNC's HAL."""
 
+import copy
 import csv
 import io
 import os
@@ -67,6 +68,22 @@ def test_more_points_are_no_worse(handed):
     errors = [friction_curve(handed("linuxcnc"), count).worst_error.relative for count in (4, 8, 16)]
     assert errors == sorted(errors, reverse=True)
     assert errors[1] < 0.02
+
+
+def test_where_directions_differ_the_greater_friction_is_the_curve(handed):
+    """A straight friction, twice as large backwards: its curve is that of backwards, and off by the whole forwards."""
+    subject = copy.copy(handed("linuxcnc"))
+
+    def twice_backwards(point):
+        speed = np.asarray(point["screw_speed"], dtype=float)
+        friction = 0.2 + 1e-3 * np.abs(speed)
+        return dict.fromkeys(subject.output_names, np.where(speed < 0, 2 * friction, friction))
+
+    vars(subject)["evaluate"] = twice_backwards  # in place of the model, whose directions have the same friction
+    curve = friction_curve(subject, 4)
+    assert curve.torques == pytest.approx(2 * (0.2 + 1e-3 * curve.speeds), rel=1e-12)
+    assert curve.worst_error.relative == pytest.approx(1.0, rel=1e-9)
+    assert curve.worst_error.relative_at["screw_speed"] > 0
 
 
 def test_the_list_has_the_form_of_the_example_of_the_manual(handed):

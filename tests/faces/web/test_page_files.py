@@ -83,6 +83,8 @@ def drawing_as_svg(here):
     assert "Contact of ball and screw" in "".join(root.itertext())
 
 
+#: Charts whose parts are told apart by their colours alone.
+AREAS = {"torque-chart": 6, "compare-chart": 6}
 CHARTS = {"torque-chart": 41, "map-chart": (20, 10), "film-chart": 41, "pressure-chart": (41, 15), "compare-chart": 2}
 
 
@@ -114,4 +116,8 @@ def files_are_the_chart(here, chart):
     root = ET.fromstring(picture)
     words = "".join(root.itertext())
     assert (headings[0] if chart != "compare-chart" else "friction torque").split(" (")[0] in words
+    # the list beside the chart is not in the picture, which names its areas and lines itself
+    named = here.page.locator(f"#{chart} ul.legend li:has(.area, .line) > span:nth-child(2)").all_inner_texts()
+    assert [name for name in named if name not in words] == []
+    assert len(named) >= AREAS.get(chart, 0)
     assert "rgb(28, 33, 39)" in picture  # dark ink for white paper, though the screen is dark

@@ -86,3 +86,14 @@ def test_what_does_not_move_has_no_stroke_that_is_too_short(report):
     rest = '[motion]\nkind = "segments"\n[[motion.segment]]\nduration = "2 s"\n'
     found = report({"mass": "100 kg"}, motion=rest)
     assert [record.id for record in warnings(found)] == []
+
+
+def test_the_faster_way_counts_where_it_is_the_way_back(report):
+    """0.1 m/s there and 0.3 m/s back on a lead of 10 mm: 600 and, backwards, 1800 revolutions a minute."""
+    ways = [(0.3, 0.1), (-0.3, 0.3)]
+    segments = "".join(f'[[motion.segment]]\ndistance = "{way} m"\nspeed = "{speed} m/s"\n' for way, speed in ways)
+    motion = f'[motion]\nkind = "segments"\nacceleration = "2 m/s^2"\n{segments}'
+    motor = '[motor]\nrated_torque = "9 N m"\npeak_torque = "9 N m"\nlargest_speed = "1000 rpm"\n'
+    found = report({"mass": "100 kg"}, motion=motion, more=motor)
+    (said,) = [record.text for record in warnings(found) if record.id == "duty.motor_speed"]
+    assert "at up to 1800 rpm, above its largest speed 1000 rpm" in said

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from ballscrew.cases.case_files import case_file
 from ballscrew.faces.web import documents
 from ballscrew.faces.web.vocabulary import vocabulary
 from ballscrew.questions.shared import declared
@@ -113,3 +114,20 @@ def test_sizes_that_are_given_are_not_assumed(report):
         said = [str(line) for line in compute.assumed_of(report.case, has, network, None)]
         for name, words_of_it in words.items():
             assert any(words_of_it in line for line in said) is (name != given), (given, name)
+
+
+def test_a_short_shaft_has_its_compensation_in_quarters():
+    """At steps of 50 mm it would have three places, and its end."""
+    short = ["surroundings.shaft_length=120 mm", "surroundings.first_position=10 mm", "motion.stroke=20 mm"]
+    report = warmed_up(load(EXAMPLE, [*short, "model.name=olaru2005"], None), hours=0.1)
+    assert report.compensation[0] == pytest.approx([0.0, 0.03, 0.06, 0.09, 0.12], rel=1e-12, abs=1e-15)
+
+
+@pytest.mark.parametrize(("left_out", "length"), [("motion", 0.6), ("axis", 0.6), (None, 1.6)])
+def test_the_shaft_is_twice_the_stroke_of_what_moves(left_out, length):
+    """A motion without an axis, or an axis without a motion, moves nothing: the stroke of the surroundings counts."""
+    tables = case_file.override(case_file.read(EXAMPLE), [])
+    tables["surroundings"] = {"stroke": "0.3 m"}
+    tables.pop(left_out, None)
+    case = case_file.build(tables)
+    assert compute.length_of(case, case.surroundings) == pytest.approx(length, rel=1e-12)

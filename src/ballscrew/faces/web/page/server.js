@@ -214,20 +214,46 @@ class Kept {
 
 const kept = new Kept();
 
+/** Answers of requests that are under way, by their addresses and bodies. @type {Map<string, Promise<any>>} */
+const awaited = new Map();
+
 /**
- * The answer of an address to a body; of the same body again it is not asked again while it is kept.
+ * The answer of an address to a body; of the same body again it is not asked again while it is kept, or on its way.
  *
  * @param {"run" | "check" | "band" | "duty" | "warm-up"} address
  * @param {object} body
  * @param {AbortSignal} signal
  * @param {() => Promise<any>} [compute] how it is asked, where not by a request that is waited for
  */
-export async function ask(address, body, signal, compute = () => sendJson(address, body, signal)) {
+export async function ask(address, body, signal, compute) {
   const before = known(address, body);
   if (before) return before;
-  const found = await compute();
+  const found = await (compute ? compute() : requested(address, body, signal));
   keep(address, body, found);
   return found;
+}
+
+/** @param {string} address @param {object} body @param {AbortSignal} signal */
+async function requested(address, body, signal) {
+  const key = keyOf(address, body);
+  try {
+    const other = awaited.get(key);
+    if (other) return await other;
+  } catch {
+    signal.throwIfAborted(); // whoever asked before has left or was refused: this one asks on its own
+  }
+  const own = sendJson(address, body, signal);
+  awaited.set(key, own);
+  try {
+    return await own;
+  } finally {
+    if (awaited.get(key) === own) awaited.delete(key);
+  }
+}
+
+/** @param {string} address @param {object} body */
+function keyOf(address, body) {
+  return `${address} ${JSON.stringify(body)}`;
 }
 
 /**
@@ -237,7 +263,7 @@ export async function ask(address, body, signal, compute = () => sendJson(addres
  * @param {object} body
  */
 export function known(address, body) {
-  return kept.get(`${address} ${JSON.stringify(body)}`);
+  return kept.get(keyOf(address, body));
 }
 
 /**
@@ -248,5 +274,5 @@ export function known(address, body) {
  * @param {any} answer
  */
 export function keep(address, body, answer) {
-  kept.add(`${address} ${JSON.stringify(body)}`, answer);
+  kept.add(keyOf(address, body), answer);
 }

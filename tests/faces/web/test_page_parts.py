@@ -1,0 +1,299 @@
+"""Parts of the page, each asked by itself on one page that stays open: what they show of what they are given."""
+
+import json
+import urllib.parse
+
+import pytest
+
+from .conftest import Visit, new_page
+from .test_page_operating_point import DIAMOND, DRAWN
+
+PAPER = "#A=paper&band=0"
+BUSY = "document.querySelector('#results').setAttribute('aria-busy', 'true')"
+
+
+@pytest.fixture(scope="module")
+def opened(browser, server):
+    page = new_page(browser)
+    page.set_viewport_size({"width": 1360, "height": 900})
+    here = Visit(page, server.address).open(PAPER)
+    yield here
+    here.leave()
+    page.context.close()
+    assert not [line for line in here.complaints if "status of 422" not in line]
+    assert here.outside() == []
+
+
+@pytest.fixture
+def go(opened):
+    """Lead the page to another case without loading it again."""
+
+    def to(fragment=PAPER):
+        if not opened.page.url.endswith(fragment):
+            opened.page.evaluate(f"{BUSY}; location.hash = {json.dumps(fragment)}")
+        return opened.settle()
+
+    return to
+
+
+@pytest.fixture
+def paper_checks(server, paper):
+    return server.post("check", {"case": paper}).json()["checks"]
+
+
+#: The panel of checks over a cycle: its class, and its sentence.
+PANEL = """async (checks) => {
+  const { ofCycle, panel } = await import("/page/checks.js");
+  const [words] = panel(ofCycle({ checks }), "checks");
+  return [words.className, words.textContent];
+}"""
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "tone", "said"),
+    [
+        (True, True, "good", "All {all} checks hold."),
+        (False, True, "careful", "Fails: {first}."),
+        (None, True, "", "{most} checks hold. {most} of {all} checks judged."),
+        (False, None, "careful", "Fails: {first}. {most} of {all} checks judged."),
+    ],
+)
+def test_the_sentence_of_all_checks(go, paper_checks, first, second, tone, said):
+    """One that fails is enough, and one that is not judged does not hold."""
+    here = go()
+    checks = [{**one, "holds": True} for one in paper_checks]
+    checks[0]["holds"], checks[1]["holds"] = first, second
+    found = here.page.evaluate(PANEL, checks)
+    name = here.page.locator(f"#checks [data-check={checks[0]['name']}] th").inner_text()
+    words = said.format(all=len(checks), most=len(checks) - 1, first=name)
+    assert found == [f"verdict {tone}", f"Over the cycle: {words}"]
+
+
+#: Other fields after one has become a text, in a design that gives a play of the nut.
+CONSEQUENCES = """async (changes) => {
+  const { consequences } = await import("/page/consequences.js");
+  const nuts = {
+    single: { fields: ["axial_play"], usual_preload: null },
+    double: { fields: ["preload", "oversize"], usual_preload: "7 %" },
+  };
+  const given = (path) => (path === "nut.axial_play" ? "10 um" : undefined);
+  return changes.map(([path, text]) => consequences(path, text, given, nuts));
+}"""
+
+
+def test_only_a_kind_of_nut_changes_the_fields_of_the_nut(go):
+    found = go().page.evaluate(
+        CONSEQUENCES,
+        [["nut.type", "double"], ["nut.type", "single"], ["nut.type", "unheard of"], ["screw.catalogue", "double"]],
+    )
+    assert found == [{"nut.axial_play": "", "nut.preload": "7 %"}, {}, {}, {}]
+
+
+def test_a_plain_number_has_no_unit(go):
+    found = go().page.evaluate(
+        """async () => {
+          const { unitOf, heading } = await import("/page/units.js");
+          return [...["efficiency", "screw_torque", "preload_drag", "of no result"].map(unitOf),
+            heading("efficiency", "efficiency"), heading("screw_torque", "torque")];
+        }"""
+    )
+    assert found == ["", "N m", "N m", "", "efficiency", "torque (N·m)"]
+
+
+#: The entries of a tab whose own is open elsewhere, and of one whose browser refuses locks; null where none is found.
+ENTRIES = """async () => {
+  const { keeping } = await import("/page/keeping.js");
+  const late = () => new Promise((done) => setTimeout(done, 5000, null));
+  const begun = () => Promise.race([keeping.begin().then(() => keeping.own()), late()]);
+  const first = keeping.own();
+  const taken = await begun();
+  const { request } = navigator.locks;
+  navigator.locks.request = () => Promise.reject(new DOMException("no storage", "SecurityError"));
+  try {
+    return [first, taken, await begun()];
+  } finally {
+    navigator.locks.request = request;
+  }
+}"""
+
+
+def test_a_tab_has_an_entry_of_its_own(go):
+    """A tab that was duplicated has the entry of the other one, which is in use; without locks nobody can tell."""
+    entries = go().page.evaluate(ENTRIES)
+    assert all(entries)
+    assert len(set(entries)) == 3
+
+
+def test_what_is_kept_is_listed_when_it_is_kept(go):
+    """It is kept once typing rests, when nothing else changes on the page."""
+    here = go("#A=paper&band=0&cards=files")
+    here.page.wait_for_selector("#kept-list p")
+    here.page.evaluate("import('/page/keeping.js').then(({ keeping }) => keeping.forget([keeping.own()]))")
+    before = here.page.locator("#kept-list em").count()
+    here.type("operation.axial_load", "1234")
+    here.page.wait_for_selector("#kept-list em")
+    assert before == 0
+
+
+def test_copies_of_a_design(go):
+    """The copy is shown; the last design stays, and there is room for eight."""
+    here = go("#A=paper&A.operation.axial_load=1.5+kN&band=0&cards=files")
+
+    def disabled(word):
+        return here.page.locator(f"#design-list [aria-label^='{word} ']").evaluate_all(
+            "all => all.map((one) => one.disabled)"
+        )
+
+    here.page.wait_for_selector("#files [aria-label='Copy A']")
+    assert (disabled("Delete"), disabled("Copy"), disabled("Show")) == ([True], [False], [True])
+    here.page.locator("#files [aria-label='Copy A']").click()
+    here.settle().page.wait_for_selector("#files [aria-label='Copy B']")
+    assert (disabled("Delete"), disabled("Copy"), disabled("Show")) == ([False] * 2, [False] * 2, [False, True])
+    assert here.page.locator("#f-operation-axial_load").input_value() == "1.5"
+    go("&".join(["#A=paper", *(f"{letter}=paper" for letter in "BCDEFGH"), "band=0&cards=files"]))
+    here.page.wait_for_selector("#files [aria-label='Copy H']")
+    assert (disabled("Copy"), disabled("Delete")) == ([True] * 8, [False] * 8)
+    assert here.page.locator("#add").is_disabled()
+
+
+def test_the_torque_that_holds_is_shown_where_there_is_a_load_to_hold(go):
+    names = "all => all.map((one) => one.dataset.name)"
+    loaded = go().page.locator("#numbers data").evaluate_all(names)
+    assert {"screw_torque", "drive_torque", "holding_torque"} <= set(loaded)
+    unloaded = go("#A=paper&A.operation.axial_load=0+N&A.nut.type=double&A.nut.preload=2+kN&band=0")
+    shown = unloaded.page.locator("#numbers data").evaluate_all(names)
+    assert "screw_torque" in shown
+    assert "holding_torque" not in shown
+
+
+def test_help_goes_with_the_field(go):
+    here = go()
+    here.reveal("screw.lead")
+    shown = "() => !document.querySelector('#help').hidden"
+    here.page.locator("#f-screw-lead").focus()
+    assert here.page.evaluate(shown)
+    assert "lead" in here.text("#help")
+    here.page.locator("#s-screw").focus()  # of no field
+    assert not here.page.evaluate(shown)
+
+
+def test_a_coefficient_that_is_given_is_shown_with_its_law(go):
+    """That of the law of the model, which is not named, as a file or a link may have it."""
+    here = go("#A=paper&A.model.friction.boundary_friction_coefficient=0.09&band=0")
+    field = here.page.locator(here.id("model.friction.boundary_friction_coefficient"))
+    assert field.count() == 1
+    assert field.input_value() == "0.09"
+    assert here.page.locator("#f-model-friction").input_value() == ""
+
+
+def test_each_band_is_asked_for_once_and_none_of_a_design_at_fault(go):
+    """That of the design on the page was asked for a second time for the table, while it was on its way."""
+    here = go("#A=paper&B=paper&B.screw.lead=nonsense&show=A&band=0")
+    here.page.wait_for_selector("#compare tbody")
+    asked = []
+    here.page.route("**/api/v1/band", lambda route: (asked.append(route.request.post_data), route.continue_()))
+    bands = "#A=paper&A.operation.axial_load=3333+N&B=paper&B.screw.lead=nonsense&show=A&band=1"
+    go(bands).page.wait_for_function("() => / to /.test(document.querySelector('#compare tbody').textContent)")
+    here.rest(300)
+    here.page.unroute("**/api/v1/band")
+    assert [("3333 N" in body, "nonsense" in body) for body in asked] == [(True, False)]
+
+
+def answered(here, card):
+    """Wait until a card has its answer."""
+    here.page.wait_for_selector(f"#{card} .card-result[aria-busy=false]:not(.earlier)")
+
+
+def test_a_cycle_shows_the_numbers_and_the_parts_that_are_any(go, server):
+    """The cycle ends where it began: of what is stored only rounding is left. Its guides have no friction."""
+    here = go("#A=vertical-axis&band=0&cards=duty")
+    here.page.wait_for_selector("#duty .verdict")
+    answered(here, "duty")
+    known = server.get("vocabulary").json()
+    results = server.post("duty", {"case": known["starts"]["vertical-axis"]["case"]}).json()["results"]
+    of_cycle = known["of_cycle"]
+    none = {name for name, of in of_cycle.items() if of["if_any"] and abs(results[name]) < 1e-6}
+    shown = here.page.locator("#duty .numbers data").evaluate_all("all => all.map((one) => one.dataset.name)")
+    assert shown == [name for name in of_cycle if name not in none]
+    assert "energy_stored" in none
+    assert "energy_of_process" in shown
+    columns = [results[name] for name in ("torque_peak_by", "torque_rms_by", "energy_by")]
+    parts = [name for name in columns[2] if any(abs(column[name]) > 1e-6 for column in columns)]
+    rows = here.page.locator("#duty table:has(caption:has-text('by cause')) tbody tr")
+    assert rows.count() == len(parts) + 1  # their sum
+    assert not {"guides", "transmission"} & set(parts)
+    assert {"gravity", "process", "guide_seals"} <= set(parts)
+
+
+def test_what_fails_without_a_limit_has_no_multiple_of_it(go):
+    """A screw that the load turns, where that must not be: torque is left, and no multiple of none of it."""
+    rest = {"need": {"rows": "hiwin-40-20k4", "back_driving": "forbidden"}}
+    texts = {"axial_load": "3 kN", "feed": "15 m/min", "nut": "double", "preload": "5 %", "running_time": "5000 h",
+             "unsupported_length": "1 m", "ends": "fixed-supported"}  # fmt: skip
+    need = urllib.parse.quote(json.dumps({"texts": texts, "units": {}, "rest": rest}))
+    here = go(f"#A=paper&band=0&cards=choose&need={need}")
+    here.page.locator("#choose-start").click()
+    here.page.wait_for_selector("#choose [role=status]")
+    assert here.text("#choose-result tbody tr summary strong") == "Fails: back driving."
+
+
+def test_warming_up_is_shown_at_the_last_instant_of_work(go, server):
+    """After an hour of which half was rest; what moves the instant stands above the picture of the axis."""
+    here = go("#A=warm-up&band=0&cards=warm-up&hours=0.5&rest=0.5")
+    here.page.wait_for_selector("#warm-up [data-name=nut_temperature]")
+    answered(here, "warm-up")
+    case = server.get("vocabulary").json()["starts"]["warm-up"]["case"]
+    works = server.post("warm-up", {"case": case, "hours": 0.5, "cool_down": 0.5}).json()["results"]["works"]
+    slider = here.page.locator("#warm-instant")
+    last = max(place for place, one in enumerate(works) if one)
+    assert 0 < last < len(works) - 1
+    assert (slider.input_value(), slider.get_attribute("max")) == (str(last), str(len(works) - 1))
+    assert slider.evaluate("one => one.closest('p').nextElementSibling.id") == "warm-axis-chart"
+
+
+#: Words of the hover of some height above and below a place beside the diamond: how far they are moved, and the chart.
+HOVER = """([x, y, places]) => {
+  const plot = document.querySelector("#torque-chart .plot");
+  const layer = plot.querySelector(".hoverlayer");
+  const words = document.createElementNS("http://www.w3.org/2000/svg", "g");
+  words.classList.add("legend");
+  layer.replaceChildren(words);
+  const moved = places.map(([left, top, height]) => {
+    const box = { left: x + left, right: x + left + 80, top: y + top, bottom: y + top + height };
+    words.getBoundingClientRect = () => box;
+    plot.emit("plotly_hover", {});
+    return layer.style.transform;
+  });
+  layer.style.transform = "";
+  words.remove();
+  return moved;
+}"""
+#: Pixels that stay between the diamond and the words.
+GAP = 10
+
+
+def test_words_of_the_hover_stand_below_the_diamond_or_above_it(go):
+    """Those that do not cover it stay; below the chart there is nothing to read them on."""
+    here = go()
+    here.page.locator("#torque-chart").scroll_into_view_if_needed()
+    here.page.wait_for_function(DRAWN, arg="4000")
+    x, y = here.page.evaluate(DIAMOND, "torque-chart")
+    here.page.mouse.move(x, y + 40)  # the chart is ready for the hover
+    here.page.mouse.move(x + 5, y + 40)
+    bottom = here.page.evaluate("document.querySelector('#torque-chart .plot').getBoundingClientRect().bottom")
+    room = bottom - (y + GAP)  # below the diamond
+    places = [
+        (-40, -20, 40, GAP + 20),  # over the diamond: moved down by half its height and the gap
+        (-40, -20, room - 1, GAP + 20),
+        (-40, -20, room + 1, -(GAP + room - 19)),  # there is no room: above it
+        (-40, GAP + 1, 30, None),  # below, above, and on either side
+        (-40, -31 - GAP, 30, None),
+        (GAP + 1, -20, 40, None),
+        (-81 - GAP, -20, 40, None),
+    ]
+    found = here.page.evaluate(HOVER, [x, y, [place[:3] for place in places]])
+    for moved, (*place, by) in zip(found, places, strict=True):
+        if by is None:
+            assert moved == "", place
+        else:
+            assert float(moved.removeprefix("translateY(").removesuffix("px)")) == pytest.approx(by, abs=1e-6), place
