@@ -16,9 +16,15 @@ from ballscrew.evidence.validation.entries import Conditions, Point, Values, tre
 from ballscrew.evidence.validation.rows import screw_of
 from ballscrew.evidence.validation.sets import SETS
 from ballscrew.physics.components.conditions import ContactConditions
-from ballscrew.physics.components.film_laws import Inlet
-from ballscrew.physics.components.laws import imposed_ball_force, two_neighbours
-from ballscrew.physics.components.mixed_friction import BalanSharing, GreenwoodTrippSharing, LoadSharing, RunInSharing
+from ballscrew.physics.components.film_laws import Inlet, flooded_inlet
+from ballscrew.physics.components.laws import ProportionalBallForce, imposed_ball_force, two_neighbours
+from ballscrew.physics.components.mixed_friction import (
+    BalanSharing,
+    GreenwoodTrippSharing,
+    LoadSharing,
+    RunInSharing,
+    arana_traction,
+)
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.calibrations import calibrated, calibrations
 from ballscrew.physics.friction.model import FrictionModel
@@ -133,6 +139,45 @@ def trends_table() -> str:
             cells.append(f"{np.mean(ratios):.3f} ± {np.std(ratios, ddof=1):.3f}")
             cells += [f"{exponents[each]:+.2f}".replace("-", "−") for each in ("size", "steepness")]
         lines.append([words, *cells])
+    return _markdown(lines)
+
+
+#: One assumption of the reference model changed at a time, by words.
+CHANGES: Mapping[str, FrictionModel] = {
+    "as it is": REFERENCE,
+    "film by the oil's own limit (arana)": dataclasses.replace(REFERENCE, full_film=arana_traction),
+    "film friction 0.035, the limit of PAO": dataclasses.replace(
+        REFERENCE, friction=RunInSharing(full_film_friction_coefficient=0.035)
+    ),
+    "film friction 0.053, of naphthenic oil": dataclasses.replace(
+        REFERENCE, friction=RunInSharing(full_film_friction_coefficient=0.053)
+    ),
+    "boundary friction 0.06, of fresh surfaces": dataclasses.replace(REFERENCE, friction=RunInSharing(0.06)),
+    "a full bath of oil": dataclasses.replace(REFERENCE, inlet=flooded_inlet),
+    "force between balls 0.0005 Q, a fill with gaps": dataclasses.replace(
+        REFERENCE, ball_force=ProportionalBallForce(0.0005)
+    ),
+    "calibration rexroth-2006": calibrated(REFERENCE, calibrations()["rexroth-2006"]),
+    "calibration hiwin": calibrated(REFERENCE, calibrations()["hiwin"]),
+    "calibration jis": calibrated(REFERENCE, calibrations()["jis"]),
+}
+
+
+def changes_table() -> str:
+    """Mean ratio and scatter of each set and kind of nut with one change at a time, as Markdown."""
+    lines: list[list[str]] = []
+    for words, model in CHANGES.items():
+        groups: dict[str, list[float]] = {}
+        for name in (*FITTED, "hiwin-stock", "thk-jis"):
+            data = SETS[name]
+            for row in validation.shipped_rows(data):
+                for point in data.evaluate(model, row, data.conditions):
+                    groups.setdefault(f"{data.maker}, {point.group}", []).append(point.ratio)
+        if not lines:
+            lines = [["change", *(f"{group} ({len(ratios)})" for group, ratios in groups.items())]]
+            lines.append(["---"] * len(lines[0]))
+        scatters = {group: f" ± {np.std(r, ddof=1):.2f}" if len(r) > 1 else "" for group, r in groups.items()}
+        lines.append([words, *(f"{np.mean(ratios):.2f}{scatters[group]}" for group, ratios in groups.items())])
     return _markdown(lines)
 
 

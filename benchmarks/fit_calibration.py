@@ -11,6 +11,8 @@ are of one number (:mod:`maker_calibrations`). Nothing else is fitted, and nothi
     python benchmarks/fit_calibration.py --left-out rows of one size class or of one kind of nut left out of the fit
                                                     and predicted, as Markdown; with --write into docs/left_out.inc
     python benchmarks/fit_calibration.py --strata   the ratios of each size class, as Markdown
+    python benchmarks/fit_calibration.py --changes  the ratios of all makers with one assumption changed at a time, as
+                                                    Markdown; with --write into docs/changes.inc
     python benchmarks/fit_calibration.py --trends   other laws of friction: mean ratio, scatter, and the exponents of
                                                     the ratio over diameter and lead, as Markdown
 """
@@ -39,7 +41,7 @@ from ballscrew.physics.friction.calibrations import PARAMETERS, with_parameters
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.validate import compute as validation
-from calibration_trends import CLASSES, FITTED, strata_table, trends_table
+from calibration_trends import CLASSES, FITTED, changes_table, strata_table, trends_table
 from maker_calibrations import FITS as MAKERS
 from maker_calibrations import OBJECTIVE as OF_RATIO
 from maker_calibrations import line_of
@@ -47,6 +49,7 @@ from maker_calibrations import line_of
 OBJECTIVE = "least squares of (model - middle) / half the band, every row with the same weight"
 START = (0.12, 0.0075)
 PAGE = Path(__file__).parents[1] / "docs" / "left_out.inc"
+CHANGES = PAGE.with_name("changes.inc")
 RATIOS = Path(__file__).parents[1] / "src" / "ballscrew" / "data" / "validation" / "ratios.csv"
 TOML = Path(__file__).parents[1] / "src" / "ballscrew" / "data" / "calibrations.toml"
 
@@ -359,6 +362,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--write", action="store_true", help="store the fit in data/calibrations.toml")
     parser.add_argument("--rivals", action="store_true", help="other pairs beside it, as Markdown")
     parser.add_argument("--left-out", action="store_true", help="rows left out and predicted, as Markdown")
+    parser.add_argument("--changes", action="store_true", help="one assumption changed at a time, as Markdown")
     parser.add_argument("--strata", action="store_true", help="ratios of each size class, as Markdown")
     parser.add_argument("--trends", action="store_true", help="other laws of friction beside it, as Markdown")
     chosen = parser.parse_args(arguments)
@@ -367,12 +371,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
         if getattr(chosen, name):
             print(table(), end="")
             return
-    if chosen.left_out:
-        text = left_out_table()
-        print(text, end="")
-        if chosen.write:
-            PAGE.write_text(text, encoding="utf-8")
-        return
+    pages = {"left_out": (left_out_table, PAGE), "changes": (changes_table, CHANGES)}
+    for name, (table, page) in pages.items():
+        if getattr(chosen, name):
+            text = table()
+            print(text, end="")
+            if chosen.write:
+                page.write_text(text, encoding="utf-8")
+            return
     found = {name: fit(rival) for name, rival in DECLARED.items()}
     print(toml_text(found), end="")
     if chosen.write:
