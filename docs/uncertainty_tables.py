@@ -66,7 +66,7 @@ def _spread(one: DefaultUncertainty) -> str:
     if one.limits is not None:
         if isinstance(one.limits, tuple):
             below, above = one.limits
-            return f"from {below:.0%} below to {above:.0%} above, uniform"
+            return f"from {below:.0%} below to {above:.0%} above, triangular"
         return f"within {one.limits:.0%}, uniform"
     return f"within a factor of {one.factor:g}, log-normal"
 

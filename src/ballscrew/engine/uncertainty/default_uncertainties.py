@@ -13,7 +13,7 @@ from typing import Any
 
 from ballscrew.basis.quantities import Info
 from ballscrew.engine.evaluation.outputs import inputs_of
-from ballscrew.engine.uncertainty.distributions import Distribution, LogNormal, Normal, Uniform, within
+from ballscrew.engine.uncertainty.distributions import Distribution, LogNormal, Normal, Triangular, Uniform, within
 from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.components.traits import traits_of
@@ -54,9 +54,11 @@ class DefaultUncertainty:
             return None
         elif self.share is not None:
             found = Normal(value, self.share * above / NORMAL_95)
+        elif isinstance(self.limits, tuple):
+            below, above = self.limits
+            found = Triangular(value * (1 - below), value, value * (1 + above))
         elif self.limits is not None:
-            below, above = self.limits if isinstance(self.limits, tuple) else (self.limits, self.limits)
-            found = Uniform(value * (1 - below), value * (1 + above))
+            found = Uniform(value * (1 - self.limits), value * (1 + self.limits))
         else:
             assert self.factor is not None, self.name
             found = LogNormal(value, math.exp(math.log(self.factor) / NORMAL_95))
