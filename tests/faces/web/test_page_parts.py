@@ -211,6 +211,35 @@ def test_each_band_is_asked_for_once_and_none_of_a_design_at_fault(go):
     assert [("3333 N" in body, "nonsense" in body) for body in asked] == [(True, False)]
 
 
+#: One body asked for twice at once, by somebody who leaves and by somebody who waits.
+LEFT = """async (body) => {
+  const { ask } = await import("/page/server.js");
+  const { fetch } = window;
+  let asked = 0;
+  window.fetch = (...given) => {
+    asked += 1;
+    return fetch(...given);
+  };
+  try {
+    const leaves = new AbortController();
+    const [one, two] = [leaves, new AbortController()].map(({ signal }) => ask("run", body, signal));
+    const before = asked;
+    leaves.abort();
+    const hasLeft = await one.then(() => false, () => true);
+    const { results } = await two;
+    return [before, hasLeft, asked, results.screw_torque];
+  } finally {
+    window.fetch = fetch;
+  }
+}"""
+
+
+def test_who_waits_for_an_answer_of_somebody_that_leaves_asks_again(go, server, paper):
+    paper["operation"]["axial_load"] = "1777 N"
+    torque = server.post("run", {"case": paper}).json()["results"]["screw_torque"]
+    assert go().page.evaluate(LEFT, {"case": paper}) == [1, True, 2, torque]
+
+
 def answered(here, card):
     """Wait until a card has its answer."""
     here.page.wait_for_selector(f"#{card} .card-result[aria-busy=false]:not(.earlier)")
