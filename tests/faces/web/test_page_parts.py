@@ -100,6 +100,18 @@ def test_a_plain_number_has_no_unit(go):
     assert found == ["", "N m", "N m", "", "efficiency", "torque (N·m)"]
 
 
+def test_the_kind_of_a_segment(go):
+    """A way is a move, a time at a speed a stretch, and at none a rest."""
+    segments = {
+        "move": [{"distance": "300 mm", "speed": "10 m/min"}, {"distance": "1 m"}],
+        "stretch": [{"duration": "1 s", "speed": "5 m/min"}, {"duration": "1 s", "speed": "-0.1 m/s"}],
+        "rest": [{"duration": "2 s"}, {"duration": "2 s", "speed": "0 m/min"}, {}],
+    }
+    kinds = "async (all) => { const { kindOf } = await import('/page/cards/segments.js'); return all.map(kindOf); }"
+    for kind, of_kind in segments.items():
+        assert go().page.evaluate(kinds, of_kind) == [kind] * len(of_kind)
+
+
 #: The entries of a tab whose own is open elsewhere, and of one whose browser refuses locks; null where none is found.
 ENTRIES = """async () => {
   const { keeping } = await import("/page/keeping.js");
@@ -199,6 +211,35 @@ def test_each_band_is_asked_for_once_and_none_of_a_design_at_fault(go):
     assert [("3333 N" in body, "nonsense" in body) for body in asked] == [(True, False)]
 
 
+#: One body asked for twice at once, by somebody who leaves and by somebody who waits.
+LEFT = """async (body) => {
+  const { ask } = await import("/page/server.js");
+  const { fetch } = window;
+  let asked = 0;
+  window.fetch = (...given) => {
+    asked += 1;
+    return fetch(...given);
+  };
+  try {
+    const leaves = new AbortController();
+    const [one, two] = [leaves, new AbortController()].map(({ signal }) => ask("run", body, signal));
+    const before = asked;
+    leaves.abort();
+    const hasLeft = await one.then(() => false, () => true);
+    const { results } = await two;
+    return [before, hasLeft, asked, results.screw_torque];
+  } finally {
+    window.fetch = fetch;
+  }
+}"""
+
+
+def test_who_waits_for_an_answer_of_somebody_that_leaves_asks_again(go, server, paper):
+    paper["operation"]["axial_load"] = "1777 N"
+    torque = server.post("run", {"case": paper}).json()["results"]["screw_torque"]
+    assert go().page.evaluate(LEFT, {"case": paper}) == [1, True, 2, torque]
+
+
 def answered(here, card):
     """Wait until a card has its answer."""
     here.page.wait_for_selector(f"#{card} .card-result[aria-busy=false]:not(.earlier)")
@@ -237,8 +278,11 @@ def test_what_fails_without_a_limit_has_no_multiple_of_it(go):
     assert here.text("#choose-result tbody tr summary strong") == "Fails: back driving."
 
 
-def test_warming_up_is_shown_at_the_last_instant_of_work(go, server):
-    """After an hour of which half was rest; what moves the instant stands above the picture of the axis."""
+def test_warming_up_with_a_rest_and_without_starvation(go, server):
+    """The last instant of work is shown, and a full bath where oil comes back late, which it does not at 45 °C.
+
+    What moves the instant stands above the picture of the axis.
+    """
     here = go("#A=warm-up&band=0&cards=warm-up&hours=0.5&rest=0.5")
     here.page.wait_for_selector("#warm-up [data-name=nut_temperature]")
     answered(here, "warm-up")
@@ -249,6 +293,13 @@ def test_warming_up_is_shown_at_the_last_instant_of_work(go, server):
     assert 0 < last < len(works) - 1
     assert (slider.input_value(), slider.get_attribute("max")) == (str(last), str(len(works) - 1))
     assert slider.evaluate("one => one.closest('p').nextElementSibling.id") == "warm-axis-chart"
+    legend = "#warm-torque-chart ul.legend"
+    assert "in a full bath of oil" in here.text(legend)
+    warm = {**case, "surroundings": {**case["surroundings"], "ambient": "45 degC"}}
+    steady = server.post("warm-up", {"case": warm, "hours": 0.5, "cool_down": 0.5}).json()["results"]["equilibrium"]
+    go("#A=warm-up&A.surroundings.ambient=45+degC&band=0&cards=warm-up&hours=0.5&rest=0.5")
+    here.page.wait_for_selector(f"#warm-up [data-name=nut_temperature][value='{steady['nut_temperature']}']")
+    here.page.wait_for_function(f"() => !document.querySelector('{legend}').textContent.includes('full bath')")
 
 
 #: Words of the hover of some height above and below a place beside the diamond: how far they are moved, and the chart.
