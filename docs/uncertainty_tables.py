@@ -63,10 +63,9 @@ def _spread(one: DefaultUncertainty) -> str:
     if one.share is not None:
         of = " of its excess over 0.5" if one.name.endswith("conformity") else ""
         return f"within {one.share:.0%}{of}"
+    if one.between is not None:
+        return "from {:g} to {:g}, triangular".format(*one.between)
     if one.limits is not None:
-        if isinstance(one.limits, tuple):
-            below, above = one.limits
-            return f"from {below:.0%} below to {above:.0%} above, triangular"
         return f"within {one.limits:.0%}, uniform"
     return f"within a factor of {one.factor:g}, log-normal"
 

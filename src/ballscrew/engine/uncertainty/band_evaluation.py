@@ -125,7 +125,7 @@ class BandEvaluator:
                 result = dataclasses.replace(subject, model=candidate.model).at(point)
                 with np.errstate(all="ignore"):
                     ratio = np.asarray(result.screw_torque, dtype=float) / central.screw_torque
-                    usable = np.asarray(result.valid) & np.isfinite(ratio) & (ratio > 0)
+                    usable = _as_valid(result.validity, central.validity) & np.isfinite(ratio) & (ratio > 0)
                 ratios.setdefault(candidate.slot, []).append((candidate.name, np.where(usable, ratio, np.nan)))
         return cls(sampler, central, ratios)
 
@@ -172,6 +172,14 @@ class BandEvaluator:
             for slot, laws in self.ratios.items()
         }
         return {slot: laws for slot, laws in found.items() if laws}
+
+
+def _as_valid(validity: Mapping[str, Any], of_model: Mapping[str, Any]) -> Any:
+    """Mask: where a law holds wherever the model's own does; conditions that fail with both tell neither apart."""
+    return np.all(
+        np.broadcast_arrays(*(np.asarray(holds) | ~np.asarray(of_model[name]) for name, holds in validity.items())),
+        axis=0,
+    )
 
 
 def tails(level: float) -> tuple[float, float]:

@@ -264,19 +264,21 @@ def band(
     )
 
 
-#: Samples by the rank of an input: the mean of each of so many classes is what the input explains.
-_CLASSES = 32
+#: Samples are put into classes by the rank of an input, at most so many and of at least so many samples each: the mean
+#: of a class is what the input explains. Fewer samples than two classes say nothing.
+_CLASSES, _IN_A_CLASS = 32, 128
 
 
 def _narrowing(
     evaluator: BandEvaluator, output: str, found: Mapping[str, NDArray[Any]], shares: Values, level: float
 ) -> Narrowing | None:
-    """The narrowest of the bands that are left when one cause is known.
+    """The narrowest of the bands that are left when one cause is known, and is as the model has it.
 
     A slot is known by the model's own law. What an input explains is the mean of the logarithm over its rank; without
     it the rest is left about the mean at its median.
     """
-    if output not in POSITIVE:
+    classes = min(_CLASSES, shares.shape[1] // _IN_A_CLASS)
+    if output not in POSITIVE or classes < 2:
         return None
     laws = evaluator.law_factors_at(0)
     drawn = Sample(**{name: found[name] for name in Sample._fields if name in found})
@@ -284,19 +286,23 @@ def _narrowing(
     values = DERIVED_OUTPUTS[output](drawn._replace(factor=sample_law_factors(laws, of_laws)))
     if not np.all(values > 0):
         return None
-    logs, below_above = np.log(values), tails(level)
     ends: list[Narrowing] = []
-    for name, place in zip(evaluator.ratios, range(len(laws)), strict=True):
+    for place, name in enumerate(evaluator.ratios):
         kept = [np.ones(1) if i == place else factors for i, factors in enumerate(laws)]
         left = DERIVED_OUTPUTS[output](drawn._replace(factor=sample_law_factors(kept, of_laws)))
-        ends.append(Narrowing(name, True, *quantiles(left, below_above)))
-    for name, row in zip(evaluator.sampler.names, shares, strict=False):
-        classes = np.minimum((row * _CLASSES).astype(int), _CLASSES - 1)
-        counts = np.bincount(classes, minlength=_CLASSES)
-        means = np.bincount(classes, logs, minlength=_CLASSES) / np.maximum(counts, 1)
-        left = logs - means[classes] + (means[_CLASSES // 2 - 1] + means[_CLASSES // 2]) / 2
-        ends.append(Narrowing(name, False, *map(float, np.exp(quantiles(left, below_above)))))
-    return min(ends, key=lambda one: one.high / one.low, default=None)
+        ends.append(Narrowing(name, True, *quantiles(left, tails(level))))
+    inputs = evaluator.sampler.inputs_at(shares[: evaluator.inputs])
+    ends += [Narrowing(name, False, *_without(own, values, classes, level)) for name, own in inputs.items()]
+    return min(ends, key=lambda one: one.high - one.low, default=None)
+
+
+def _without(own: Values, values: Values, classes: int, level: float) -> list[float]:
+    """The ends that are left of a positive output without what an input explains of its logarithm."""
+    logs, ranks = np.log(values), np.argsort(np.argsort(own, kind="stable"), kind="stable")
+    of_sample = ranks * classes // len(ranks)
+    means = np.bincount(of_sample, logs) / np.bincount(of_sample)
+    middle = (means[(classes - 1) // 2] + means[classes // 2]) / 2
+    return [float(np.exp(end)) for end in quantiles(logs - means[of_sample] + middle, tails(level))]
 
 
 def _band_over(

@@ -21,6 +21,8 @@ from ballscrew.physics.friction.model import FrictionModel
 
 #: Half the width of the interval that holds 95 % of a normal distribution, in standard deviations.
 NORMAL_95 = 1.959963984540054
+#: Share of a value that is known to be of a kind, where others of its quantity lie ``between`` two numbers.
+NEAR = 0.1
 #: What stands for a source where there is none.
 JUDGEMENT = "judgement"
 #: The viscosity of an oil whose grade and temperature are known.
@@ -31,9 +33,9 @@ _OF_SHEET = "viscosity_of_sheet"
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class DefaultUncertainty:
-    """Default uncertainty of an input, in one of four forms, with its source and the reason in a sentence.
+    """Default uncertainty of an input, in one of five forms, with its source and the reason in a sentence.
 
-    ``half_width``, ``share``, ``limits`` and ``factor`` are as the head of the file says.
+    ``half_width``, ``share``, ``limits``, ``between`` and ``factor`` are as the head of the file says.
     """
 
     name: str
@@ -41,7 +43,8 @@ class DefaultUncertainty:
     reason: str
     half_width: float | None = None
     share: float | None = None
-    limits: float | tuple[float, float] | None = None
+    limits: float | None = None
+    between: tuple[float, float] | None = None
     factor: float | None = None
 
     def about(self, value: float, info: Info) -> Distribution | None:
@@ -54,9 +57,10 @@ class DefaultUncertainty:
             return None
         elif self.share is not None:
             found = Normal(value, self.share * above / NORMAL_95)
-        elif isinstance(self.limits, tuple):
-            below, above = self.limits
-            found = Triangular(value * (1 - below), value, value * (1 + above))
+        elif self.between is not None:
+            low, high = self.between
+            known = Normal(value, NEAR * value / NORMAL_95)
+            found = Triangular(low, value, high) if low < value < high else known
         elif self.limits is not None:
             found = Uniform(value * (1 - self.limits), value * (1 + self.limits))
         else:

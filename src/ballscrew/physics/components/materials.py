@@ -7,7 +7,7 @@ import math
 from collections.abc import Mapping
 from typing import Annotated, Any
 
-from ballscrew.basis.arrays import ByValue, same
+from ballscrew.basis.arrays import ByValue, namespace, same
 from ballscrew.basis.errors import (
     Fault,
     InputError,
@@ -230,7 +230,10 @@ class Lubricant(ByValue):
         """
         eta_0, alpha_p = self.viscosity, self.pressure_viscosity_coefficient
         if self.pressure_modulus_slope is not None:
-            return rheology.pressure_modulus_viscosity(eta_0, pressure, alpha_p, self.pressure_modulus_slope)
+            eta = rheology.pressure_modulus_viscosity(eta_0, pressure, alpha_p, self.pressure_modulus_slope)
+            # a modulus that falls with the pressure ends at zero: beyond, the law says nothing
+            modulus = 1 / alpha_p + self.pressure_modulus_slope * pressure
+            return namespace(eta, modulus).where(modulus > 0, eta, float("nan"))
         return rheology.roelands_viscosity(eta_0, pressure, rheology.roelands_exponent(eta_0, alpha_p))
 
     @property

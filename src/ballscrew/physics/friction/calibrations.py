@@ -75,9 +75,14 @@ class Calibration(ByValue):
 BY_MAKE = "by-make"
 
 
+def is_of_maker(maker: str, make: str) -> bool:
+    """Test whether a text, in any letters, names a maker: ``"Bosch Rexroth"`` names Rexroth."""
+    return bool(maker) and maker.casefold() in make.casefold()
+
+
 def calibration_of_make(make: str) -> Calibration | None:
     """The calibration of a maker, of several the one of most numbers; None of a maker that has none."""
-    found = [one for one in calibrations().values() if make and one.maker.casefold() == make.casefold()]
+    found = [one for one in calibrations().values() if is_of_maker(one.maker, make)]
     return max(found, key=lambda one: len(one.fitted), default=None)
 
 

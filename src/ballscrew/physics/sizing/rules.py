@@ -22,6 +22,7 @@ from ballscrew.physics.components.nut_losses import (
     RexrothDrag,
 )
 from ballscrew.physics.equations import geometry, preload, transmission
+from ballscrew.physics.friction.calibrations import is_of_maker
 
 #: The efficiency that THKGeneral computes its examples with; it states 0.9 to 0.95, HIWIN2017 0.85 to 0.95.
 USUAL_EFFICIENCY = 0.9
@@ -245,5 +246,4 @@ def drags(subject: Subject) -> dict[str, Torque]:
 
 def rule_of(make: str) -> Rule | None:
     """The rule for the drag of the maker that a text names, in any letters; None of other makers."""
-    named = make.casefold()
-    return next((rule for rule in RULES.values() if rule.maker and rule.maker.casefold() in named), None)
+    return next((rule for rule in RULES.values() if is_of_maker(rule.maker, make)), None)

@@ -26,7 +26,7 @@ _TORQUE = "screw_torque"
 _KNOWN = quantities_of(FrictionResult)[_TORQUE]
 #: The numbers of the sentences that are ends of bands, which are rounded outward.
 _LOW_ENDS, _HIGH_ENDS = ("low", "inputs_low", "laws_low"), ("high", "inputs_high", "laws_high", "greatest")
-#: A cause is named where the band is so much narrower without it, as a share of its width on a logarithmic axis.
+#: A cause is named where the band is so much narrower without it, as a share of its width.
 _WORTH_SAYING = 0.9
 _CALIBRATED = Message(
     "calibrated to {log}: what the fit held counts as known, no law is exchanged; "
@@ -112,7 +112,7 @@ def _narrowing(report: BandReport, case: Case, quantity: Quantity) -> list[Recor
     found, both = report.band.narrowing, report.band[_TORQUE].both
     if found is None or not both.low > 0 or not both.high / both.low > 1:
         return []
-    share = math.log(found.high / found.low) / math.log(both.high / both.low)
+    share = (found.high - found.low) / (both.high - both.low)
     if not share < _WORTH_SAYING:
         return []
     if found.name == OF_MAKERS:
@@ -123,7 +123,8 @@ def _narrowing(report: BandReport, case: Case, quantity: Quantity) -> list[Recor
         known = Configuration(case.model, case.screw, case.lubricant).inputs
         cause = Message(known[found.name][1].info.meaning)
     message = Message(
-        "what would narrow it the most is {cause}: known, it would end at {low} and {high}, {percent} % as wide",
+        "what would narrow it the most is {cause}: known, and as the model has it, it would end at {low} and {high}, "
+        "{percent} % as wide",
         {
             "cause": cause,
             "low": Measured(found.low, quantity, toward=-1),
