@@ -42,9 +42,8 @@ from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.validate import compute as validation
 from calibration_trends import CLASSES, FITTED, changes_table, strata_table, trends_table
+from maker_calibrations import DECLARED_ROWS, line_of
 from maker_calibrations import FITS as MAKERS
-from maker_calibrations import OBJECTIVE as OF_RATIO
-from maker_calibrations import line_of
 
 OBJECTIVE = "least squares of (model - middle) / half the band, every row with the same weight"
 START = (0.12, 0.0075)
@@ -246,6 +245,7 @@ class Stored(NamedTuple):
     fit: Fit
     objective: str
     sets: Sequence[str]
+    declared_rows: bool = False
 
 
 def stored(found: Mapping[str, Fit]) -> dict[str, Stored]:
@@ -256,7 +256,9 @@ def stored(found: Mapping[str, Fit]) -> dict[str, Stored]:
     for name, of_maker in MAKERS.items():
         line = line_of(of_maker.rows())
         fit = Fit(np.array([line.share]), np.array([[line.variance]]), len(line.rows), line.cost)
-        every[name] = Stored(of_maker.maker, (2,), BOTH[1:], fit, OF_RATIO, of_maker.sets)
+        every[name] = Stored(
+            of_maker.maker, (2,), BOTH[1:], fit, of_maker.objective, of_maker.sets, name in DECLARED_ROWS
+        )
     return every
 
 
@@ -282,6 +284,7 @@ def toml_text(found: Mapping[str, Fit]) -> str:
             f'objective = "{kept.objective}"',
             f'version = "{ballscrew.__version__}"',
             'command = "python benchmarks/fit_calibration.py --write"',
+            *(["declared_rows = true"] if kept.declared_rows else []),
             "",
             f"[{name}.data]",
             *(f'"{SETS[one].file}" = "{validation.fingerprint(SETS[one].file)}"' for one in kept.sets),

@@ -11,21 +11,18 @@ of JIS B 1192 for the sizes of ``rexroth-double-nut`` and its worked example. Bo
 from __future__ import annotations
 
 import argparse
-import tomllib
 from collections.abc import Callable, Mapping, Sequence
-from importlib import resources
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
-from ballscrew.evidence.validation.entries import Point
+from ballscrew.evidence.validation.entries import Point, may_be_fitted
 from ballscrew.evidence.validation.sets import SETS
 from ballscrew.physics.friction.calibrations import with_parameters
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.questions.validate import compute as validation
 
-OBJECTIVE = "least squares of model / stated - 1, every row with the same weight"
 #: Boundary friction and the force between balls of the reference model.
 BOUNDARY, SHARE = 0.12, 0.0075
 PAGE = Path(__file__).parents[1] / "docs" / "maker_calibrations.inc"
@@ -57,17 +54,17 @@ class Line(NamedTuple):
 
 
 class MakerFit(NamedTuple):
-    """A calibration of one maker: whose it is, the files with its rows, and the rows."""
+    """A calibration of one maker: whose it is, the files with its rows, the rows, and what they state."""
 
     maker: str
     sets: Sequence[str]
     rows: Callable[[], Sequence[Row]]
+    stated: str = "of declared rows"
 
-
-def fitted_rows(name: str) -> Sequence[str]:
-    """The rows of a set that may be fitted, as declared."""
-    text = resources.files("ballscrew").joinpath("data/validation/splits.toml").read_text(encoding="utf-8")
-    return tomllib.loads(text)[name]["fitted"]
+    @property
+    def objective(self) -> str:
+        """What was least."""
+        return f"least squares of model / stated - 1 {self.stated}, every row with the same weight"
 
 
 def _points(name: str, share: float) -> Mapping[str, Point]:
@@ -91,10 +88,10 @@ def _rows(name: str, stated: Callable[[Point], float], kept: Callable[[Point], b
 
 def hiwin_rows(declared: bool = True) -> list[Row]:
     """Double and offset nuts of HIWIN's stock list: those that are fitted, or those kept aside."""
-    names = set(fitted_rows("hiwin-stock"))
-    two = ("double", "offset")
     return _rows(
-        "hiwin-stock", lambda point: point.band.middle, lambda p: p.group in two and (p.name in names) == declared
+        "hiwin-stock",
+        lambda point: point.band.middle,
+        lambda point: point.group in ("double", "offset") and may_be_fitted("hiwin-stock", point) == declared,
     )
 
 
@@ -112,9 +109,13 @@ def jis_rows() -> list[Row]:
 
 FITS: Mapping[str, MakerFit] = {
     "hiwin": MakerFit("HIWIN", ("hiwin-stock",), hiwin_rows),
-    # of Rexroth's nuts the sizes alone
-    "jis": MakerFit("THK", ("thk-jis",), jis_rows),
+    # of Rexroth's nuts the sizes and preloads alone
+    "jis": MakerFit("THK", ("rexroth-double-nut", "thk-jis"), jis_rows, "of the rule of JIS B 1192"),
 }
+
+
+#: Those that are fitted on the rows that are declared.
+DECLARED_ROWS = ("hiwin",)
 
 
 def line_of(rows: Sequence[Row]) -> Line:

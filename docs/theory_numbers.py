@@ -5,7 +5,10 @@ from __future__ import annotations
 import dataclasses
 import math
 
+import ballscrew as bs
 from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.mixed_friction import arana_traction
+from ballscrew.physics.components.nut import DoubleNut
 from ballscrew.physics.equations import friction, hertz, kinematics, preload, transmission
 from ballscrew.physics.friction.model import FrictionModel
 from effect_study.cases import CASES, CATALOGUE
@@ -60,8 +63,39 @@ def numbers() -> dict[str, str]:
         "t_centre": f"{1e3 * float(_centre_distance()):.2f}",
         "t_cold": _film_at(0.0),
         "t_warm": _film_at(70.0),
+        **_of_oils(),
     }
     return found
+
+
+def _of_oils() -> dict[str, str]:
+    """Viscosity under pressure with and without the pressure modulus of an oil, and torque by the law of its film."""
+    hot, oil = 333.15, Lubricant.from_grade("M100 paraffinic", 333.15)
+    known = oil.viscosity_under(0.8e9)
+    own = dataclasses.replace(oil, pressure_modulus_slope=None).viscosity_under(0.8e9)
+    of_grade = Lubricant.from_grade("ISO VG 100", hot).viscosity_under(0.8e9)
+    row = bs.catalogue()["rexroth-40x10x6-6-double"]
+    screw = row.screw(nut=DoubleNut(preload=0.07 * row.dynamic_load_rating))
+    by_oil = dataclasses.replace(REFERENCE, full_film=arana_traction)
+
+    def over_constant(grade: str, celsius: float) -> str:
+        at = {"axial_load": 0.0, "screw_speed": 100 * math.pi / 30}
+        torques = [
+            float(model(screw, Lubricant.from_grade(grade, celsius + 273.15), **at).screw_torque)
+            for model in (by_oil, REFERENCE)
+        ]
+        return f"{torques[0] / torques[1]:.2f}"
+
+    grades = {"vg": "ISO VG 100", "m": "M100 paraffinic", "pao": "PAO 100"}
+    return {
+        "t_roelands_own": f"{known / own:.1f}",
+        "t_roelands_grade": f"{known / of_grade:.0f}",
+        **{
+            f"t_arana_{name}_{celsius}": over_constant(grade, celsius)
+            for name, grade in grades.items()
+            for celsius in (25, 60)
+        },
+    }
 
 
 def _screw_turn(result) -> float:

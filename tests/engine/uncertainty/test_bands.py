@@ -327,7 +327,7 @@ def test_every_source_is_known_and_every_reason_said():
     for name, one in default_uncertainties().items():
         assert one.source == JUDGEMENT or one.source in bibliography(), name
         assert len(one.reason.split()) >= 4
-        assert sum(x is not None for x in (one.half_width, one.share, one.limits, one.factor)) == 1
+        assert sum(x is not None for x in (one.half_width, one.share, one.limits, one.between, one.factor)) == 1
 
 
 def test_every_input_in_the_file_exists(seed_screw):

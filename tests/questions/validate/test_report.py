@@ -40,7 +40,10 @@ def test_coverage_is_counted(computed):
     [shown] = [table for table in blocks(made, Table) if table.title.startswith("95 % band")]
     points = found[0][0].points
     inside = sum(point.uncertainty[0] <= point.band.middle <= point.uncertainty[1] for point in points)
-    assert shown.rows[0][2:4] == [str(len(points)), f"{100 * inside / len(points):.0f} %"]
+    halves = [row for row in shown.rows if row[:2] == ["Rexroth", "double"]]
+    assert [row[2] for row in halves] == ["fitted", "kept aside"]
+    assert sum(int(row[3]) for row in halves) == len(points)
+    assert sum(int(row[3]) * float(row[4].removesuffix(" %")) / 100 for row in halves) == pytest.approx(inside, abs=0.2)
 
 
 def test_what_is_circular_and_what_is_not_measured(computed):

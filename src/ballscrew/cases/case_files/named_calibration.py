@@ -44,12 +44,18 @@ def of_make(tables: Mapping[str, Any], row: CatalogueRow | None, faults: list[Fa
         return tables
     make = "" if row is None else row.make
     found = calibration_of_make(make)
+    if found is None and faults:
+        return _without_calibration(tables)  # of a screw that is at fault itself
     if found is None:
         known = either(dict.fromkeys(one.maker for one in calibrations().values()))
         remedy = Message("take a row of {known}, or the name of a calibration", {"known": known})
         faults.append(Fault("model.calibration", "there is none of this make", make or "none", remedy))
-        return {**tables, "model": {key: value for key, value in table.items() if key != "calibration"}}
+        return _without_calibration(tables)
     return {**tables, "model": {**table, "calibration": found.name}}
+
+
+def _without_calibration(tables: Mapping[str, Any]) -> Mapping[str, Any]:
+    return {**tables, "model": {key: value for key, value in tables["model"].items() if key != "calibration"}}
 
 
 def calibrated_by_table(model: FrictionModel, table: Mapping[str, Any]) -> FrictionModel:

@@ -7,8 +7,11 @@ the model and that of the table, most often the middle of a vendor's band.
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
+import tomllib
 from collections.abc import Callable, Mapping, Sequence
+from importlib import resources
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -252,6 +255,18 @@ class ValidationSet:
     def description(self) -> str:
         """The quantity compared, its details, and the values it is compared with."""
         return ", ".join(filter(None, (self.title, self.details, self.reference)))
+
+
+@functools.cache
+def fitted_rows(name: str) -> frozenset[str]:
+    """The rows of a set that numbers may be fitted on, as ``data/validation/splits.toml`` declares; empty without."""
+    text = resources.files("ballscrew").joinpath("data/validation/splits.toml").read_text(encoding="utf-8")
+    return frozenset(tomllib.loads(text).get(name, {}).get("fitted", ()))
+
+
+def may_be_fitted(name: str, point: Point) -> bool:
+    """Test whether a point is of a row that may be fitted: that of ``16x5x3-4 at 7 %`` is ``16x5x3-4``."""
+    return point.name.partition(" at ")[0] in fitted_rows(name)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)

@@ -73,6 +73,7 @@ def validate(
         cards=card or [],
         summary=summary,
         to=to,
+        report=report,
     )
     if to is not None:
         files.check_picture(to)

@@ -51,6 +51,8 @@ class Calibration(ByValue):
     data: Mapping[str, str]
     version: str
     command: str
+    #: Whether the rows fitted are those that ``data/validation/splits.toml`` declares, or all of the files.
+    declared_rows: bool = False
 
     @property
     def parameters(self) -> Mapping[str, str]:

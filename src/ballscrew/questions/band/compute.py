@@ -103,10 +103,10 @@ def of_makers(case: Case) -> list[Candidate]:
     """The case's model with the calibration of each maker, of one number, for a preloaded nut of the kinds it is of.
 
     Makers contradict each other by a factor of 1.7 at equal nuts. Where the row of the nut has a make that a
-    calibration is of, that one alone is drawn beside the model as it is. None with a calibration, without preload, where
-    spacers part the balls, where the case says itself what the balls press with, and of a friction law that has no
-    boundary friction. The force between balls that is drawn stays uncertain beside a calibration, by the same factor:
-    so the upper end lies up to 15 % too high.
+    calibration is of, that one alone is drawn beside the model as it is. None with a calibration, without preload,
+    where spacers part the balls, where the case says itself what the balls press with, and of a friction law that has
+    no boundary friction. The force between balls that is drawn stays uncertain beside a calibration, by the same
+    factor: so the upper end lies up to 15 % too high.
     """
     nut, model = case.screw.nut, case.model
     pressed = {"ball_force", "ball_chain", "ball_to_ball_force"} & set(model.changes)

@@ -76,7 +76,12 @@ def contradiction(found: Sequence[BesideRule]) -> Message:
 
 
 def verdicts(case: Case, nut: NutState | None) -> list[Record]:
-    """What the rule of the nut's own maker gives, where the model is not :data:`NEAR` it."""
+    """What the rule of the nut's own maker gives, where the model is not :data:`NEAR` it.
+
+    None with spacer balls: the rules are of nuts full of balls.
+    """
+    if nut is not None and nut.nut.spacer_balls:
+        return []
     own = next((one for one in beside_rules(case, nut) if one.by_rule.is_own), None)
     if nut is None or own is None or not math.isfinite(own.ratio) or NEAR[0] <= own.ratio <= NEAR[1]:
         return []

@@ -71,15 +71,16 @@ def request(
     cards: Sequence[Path] = (),
     summary: bool = False,
     to: Path | None = None,
+    report: Path | None = None,
 ) -> Request:
     """The request that options mean. Raises :class:`~ballscrew.basis.errors.InputError` with all faults found."""
     has_conditions = grade is not None or temperature is not None or speed is not None
     faults = _faults_of_names(names, model, rows)
     if cards and (names or rows is not None or has_conditions):
         faults.append(Fault("--card", "goes with no set, rows or conditions", "", "a card has its own"))
-    if summary and (cards or to is not None):
-        problem = "is a table of the sets" if cards else "is no picture"
-        remedy = Message("leave {option} out", {"option": "--card" if cards else "--to"})
+    if summary and (cards or to is not None or report is not None):
+        problem = "is a table of the sets" if cards else "is no picture and no paper"
+        remedy = Message("leave {option} out", {"option": "--card" if cards else "--to" if to else "--report"})
         faults.append(Fault("--summary", problem, "", remedy))
     given = _conditions(grade, temperature, speed, faults)
     raise_if_any(faults)

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from ballscrew.basis.output.wrapping import aligned, wrapped
-from ballscrew.evidence.validation.entries import Entry, RuleEntry
+from ballscrew.evidence.validation.entries import Entry, RuleEntry, may_be_fitted
 from ballscrew.physics.friction.calibrations import calibrated, calibrations
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.sizing.rules import DRAG_RULES, RULES
@@ -78,7 +78,7 @@ def _of_groups(entries: Sequence[Entry]) -> Iterator[SummaryRow]:
         of_group = [entry.groups[group] for entry in entries]
         for entry in of_group:
             name = entry.calibration or entry.model.name
-            fitted = [f"calibration {name}, fitted"] if name in entry.data.calibrations else []
+            fitted = _fitted(entry, name)
             # what was chosen is of the reference; other models have none of it
             chosen = [*(entry.data.used_for if entry.model.name == _CHOSEN_MODEL else ()), *fitted]
             yield _row(entry, group, CALIBRATION if entry.calibration else MODEL, name, entry, chosen)
@@ -86,6 +86,16 @@ def _of_groups(entries: Sequence[Entry]) -> Iterator[SummaryRow]:
             if rule.rule in DRAG_RULES:
                 behind = [_BEHIND.format(rule=rule.rule)] if rule.rule in of_group[0].data.rules_behind else []
                 yield _row(of_group[0], group, RULE, rule.rule, rule, behind)
+
+
+def _fitted(entry: Entry, calibration: str) -> list[str]:
+    """That a calibration was fitted to rows of a group: to all of its file, or to those that are declared."""
+    if calibration not in entry.data.calibrations:
+        return []
+    if not calibrations()[calibration].declared_rows:
+        return [f"calibration {calibration}, fitted"]
+    of = sum(may_be_fitted(entry.data.name, point) for point in entry.points)
+    return [f"calibration {calibration}, fitted to {of} of {len(entry.points)} rows"] if of else []
 
 
 def _row(entry: Entry, group: str, kind: str, name: str, of: Entry | RuleEntry, chosen: Sequence[str]) -> SummaryRow:
