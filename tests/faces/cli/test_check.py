@@ -336,7 +336,9 @@ def test_the_factor_for_accuracy_of_the_make(ballscrew):
     assert rigidity["nut_corrected"] == pytest.approx(0.5 * rigidity["nut"], rel=1e-12)
     assert rigidity["accuracy_factor_source"] == "estimate"
     text = " ".join(ballscrew("check", NAME).stdout.split())
-    assert "factor for accuracy 0.5, of Rexroth's printed rigidities of double nuts (Rexroth2006): by an estimate" in text
+    assert (
+        "factor for accuracy 0.5, of Rexroth's printed rigidities of double nuts (Rexroth2006): by an estimate" in text
+    )
     other = " ".join(ballscrew("check", "hiwin-40-16k5").stdout.split())
     assert "R_nu,ar, 0.5 to 0.6 of it by accuracy grade (values unchecked)" in other
     assert "factor for accuracy" not in other

@@ -47,7 +47,8 @@ def test_the_source_of_each_check():
         ({}, "read"),
         ({"computed_ratings": ("static_load_rating",)}, "recalled"),  # the rating is of ISO 3408-5
         ({"computed_ratings": ("dynamic_load_rating",)}, "read"),
-        ({"nut": DoubleNut(preload=3000.0)}, "recalled"),  # so are the loads of both halves, where nothing else is known
+        # so are the loads of both halves, where nothing else is known of them
+        ({"nut": DoubleNut(preload=3000.0)}, "recalled"),
         ({"nut": DoubleNut(preload=3000.0), "half_loads": (6000.0, 1000.0)}, "read"),  # those of the contacts
         ({"nut": DoubleNut(preload=3000.0), "half_loads": (6000.0, 1000.0), "largest_load": 7000.0}, "recalled"),
         ({"largest_load": 7000.0}, "read"),
