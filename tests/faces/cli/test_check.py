@@ -305,3 +305,40 @@ def test_a_verdict_says_of_what_where_the_case_has_a_cycle(ballscrew):
     case = str(ROOT / "examples" / "vertical_axis.toml")
     assert "verdict: this operating point for ever: fails: life, running time" in ballscrew("check", case).stdout
     assert "  over the cycle: passes all checks" in ballscrew("duty", case).stdout
+
+
+# -- sources ----------------------------------------------------------------------------------------
+
+
+def test_every_check_says_its_source(ballscrew):
+    """JSON has the kind for programs, and the words for people where the source was not read."""
+    rated = json.loads(ballscrew("check", EXAMPLE, "--json").stdout)["checks"]
+    assert {check["source"] for check in rated} <= {"read", "recalled", "estimate"}
+    by_name = {check["name"]: check for check in rated}
+    assert by_name["life"]["source"] == by_name["running_time"]["source"] == "recalled"
+    assert by_name["life"]["source_message"] == {"template": "by formulas as recalled", "values": {}}
+    for name in ("contact_pressure", "shaft_stress", "buckling", "critical_speed"):
+        assert (by_name[name]["source"], by_name[name]["source_message"]) == ("read", None)
+
+
+def test_a_recalled_check_that_passes_says_so(ballscrew):
+    text = " ".join(ballscrew("check", NAME, "--set", "limits.running_time=100 h").stdout.split())
+    assert "passes; by formulas as recalled: basic rating life L10" in text
+    assert "passes: largest load over the core of the shaft" in text
+    assert "passes; by an estimate: DN value" in text
+    fails = " ".join(ballscrew("check", NAME, "--set", "limits.running_time=1000000 h").stdout.split())
+    assert "FAILS; by formulas as recalled: basic rating life L10" in fails
+
+
+def test_the_factor_for_accuracy_of_the_make(ballscrew):
+    """Half of the rigidity by ISO 3408-4 for Rexroth; for HIWIN none is known, and the range by grade is shown."""
+    rigidity = json.loads(ballscrew("check", NAME, "--json").stdout)["loads"]["axial_rigidity"]
+    assert rigidity["nut_corrected"] == pytest.approx(0.5 * rigidity["nut"], rel=1e-12)
+    assert rigidity["accuracy_factor_source"] == "estimate"
+    text = " ".join(ballscrew("check", NAME).stdout.split())
+    assert (
+        "factor for accuracy 0.5, of Rexroth's printed rigidities of double nuts (Rexroth2006): by an estimate" in text
+    )
+    other = " ".join(ballscrew("check", "hiwin-40-16k5").stdout.split())
+    assert "R_nu,ar, 0.5 to 0.6 of it by accuracy grade (values unchecked)" in other
+    assert "factor for accuracy" not in other

@@ -103,16 +103,18 @@ def stiffness_over_stroke(
     nut_outer_diameter: Length | None = None,
     nominal_diameter: Length | None = None,
     accuracy_factor: Ratio | None = None,
+    make: str = "",
     nut_holds_slope: bool = False,
 ) -> AxisStiffness:
     """The springs between motor and table at places of the nut, by ISO 3408-4's parts, and what the shaft stands there.
 
     The first bearing, at the motor, is the fixed one; ``positions`` are distances from it, and the length of the
     ``installation`` is that between the bearings. Nut, shaft and bearings are those of
-    :func:`~ballscrew.physics.sizing.rigidity.rigidity_iso3408` (R_nu,ar with an accuracy factor); a nut without
-    preload needs an ``axial_load``. ``mount_rigidity`` is that of housings and brackets in series, by default the
-    installation's. Sideways the nut is a support that lets the shaft turn, the safe side; ``nut_holds_slope`` clamps
-    it. Between two fixed bearings the twist is that from the motor's side, too.
+    :func:`~ballscrew.physics.sizing.rigidity.rigidity_iso3408` (R_nu,ar with an accuracy factor, or that
+    of the ``make`` of the nut where it is known); a nut without preload needs an ``axial_load``.
+    ``mount_rigidity`` is that of housings and brackets in series, by default the installation's. Sideways the nut is a
+    support that lets the shaft turn, the safe side; ``nut_holds_slope`` clamps it. Between two fixed bearings the
+    twist is that from the motor's side, too.
     Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
     """
     length = float(installation.unsupported_length)
@@ -124,6 +126,7 @@ def stiffness_over_stroke(
         "nut_outer_diameter": nut_outer_diameter,
         "nominal_diameter": nominal_diameter,
         "accuracy_factor": accuracy_factor,
+        "make": make,
         "installation": installation,
     }
     found = [rigidity_iso3408(screw, **given, distance_to_bearing=float(place)) for place in places]

@@ -126,13 +126,13 @@ class Case(Displayed):
         nut = self.screw.nut
         return None if nut.is_row and not nut.losses and not nut.spacer_balls else nut
 
-    def sizes_of_nut(self, screw: BallScrew) -> dict[str, float | None]:
-        """Sizes of the nut that the row of a catalogue lists, for the rigidity by ISO 3408-4 of a screw of the case."""
+    def sizes_of_nut(self, screw: BallScrew) -> dict[str, Any]:
+        """Sizes and make of the nut as a row lists them, for the rigidity by ISO 3408-4 of a screw of the case."""
         row, bodies = self.row, screw.nut.bodies
         if row is None or row.ball_circle != screw.pitch_circle_diameter:
-            return {"nut_outer_diameter": None, "nominal_diameter": None}
+            return {"nut_outer_diameter": None, "nominal_diameter": None, "make": ""}
         listed = row.nut_outer_diameter if bodies is None or bodies.nut_outer_diameter is None else None
-        return {"nut_outer_diameter": listed, "nominal_diameter": row.nominal_diameter}
+        return {"nut_outer_diameter": listed, "nominal_diameter": row.nominal_diameter, "make": row.make}
 
     def implausible(self) -> list[Record]:
         """A warning for each input that no ball screw has, and :attr:`doubts`."""

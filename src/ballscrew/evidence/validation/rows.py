@@ -25,6 +25,7 @@ from ballscrew.physics.components.screw import STEEL, BallScrew
 from ballscrew.physics.equations import geometry, hertz, rheology, transmission
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.sizing.accuracy_factors import factors_of_makes
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.checks import ratings_of
 from ballscrew.physics.sizing.rigidity import rigidity_iso3408
@@ -35,7 +36,7 @@ from ballscrew.physics.solvers.load_distribution import ball_loads
 RIGIDITY_LOAD = 0.30
 #: Factor for accuracy of the rigidity that a catalogue prints. Rexroth2006 names neither it nor a grade. ISO 3408-4 has
 #: 0.6, 0.55 and 0.5 (as recalled); this is that of its coarsest grade, and the others are reported beside it.
-ACCURACY_FACTOR = 0.5
+ACCURACY_FACTOR = {one.make: one.value for one in factors_of_makes()}["Rexroth"]
 OTHER_FACTORS = (0.55, 0.6)
 #: The share of the dynamic load rating that vendors preload double nuts with at most.
 USUAL_PRELOAD = 0.10

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,8 +23,21 @@ from ballscrew.physics.sizing.installation import Installation, Limits
 from ballscrew.physics.sizing.ratings import RATING_CONFORMITY as RATING_CONFORMITY
 from ballscrew.physics.sizing.ratings import Ratings as Ratings
 from ballscrew.physics.sizing.ratings import ratings_of as ratings_of
+from ballscrew.physics.sizing.sources import Source
 
 HOUR = 3600.0
+
+#: The kind of source of the formulas and limits of each check, where its inputs do not change it.
+SOURCES: Mapping[str, Source] = {
+    "static_safety": "read",  # quotient and least value of THK514E
+    "life": "recalled",  # ISO3408-5
+    "running_time": "recalled",  # the same life over the speed
+    "contact_pressure": "read",  # 4200 MPa and a dent of 1e-4: ISO76, clauses 3.2 and 3.3
+    "shaft_stress": "read",  # force over area, the limit of THK514E
+    "buckling": "read",  # TimoshenkoGere1961, the safety of THK514E
+    "critical_speed": "read",  # Timoshenko1974, the share of THK514E
+    "diameter_speed_product": "read",  # makers' limits; that of another nut is an estimate (SpeedLimit.source)
+}
 
 _SINGLE = SingleNut()
 _USUAL = Limits()
@@ -66,6 +79,8 @@ class Check(NamedTuple):
     message: Message
     #: The input without which it is not judged; empty where it is.
     missing: str = ""
+    #: The kind of source of its formulas and its limit; None where it compares nothing but what is given and computed.
+    source: Source | None = None
 
     @classmethod
     def saying(
@@ -78,21 +93,27 @@ class Check(NamedTuple):
         utilisation: float | None,
         holds: bool | None,
         missing: str = "",
+        source: Source | None = None,
     ) -> Check:
-        """A check whose text is a message."""
-        return cls(name, value, limit, unit, utilisation, holds, units.filled(message), message, missing)
+        """A check whose text is a message; without a ``source`` of its own it has that of its name."""
+        of = SOURCES.get(name) if source is None else source
+        return cls(name, value, limit, unit, utilisation, holds, units.filled(message), message, missing, of)
 
     @classmethod
-    def at_most(cls, message: Message, name: str, value: Any, limit: Any, unit: str) -> Check:
+    def at_most(
+        cls, message: Message, name: str, value: Any, limit: Any, unit: str, source: Source | None = None
+    ) -> Check:
         """A check that holds up to a limit; its utilisation is the value over the limit."""
         value, limit = float(value), float(limit)
-        return cls.saying(message, name, value, limit, unit, _ratio(value, limit), value <= limit)
+        return cls.saying(message, name, value, limit, unit, _ratio(value, limit), value <= limit, source=source)
 
     @classmethod
-    def at_least(cls, message: Message, name: str, value: Any, limit: Any, unit: str) -> Check:
+    def at_least(
+        cls, message: Message, name: str, value: Any, limit: Any, unit: str, source: Source | None = None
+    ) -> Check:
         """A check that holds from a limit on; its utilisation is the limit over the value."""
         value, limit = float(value), float(limit)
-        return cls.saying(message, name, value, limit, unit, _ratio(limit, value), value >= limit)
+        return cls.saying(message, name, value, limit, unit, _ratio(limit, value), value >= limit, source=source)
 
     @property
     def title(self) -> Message:
@@ -168,6 +189,7 @@ def checks(
     installation: Installation | None = None,
     limits: Limits = _USUAL,
     speed_limit: SpeedLimit | None = None,
+    computed_ratings: Collection[str] = (),
 ) -> tuple[Check, ...]:
     """The checks of a screw at one operating point, all of them every time; one without its inputs says so.
 
@@ -179,7 +201,8 @@ def checks(
     ``maximum_pressure`` is that of the most loaded contact. The DN value is held against that of ``limits``, if one is
     set there, else against ``speed_limit``, that of the make of the nut, else against a general one
     (:data:`~ballscrew.physics.sizing.dn_limits.GENERAL`); the text says which. Without a ``root_diameter`` that of
-    the groove is taken.
+    the groove is taken. ``computed_ratings`` names the ratings that are not listed but follow from the geometry, by
+    ISO3408-5 as recalled: the check of the static one is then of that source, too.
     Raises :class:`~ballscrew.basis.errors.InputError` for values that are not positive, and a largest load below the
     mean.
     """
@@ -189,11 +212,15 @@ def checks(
     _raise_for_nonsense(axial_load, largest_load, dynamic_load_rating, static_load_rating, root_diameter)
     largest = axial_load if largest_load is None else largest_load
     at_mean = loads_of_halves(nut, axial_load) if half_loads is None else half_loads
-    at_largest = loads_of_halves(nut, largest)
+    of_most = at_mean if largest_load is None else loads_of_halves(nut, largest)
+    most = of_most[0]
+    # the loads of both halves of a preloaded nut are of a recalled formula, where the contacts have not told them
+    closed = len(of_most) > 1 and (half_loads is None or largest_load is not None)
+    recalled = closed or "static_load_rating" in computed_ratings
     d_r = _groove_bottom(screw) if root_diameter is None else root_diameter
     with np.errstate(divide="ignore"):
         return (
-            _static_safety(static_load_rating, (at_mean if largest_load is None else at_largest)[0], limits),
+            _static_safety(static_load_rating, most, limits, "recalled" if recalled else None),
             *_life(dynamic_load_rating, at_mean, screw_speed, limits),
             _contact_pressure(maximum_pressure),
             _shaft_stress(largest, d_r, limits),
@@ -236,12 +263,13 @@ def _not_checked(name: str, unit: str, give: str) -> Check:
     return Check.saying(NOT_CHECKED.of(input=Message(give)), name, None, None, unit, None, None, give)
 
 
-def _static_safety(rated: Force | None, load: Force, limits: Limits) -> Check:
+def _static_safety(rated: Force | None, load: Force, limits: Limits, source: Source | None) -> Check:
     name = "static_safety"
     if rated is None:
         return _not_checked(name, "1", "static_load_rating")
     message = Message("static rating against the largest load, preload included")
-    return Check.at_least(message, name, life.static_safety(rated, as_array(load)), limits.static_safety, "1")
+    safety = life.static_safety(rated, as_array(load))
+    return Check.at_least(message, name, safety, limits.static_safety, "1", source)
 
 
 def _life(rated: Force | None, loads: Sequence[Force], speed: AngularSpeed, limits: Limits) -> tuple[Check, Check]:
@@ -327,8 +355,9 @@ def _diameter_speed_product(screw: BallScrew, speed: AngularSpeed, limits: Limit
     value, given = shaft.diameter_speed_product(screw.pitch_circle_diameter, speed), limits.diameter_speed_product
     known = GENERAL if of_make is None else of_make
     limit, words = (known.value, known.words) if given is None else (given, Message("that was given"))
+    source = known.source if given is None else None
     message = Message(
         "DN value, pitch circle diameter times speed, which the return of the balls must stand; limit {source}",
         {"source": words},
     )
-    return Check.at_most(message, "diameter_speed_product", value, limit, "m rad/s")
+    return Check.at_most(message, "diameter_speed_product", value, limit, "m rad/s", source)

@@ -12,6 +12,7 @@ from typing import NamedTuple
 from ballscrew.basis.quantities import DiameterSpeed
 from ballscrew.basis.records import Message
 from ballscrew.physics.sizing.catalogue import CatalogueRow
+from ballscrew.physics.sizing.sources import Source
 
 #: One millimetre times one turn a minute, in m rad/s.
 MM_RPM = 1e-3 * math.tau / 60
@@ -23,6 +24,8 @@ class SpeedLimit(NamedTuple):
     value: DiameterSpeed
     words: Message
     sources: tuple[str, ...] = ()
+    #: Of the limit for this very nut: an estimate where another nut's stands for it.
+    source: Source = "read"
 
 
 class PrintedLimit(NamedTuple):
@@ -43,6 +46,7 @@ GENERAL = SpeedLimit(
     70000 * MM_RPM,
     Message("of standard nuts in general (THK514E, HIWIN2016): that of this make is not known, it may be more"),
     ("THK514E", "HIWIN2016"),
+    source="estimate",
 )
 
 
@@ -85,7 +89,7 @@ def printed_limit(make: str, recirculation: str = "") -> SpeedLimit | None:
         if kind
         else Message("of standard nuts of {make} ({source})", values)
     )
-    return SpeedLimit(standard.value, words, (standard.source,))
+    return SpeedLimit(standard.value, words, (standard.source,), "estimate" if kind else "read")
 
 
 @functools.cache

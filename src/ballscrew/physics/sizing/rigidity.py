@@ -15,7 +15,9 @@ from ballscrew.basis.records import FilledText, Measured, Message, translatable
 from ballscrew.physics.components.nut import Nut, OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import rigidity
+from ballscrew.physics.sizing.accuracy_factors import factor_of_make, factors_of_standard
 from ballscrew.physics.sizing.installation import Ends, Installation
+from ballscrew.physics.sizing.sources import Source
 from ballscrew.physics.solvers.load_distribution import pair_load_deflection, preload_of
 
 #: Outer diameters of nuts by DIN 69051-5, m, by nominal diameter: for leads below COARSE_LEAD, and from there on.
@@ -32,7 +34,7 @@ DIN_69051_5 = {
 }
 COARSE_LEAD = 0.020
 #: Factors for accuracy that ISO 3408-4 has by grade, greatest and least; as recalled, the default of nothing.
-RECALLED_ACCURACY_FACTORS = (0.6, 0.5)
+RECALLED_ACCURACY_FACTORS = factors_of_standard()[:2]
 _WIDTH = Quantity("nut_outer_diameter", "m", Info("D_1", "outer diameter of the nut", "mm"))
 
 
@@ -53,8 +55,10 @@ class AxialRigidity:
     bearings: Annotated[Stiffness, Info("R_b", "rigidity of the support bearings", "N/um")]
     drive: Annotated[Stiffness, Info("R", "rigidity of nut, shaft and bearings in series", "N/um")]
     deflection: Annotated[Length, Info("x", "axial deflection of nut, shaft and bearings by the load", "um")]
-    #: Number that turns R_nu into R_nu,ar; None where none was given.
+    #: Number that turns R_nu into R_nu,ar, given or of the make of the nut; None where neither is known.
     accuracy_factor: float | None = None
+    #: Kind of source of the factor of a make, "read", "recalled" or "estimate"; None for one that was given.
+    accuracy_factor_source: Source | None = None
     #: In words, what stands for what was not given, and what could not be read in a source.
     assumed: Sequence[str] = ()
 
@@ -76,6 +80,7 @@ def rigidity_iso3408(
     accuracy_factor: Ratio | None = None,
     installation: Installation | None = None,
     distance_to_bearing: Length | None = None,
+    make: str = "",
 ) -> AxialRigidity:
     """Rigidity of a screw with its nut by ISO 3408-4, of its shaft, and the deflection of the drive under a load.
 
@@ -83,9 +88,11 @@ def rigidity_iso3408(
     ``axial_load`` (N): its rigidity is load over deflection. Without ``nut_outer_diameter`` (m) that of the nut's
     bodies is taken, or else that of DIN 69051-5 for the ``nominal_diameter`` (m), by default the pitch circle
     (:func:`usual_nut_outer_diameter`). ``accuracy_factor`` is f_ar, by the accuracy grade, by default that of the
-    installation; without it R_nu,ar is NaN, and the drive has R_nu. The shaft is that of ``installation``;
-    ``distance_to_bearing`` (m) is from the nut to the bearing that holds the shaft, by default where the shaft gives
-    way most: its whole length held at one end, half of it held at both. The contact angle stays that without load.
+    installation, or else that of the ``make`` of the nut where it is known
+    (:mod:`~ballscrew.physics.sizing.accuracy_factors`); without it R_nu,ar is NaN, and the drive has R_nu. The shaft
+    is that of ``installation``; ``distance_to_bearing`` (m) is from the nut to the bearing that holds the shaft, by
+    default where the shaft gives way most: its whole length held at one end, half of it held at both. The contact
+    angle stays that without load.
 
     Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
     """
@@ -94,6 +101,7 @@ def rigidity_iso3408(
         accuracy_factor = installation.accuracy_factor
     raise_if_any(_faults(screw, nut_outer_diameter, accuracy_factor, axial_load, installation, distance_to_bearing))
     size = _outer_diameter(screw, nut, nut_outer_diameter, nominal_diameter)
+    of_make = factor_of_make(make) if accuracy_factor is None else None
     preload = float(preload_of(screw, nut))
     assumed = list(size.assumed)
     load = 0.0 if axial_load is None else abs(float(axial_load))
@@ -124,6 +132,10 @@ def rigidity_iso3408(
         )
     R_nu = float(rigidity.series_rigidity(R_bt, R_ns))
     factor = None if accuracy_factor is None else float(accuracy_factor)
+    source: Source | None = None
+    if of_make is not None and R_nu == R_nu:
+        factor, source = of_make.value, of_make.source
+        assumed.append(of_make.words)
     corrected = math.nan if factor is None else float(rigidity.rigidity_corrected_for_accuracy(factor, R_nu))
     R_s, R_b, words = _shaft(screw, installation, distance_to_bearing)
     assumed += words
@@ -141,6 +153,7 @@ def rigidity_iso3408(
         drive=drive,
         deflection=math.nan if axial_load is None else float(axial_load) / drive,
         accuracy_factor=factor,
+        accuracy_factor_source=source,
         assumed=tuple(assumed),
     )
 

@@ -290,7 +290,7 @@ def checked(name: str, case: Case, notes: Sequence[str] = (), known: Run | None 
     rated, stand_ins = _rated(case, computed)
     found = _judged(
         case, _of_known_preload(run.case.screw.nut, run.nut.preload), rated, float(run.nut.loads.remaining_preload),
-        run.nut.maximum_pressure,
+        run.nut.maximum_pressure, stand_ins,
     )  # fmt: skip
     of_ratings = [f"{name.replace('_', ' ')} computed from the geometry: none is listed" for name in stand_ins]
     of_rigidity = [f"rigidity: {text}" for text in run.nut.rigidity.assumed]
@@ -304,13 +304,18 @@ def checks_by_loads(case: Case, preload: Force, left: Force) -> Sequence[Check]:
 
     Its nut has this preload, of which the load leaves so much.
     """
-    rated, _ = _rated(case, _computed(case))
+    rated, stand_ins = _rated(case, _computed(case))
     nut = _of_known_preload(case.screw.nut, preload)
-    return [check for check in _judged(case, nut, rated, left, None) if check.name != "contact_pressure"]
+    return [check for check in _judged(case, nut, rated, left, None, stand_ins) if check.name != "contact_pressure"]
 
 
 def _judged(
-    case: Case, nut: Nut, rated: Mapping[str, float | None], left: Force, pressure: Pressure | None
+    case: Case,
+    nut: Nut,
+    rated: Mapping[str, float | None],
+    left: Force,
+    pressure: Pressure | None,
+    stand_ins: Sequence[str],
 ) -> tuple[Check, ...]:
     """The checks under a load that leaves so much of the preload."""
     # the checks are of magnitudes: a screw wears and buckles the same in either direction
@@ -327,6 +332,7 @@ def _judged(
         installation=case.installation,
         limits=case.limits,
         speed_limit=speed_limit_of(case.row),
+        computed_ratings=stand_ins,
     )
 
 

@@ -12,6 +12,7 @@ from ballscrew.physics.sizing.checks import Check, judged
 from ballscrew.questions.check.compute import Checked
 from ballscrew.questions.run import document as run
 from ballscrew.questions.shared import declared
+from ballscrew.questions.shared.check_lines import source_document
 from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
 
@@ -50,6 +51,6 @@ def list_document(found: Sequence[Checked]) -> list[dict[str, Any]]:
 
 
 def check_document(check: Check) -> dict[str, Any]:
-    """A check as a record, what it lacks, and the older keys ``name``, ``utilisation``, ``passes`` and ``words``."""
+    """A check as a record, what it lacks, its source, and ``name``, ``utilisation``, ``passes`` and ``words``."""
     older = {"name": check.name, "utilisation": check.utilisation, "passes": check.holds, "words": check.text}
-    return {**check.record.document(), "missing": check.missing, **older}
+    return {**check.record.document(), "missing": check.missing, **source_document(check), **older}

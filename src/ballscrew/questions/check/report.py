@@ -57,11 +57,10 @@ def _computed_ratings(found: Checked) -> list[str]:
 
 def check_row(one: Check) -> tuple[str, ...]:
     """A check: value, limit, share of it that is used, verdict."""
-    verdict = {True: "passes", False: "FAILS", None: ""}[one.holds]  # the words then say what is missing
     return (
         one.name.replace("_", " "),
         check_lines.shown(one, one.value),
         check_lines.shown(one, one.limit),
         check_lines.used_of(one),
-        ": ".join(filter(None, [verdict, one.text])),
+        ": ".join(filter(None, [check_lines.verdict_of(one), one.text])),
     )

@@ -11,6 +11,7 @@ from ballscrew.questions.duty import verdicts as duty_verdicts
 from ballscrew.questions.duty.answer import DutyResults
 from ballscrew.questions.duty.compute import DutyReport
 from ballscrew.questions.shared import declared
+from ballscrew.questions.shared.check_lines import source_document
 
 if TYPE_CHECKING:  # loads xarray
     from ballscrew.questions.duty.band import DutyBandReport
@@ -48,6 +49,6 @@ def with_band(found: DutyBandReport) -> dict[str, Any]:
 
 
 def _check(check: Check) -> dict[str, Any]:
-    """A check as a record, with the share of its limit that is used and what it lacks."""
+    """A check as a record, with the share of its limit that is used, what it lacks and its source."""
     beside = {"name": check.name, "utilisation": check.utilisation, "missing": check.missing}
-    return {**check.record.document(), **beside}
+    return {**check.record.document(), **beside, **source_document(check)}

@@ -152,6 +152,13 @@ class JudgedCheck(Record):
     name: str
     utilisation: Number = Field(description="share of the limit that is used: above 1 it fails")
     missing: str = Field(description="the input without which it is not judged; empty where it is")
+    source: Literal["read", "recalled", "estimate"] = field(
+        "kind of source of its formulas and its limit; left out where only given and computed numbers are compared",
+        optional=True,
+    )
+    source_message: Message | None = field(
+        "the same in words beside the verdict; null where the source was read", optional=True
+    )
 
 
 class Drawing(Closed):

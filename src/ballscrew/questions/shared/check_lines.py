@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from ballscrew.basis import units
 from ballscrew.basis.output.plain_numbers import plain
 from ballscrew.basis.output.wrapping import beside
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.physics.sizing.checks import Check
+from ballscrew.physics.sizing.sources import QUALIFICATIONS
 
 #: The display units of the checks, by SI unit.
 _SHOWN_IN = {"N": "kN", "Pa": "MPa", "s": "h", "rad/s": "rpm", "m rad/s": "mm rpm", "N m": "N m"}
@@ -40,14 +42,28 @@ def check_lines(checks: Sequence[Check], give: Mapping[str, str] | None = None) 
     lines = [f"{'Checks':<26}{'value':>13} {'limit':>13} {'used':>7}  verdict"]
     for check in checks:
         used = used_of(check)
-        verdict = {True: "passes", False: "FAILS", None: ""}[check.holds]
         explanation = check.text
         if check.missing in said:
             explanation = explanation.replace(check.missing, said[check.missing])
         cells = f"{shown(check, check.value):>13} {shown(check, check.limit):>13} {used:>7}"
         prefix = f"  {check.name.replace('_', ' '):<24}{cells}  "
-        lines.append(beside(prefix, ": ".join(filter(None, [verdict, explanation]))))
+        lines.append(beside(prefix, ": ".join(filter(None, [verdict_of(check), explanation]))))
     return lines
+
+
+def verdict_of(check: Check) -> str:
+    """The verdict on a check, by formulas of which source; of one that is not judged the source of its value alone."""
+    said = {True: "passes", False: "FAILS", None: ""}[check.holds]
+    by = None if check.source is None or check.value is None else QUALIFICATIONS[check.source]
+    return "; ".join(filter(None, [said, "" if by is None else units.filled(by)]))
+
+
+def source_document(check: Check) -> dict[str, Any]:
+    """The source of a check as it stands in JSON, with its words where it was not read; nothing of a check without."""
+    if check.source is None:
+        return {}
+    said = QUALIFICATIONS[check.source]
+    return {"source": check.source, "source_message": None if said is None else said.document()}
 
 
 def used_of(check: Check) -> str:

@@ -2,7 +2,7 @@
 
 import { jump } from "./cards.js";
 import { byId, element, table } from "./dom.js";
-import { ofRecord } from "./messages.js";
+import { ofRecord, said } from "./messages.js";
 import { text, textOr } from "./texts.js";
 import * as units from "./units.js";
 
@@ -21,7 +21,7 @@ const CLOSE = 0.8;
 const MULTIPLE = 10;
 const DIGITS_OF_SHARE = 3;
 
-/** @typedef {VerdictRecord & { name: string, utilisation: number | null, missing: string }} OneCheck */
+/** @typedef {VerdictRecord & { name: string, utilisation: number | null, missing: string, source_message?: Message | null }} OneCheck */
 
 /**
  * Checks of an operating point, or over a cycle.
@@ -117,6 +117,15 @@ function percentage(share) {
 }
 
 /**
+ * The source of the formulas of a check, where it was not read.
+ *
+ * @param {OneCheck} check
+ */
+function sourceOf({ value, source_message: words }) {
+  return words && value !== null ? [element("span", { class: "source" }, said(words))] : [];
+}
+
+/**
  * The share of the limit as a bar, a number and a word; or the field to fill in.
  *
  * @param {OneCheck} check
@@ -125,10 +134,10 @@ function used(check) {
   const { utilisation, holds } = check;
   if (holds === null) {
     const [path, wanted] = FIELDS[check.missing] ?? [];
-    if (!path) return text("checks.not_judged");
+    if (!path) return element("span", {}, `${text("checks.not_judged")} `, ...sourceOf(check));
     const button = element("button", { type: "button", onclick: () => jump(path) }, text(wanted));
     button.setAttribute("aria-label", `${nameOf(check)}: ${text(wanted)}`);
-    return element("span", {}, `${text("checks.not_judged")} `, button);
+    return element("span", {}, `${text("checks.not_judged")} `, button, " ", ...sourceOf(check));
   }
   const tone = toneOf(check);
   const fill = element("span");
@@ -140,6 +149,7 @@ function used(check) {
     element("span", { class: `bar ${tone}`, "aria-hidden": "true" }, fill),
     element("data", { value: String(utilisation ?? "") }, percentage(share)),
     element("strong", { class: tone }, text(holds ? "checks.holds" : "checks.fails")),
+    ...sourceOf(check),
   );
 }
 
