@@ -199,8 +199,8 @@ def stock_nut(model: FrictionModel, values: Values, conditions: Conditions) -> l
     second one is a spacer. The ratings by ISO 3408-5 say so: over those listed they are 1.16 to 1.17 for double nuts,
     1.12 to 1.19 for nuts with an offset, but for one, and 1.10 to 1.20 for single nuts with spacers, but for three, all
     in circuits of 2.5 turns: those have more turns without load than the 0.24 taken here. The six single nuts FSI, full
-    of balls in circuits of one turn, have 1.47 to 1.54 times their listed rating by the standard: what they carry is read
-    with less certainty than the others. No point of a nut that the model cannot compute.
+    of balls in circuits of one turn, have 1.47 to 1.54 times their listed rating by the standard: what they carry is
+    read with less certainty than the others. No point of a nut that the model cannot compute.
     """
     row, at, kind = screw_of(values), conditions.of(values), str(values["nut"])
     if kind not in _STOCK:
