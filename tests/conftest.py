@@ -47,24 +47,27 @@ MODELS = {
 RANDOM = (ROOT / "tests" / "oracles", ROOT / "tests" / "properties")
 
 
-#: Resident memory, MB, above which a worker gives back what the tests of a module have left.
-MEMORY = 600
+#: Growth of the resident memory, MB, after which a worker gives back what the tests of modules have left.
+GROWTH = 200
+#: Resident memory when it was last given back, MB.
+_kept = [0.0]
 
 
 @pytest.fixture(scope="module", autouse=True)
 def memory_given_back():
-    """What a module leaves is given back to the system: compiled functions of JAX, and pages that the C library keeps.
+    """What modules leave is given back to the system: compiled functions of JAX, and pages that the C library keeps.
 
     Without it each worker grows to the sum of what all its modules need at their most.
     """
     yield
-    if _resident_memory() > MEMORY:
+    if _resident_memory() > _kept[0] + GROWTH:
         if "jax" in sys.modules:
             sys.modules["jax"].clear_caches()
         gc.collect()
         trim = getattr(ctypes.CDLL(None), "malloc_trim", None)  # of glibc alone
         if trim is not None:
             trim(0)
+        _kept[0] = _resident_memory()
 
 
 def _resident_memory() -> float:
@@ -178,6 +181,7 @@ def pytest_collection_finish():
     gc.collect()
     gc.freeze()
     gc.set_threshold(20_000, 10, 10)
+    _kept[0] = _resident_memory()
 
 
 def pytest_collection_modifyitems(items):

@@ -89,8 +89,13 @@ def test_the_band_says_where_the_full_bath_lies():
     report = band.band(case, band.BandOptions(samples=2, only_given=True))
     found = {record.id: record for record in band_documents.verdicts(case, report)}["band.flooded"]
     assert found.value == run(case).friction.flooded_torque
-    assert found.limit == report.band["screw_torque"].both.high < found.value  # nothing is uncertain here
-    assert found.text.endswith("above it")
+    assert found.limit == report.band["screw_torque"].both.high
+    assert f"a full bath of oil, {found.value:.4g} N m" in found.text
+    assert "inlet" in report.band.alternatives
+    # of a fit, which exchanges no law, the band is of one track
+    alone = dataclasses.replace(report, band=dataclasses.replace(report.band, alternatives={}))
+    said = {record.id: record for record in band_documents.verdicts(case, alone)}["band.flooded"]
+    assert said.text.startswith("the band takes oil to come back into the track late")
 
 
 def tables_of_duty(temperature, *settings):

@@ -25,6 +25,7 @@ HOLDERS = {
     "plot.js charts": "the charts in their places",
     "results.js announcer": "what screen readers were told last",
     "schema.js schema": "the schema of a case, filled once before anything is shown",
+    "server.js awaited": "requests under way, by what was asked: the same is asked once",
     "server.js connection": "whether the server answers",
     "server.js kept": "answers by what was asked",
     "vocabulary.js vocabulary": "the words of the server, filled once before anything is shown",

@@ -139,7 +139,7 @@ def test_every_number_counts(name):
         to = value + 1 if isinstance(value, int) else np.nextafter(value, 0 if value else 1)
         seen.add(key_of(subject.changed({name: float(to) if isinstance(value, float) else to})))
     assert len(seen) == 1 + len(names) - unset
-    assert unset <= 2
+    assert unset <= 3  # force between balls, offset of the lines of pure rolling, slope of the pressure modulus
 
 
 @pytest.mark.parametrize(

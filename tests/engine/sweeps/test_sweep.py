@@ -175,7 +175,7 @@ def test_imposed_offset_can_be_swept(seed_screw, seed_oil):
 
 
 #: Inputs that a part has by default from elsewhere: a value to begin with.
-UNSET = {"ball_to_ball_force": 0.02, "pure_rolling_offset": 0.3}
+UNSET = {"ball_to_ball_force": 0.02, "pure_rolling_offset": 0.3, "pressure_modulus_slope": 0.02}
 
 
 def test_every_input_can_be_swept(model, seed_screw, seed_oil):
@@ -196,7 +196,7 @@ def test_every_input_can_be_swept(model, seed_screw, seed_oil):
         # 1 % more, or one more of what can be counted
         after[name] = before[name] + (1 if name in {"loaded_balls", "starts"} else 0.01 * before[name])
         if value is None:
-            parts["model"] = dataclasses.replace(parts["model"], **{name: before[name]})
+            parts[part] = dataclasses.replace(parts[part], **{name: before[name]})
     # row by row, one of them after another is changed
     rows = {name: points([after[name] if row == name else value for row in after]) for name, value in before.items()}
     ds = bs.sweep(model, roomy, seed_oil, **operation, **rows)

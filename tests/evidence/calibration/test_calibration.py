@@ -78,6 +78,7 @@ def test_the_file_is_as_the_command_writes_it(script):
             np.array([getattr(one, field) for field in one.fitted]), np.array(one.covariance), one.rows, one.cost
         )
         for name, one in calibrations().items()
+        if name in script.DECLARED  # those of other makers are fitted anew, in one step
     }
     assert script.toml_text(found) == script.TOML.read_text(encoding="utf-8")
     assert tomllib.loads(script.toml_text(found)).keys() == calibrations().keys()

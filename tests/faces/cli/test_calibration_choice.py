@@ -13,7 +13,7 @@ from ballscrew.cases.schema.case_schema import json_schema
 from ballscrew.evidence.validation.nearest import near_rows
 from ballscrew.faces.cli.main import app
 from ballscrew.faces.web import documents
-from ballscrew.physics.friction.calibrations import calibration, calibrations
+from ballscrew.physics.friction.calibrations import BY_MAKE, calibration, calibrations
 from ballscrew.questions.run import report as run_report
 from ballscrew.questions.run.compute import run
 from support.commands import ROOT
@@ -62,7 +62,7 @@ def test_every_command_that_evaluates_a_case_takes_it(name, written):
 def test_the_page_offers_it():
     """The form is made of the schema."""
     model = json_schema()["$defs"]["Model"]["properties"]
-    assert model["calibration"]["enum"] == list(calibrations())
+    assert model["calibration"]["enum"] == [*calibrations(), BY_MAKE]
 
 
 def test_it_wins_over_the_file(written):

@@ -221,7 +221,7 @@ def test_it_says_how_far_off_it_may_be_and_why(pdf, page):
     for words in (text_of(pdf), page.words):
         assert f"between {low} and {high}" in words
         assert "Which inputs make the band" in words
-        assert "ball force share of load: 0.0025 to 0.0225" in words
+        assert "ball force share of load: 0.003 to 0.01875" in words
         assert "screw conformity 0.54 ± 0.01 (judgement: the root diameters of HIWIN2016 imply" in words
         assert "rolling: olaru" in words
 
