@@ -18,11 +18,12 @@ from ballscrew.basis.records import Measured, Message, Record
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
 from ballscrew.engine.uncertainty.distributions import Distribution
 from ballscrew.physics.components.materials import Lubricant
-from ballscrew.physics.components.mixed_friction import FRESH_BOUNDARY_FRICTION, LoadSharing
+from ballscrew.physics.components.mixed_friction import FRESH_BOUNDARY_FRICTION
 from ballscrew.physics.components.nut import Nut
 from ballscrew.physics.components.oil_grades import has_additives
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.friction.calibrations import Calibration
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.plausibility import IMPLAUSIBLE, implausible, named_parts
@@ -184,7 +185,7 @@ def _of_other_nuts(calibration: Calibration | None, nut: Nut) -> list[Record]:
 def _not_reacted(model: FrictionModel, lubricant: Lubricant) -> list[Record]:
     """A warning of boundary friction as of reacted surfaces for new ones, or for an oil without additives."""
     friction = getattr(model.friction, "boundary_friction_coefficient", None)
-    is_new = isinstance(model.friction, LoadSharing)
+    is_new = traits_of(model.friction).new_surfaces
     bare = not has_additives(lubricant.grade)
     if friction is None or not (is_new or bare) or not float(friction) > 1.5 * FRESH_BOUNDARY_FRICTION:
         return []

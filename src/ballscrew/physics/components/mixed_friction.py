@@ -66,7 +66,7 @@ class ZhouHoeprich(ByValue):
 # -- load sharing ---------------------------------------------------------------------------------
 
 
-@law_traits(alternative=True)
+@law_traits(alternative=True, new_surfaces=True)
 @dataclasses.dataclass(frozen=True, eq=False)
 class LoadSharing(ByValue):
     """Asperities and film share the load, ZhouHoeprich1991; no clamp.
@@ -240,7 +240,7 @@ def arana_traction(conditions: ContactConditions) -> Ratio:
 
     The viscosity is that at the mean pressure, the coefficient in the Eyring stress that at the greatest one, both by
     the pressure modulus of the oil where that is known, else by Roelands1966; the film is the central one with the
-    heat of its inlet. Within 0.005 of friction measured between two discs (Arana2019) where the modulus is known.
+    heat of its inlet. Said to be within 0.005 of friction measured between two discs (Arana2019, as quoted elsewhere).
     """
     oil, p_m, u_s = conditions.lubricant, conditions.mean_pressure, conditions.nominal_sliding_speed
     loaded, moving = p_m > 0, u_s > 0

@@ -40,6 +40,8 @@ class LawTraits:
     uses_imposed_force: bool = True
     #: Of a law of the film: it reads the limit of the shear stress that the oil has.
     reads_limiting_shear: bool = False
+    #: Of a friction law: it is of surfaces as they are made, which have neither run in nor reacted with the oil.
+    new_surfaces: bool = False
 
 
 _NONE_DECLARED = LawTraits()

@@ -106,7 +106,7 @@ def of_makers(case: Case) -> list[Candidate]:
     calibration is of, that one alone is drawn beside the model as it is. None with a calibration, without preload,
     where spacers part the balls, where the case says itself what the balls press with, and of a friction law that has
     no boundary friction. The force between balls that is drawn stays uncertain beside a calibration, by the same
-    factor: so the upper end lies up to 15 % too high.
+    factor: so the upper end lies too high, by some 15 % where all makers are drawn.
     """
     nut, model = case.screw.nut, case.model
     pressed = {"ball_force", "ball_chain", "ball_to_ball_force"} & set(model.changes)
