@@ -92,7 +92,8 @@ def nut_with_preload(nut: Nut) -> Message:
         for name, quantity in fields_of(nut).items()
         if (value := getattr(nut, name)) is not None and (name == "preload" or value)
     ]
-    return listed([NUTS[kind_of(nut)], *numbers, *[Message("spacer balls")] * nut.spacer_balls])
+    at_rest = [Message("set at rest")] * nut.set_at_rest
+    return listed([NUTS[kind_of(nut)], *numbers, *at_rest, *[Message("spacer balls")] * nut.spacer_balls])
 
 
 def _named(path: str, value: Value) -> Message:

@@ -46,7 +46,11 @@ def _inputs_of_nut(case: Case, nut: Nut) -> dict[str, Any]:
     scatter = nut.parts.get("deviations")
     own = {name: value for name, value in _numbers(nut).items() if value is not None}
     return {
-        "nut": {"type": kind_of(nut), **own, **({"spacer_balls": True} if nut.spacer_balls else {})},
+        "nut": {
+            "type": kind_of(nut),
+            **own,
+            **{name: True for name in ("spacer_balls", "set_at_rest") if getattr(nut, name)},
+        },
         **(
             {}
             if bodies is None

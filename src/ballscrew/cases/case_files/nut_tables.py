@@ -236,16 +236,16 @@ _ANOTHER_NUT = Message("leave it out, or take {nut.type}{kinds}")
 
 def _misplaced(kind: str, table: Mapping[str, Any]) -> list[Fault]:
     """Faults of fields that another kind of nut has."""
-    own = fields_of(NUTS[kind])
+    fields = {name: {field.name for field in dataclasses.fields(nut)} for name, nut in NUTS.items()}
     return [
         Fault(
             f"nut.{name}",
             Message('a nut of type "{kind}" has none', {"kind": kind}),
             str(table[name]),
-            _ANOTHER_NUT.of(kinds=either(n for n, cls in NUTS.items() if name in fields_of(cls))),
+            _ANOTHER_NUT.of(kinds=either(n for n, own in fields.items() if name in own)),
         )
-        for name in NUT_FIELDS
-        if name in table and name not in own
+        for name in (*NUT_FIELDS, "set_at_rest")
+        if name in table and name not in fields[kind]
     ]
 
 

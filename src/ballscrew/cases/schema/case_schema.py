@@ -131,6 +131,9 @@ def sections() -> Mapping[str, type[BaseModel]]:
     spacers = Annotated[
         bool, Field(strict=True, description="whether every second ball is a spacer, smaller and without load")
     ]
+    at_rest = Annotated[
+        bool, Field(strict=True, description="whether the preload is that at rest; in motion the balls press harder")
+    ]
     return {
         "screw": section_of(
             "Screw", screw, BallScrew, required=True, uncertain=fields_of(BallScrew),
@@ -162,6 +165,7 @@ def sections() -> Mapping[str, type[BaseModel]]:
             uncertain=NUT_FIELDS,
             type=(_one_of(NUTS, "kind of nut"), None),
             spacer_balls=(spacers, None),
+            set_at_rest=(at_rest, None),
             preload=(
                 Annotated[Any, BeforeValidator(read_preload), WithJsonSchema(preload), NUT_FIELDS["preload"]], None,
             ),

@@ -182,8 +182,6 @@ def by_ball(
     left to the model itself, unless it is ``always`` recorded, until so much of its kind has been asked for that a
     recording pays.
     """
-    if plan.subject.nut.set_at_rest:
-        return "the model itself, on plain arrays: loads that friction changes are not solved before it"
     names = inputs_by_ball(plan.subject, plan.varying if varying is None else varying)
     wanted = _recorded_outputs(plan)
     work = plan.total * times * plan.subject.balls
@@ -270,6 +268,8 @@ def _recorded_outputs(plan: Plan) -> Mapping[str, Output]:
 
 def recorded_by_ball(subject: Configuration, wanted: Mapping[str, Output], names: Sequence[str]) -> Program:
     """The outputs wanted as a program of all inputs, the results of the solver for the nut, and those for each ball."""
+    if subject.nut.set_at_rest:
+        raise CannotRecordError("the preload of a nut that was set at rest follows the friction of its balls")
     groups = [COLUMNS] * (len(names) + len(OF_LOADS)) + [ROWS | COLUMNS] * len(OF_BALLS)
     nonnegative = [subject.is_nonnegative(name) for name in names] + [False] * len(OF_LOADS) + [True] * len(OF_BALLS)
     tape = Tape(len(groups), groups, nonnegative, reduces=True)
