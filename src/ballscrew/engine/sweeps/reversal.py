@@ -1,0 +1,109 @@
+"""Friction after a reversal as a labelled dataset over the angle of the screw."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from ballscrew.basis.errors import accepts_units
+from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Quantity, fields_of, quantities_of
+from ballscrew.engine.evaluation.outputs import attributes_of
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.moving_balls import reversal as moving_balls
+
+_TORQUE = quantities_of(FrictionResult)["screw_torque"]
+#: The numbers over the angle, and the angle itself.
+QUANTITIES: Mapping[str, Quantity] = {
+    "screw_angle": Quantity("screw_angle", "rad", Info(r"\theta", "angle of the screw since the reversal", "deg")),
+    "travel": Quantity("travel", "m", Info("x", "travel of the nut since the reversal", "um")),
+    "screw_torque": dataclasses.replace(
+        _TORQUE,
+        info=dataclasses.replace(_TORQUE.info, meaning="friction torque on the screw, against its new direction"),
+    ),
+    "steady_torque": Quantity(
+        "steady_torque", _TORQUE.unit, dataclasses.replace(_TORQUE.info, meaning="friction torque of steady motion")
+    ),
+}
+#: Said of every dataset.
+HYPOTHESIS = (
+    "a hypothesis: that helix slip comes back over degrees of the screw follows from the contacts, "
+    "and no measured ball screw shows it by itself"
+)
+
+
+@accepts_units("reversal")
+def reversal(
+    model: FrictionModel,
+    screw: BallScrew,
+    lubricant: Lubricant,
+    *,
+    axial_load: Force,
+    screw_speed: AngularSpeed,
+    travel: Length | None = None,
+    from_rest: bool = False,
+) -> xr.Dataset:
+    """Friction torque over the angle of the screw after it has turned round, by mechanism.
+
+    ``model``, ``screw`` and ``lubricant`` are those of a steady point under an ``axial_load`` (N) at a ``screw_speed``
+    (rad/s); the curve goes from minus the steady torque to plus it, or ``from_rest`` from zero, over a ``travel`` (m)
+    of the nut; without it as far as the curve goes. The dataset that is returned has the coordinate ``screw_angle`` and
+    the variables ``travel``, ``screw_torque``, ``contribution_…`` by mechanism, and the same of steady motion
+    (``steady_torque``, ``steady_contribution_…``); names, units and sources are those of a sweep.
+
+    A hypothesis: that the helix part comes back over degrees of the screw follows from the contacts, and is not
+    measured. Raises :class:`~ballscrew.basis.errors.InputError` for inputs without a curve.
+    """
+    found = moving_balls.reversal(
+        model, screw, lubricant, axial_load=axial_load, screw_speed=screw_speed, travel=travel, from_rest=from_rest
+    )
+    operation = {"axial_load": axial_load, "screw_speed": screw_speed}
+    return dataset_of(Configuration(model, screw, lubricant), found, operation)
+
+
+def dataset_of(subject: Configuration, found: moving_balls.Reversal, operation: Mapping[str, Any]) -> xr.Dataset:
+    """A reversal with names, units and sources, at its operating point."""
+    over = ("screw_angle",)
+    variables: dict[str, Any] = {
+        name: (over, np.asarray(getattr(found, name), dtype=float), attributes_of(QUANTITIES[name]))
+        for name in ("travel", "screw_torque")
+    }
+    for mechanism, values in found.contributions.items():
+        name = f"contribution_{mechanism}"
+        variables[name] = (over, np.asarray(values, dtype=float), attributes_of(contribution(mechanism)))
+    variables["steady_torque"] = ((), float(found.steady_torque), attributes_of(QUANTITIES["steady_torque"]))
+    for mechanism, value in found.steady_contributions.items():
+        name = f"steady_contribution_{mechanism}"
+        variables[name] = ((), float(value), attributes_of(contribution(mechanism, steady=True)))
+    fields = fields_of(OperatingState)
+    coordinates: dict[str, Any] = {
+        "screw_angle": (over, np.asarray(found.screw_angle, dtype=float), attributes_of(QUANTITIES["screw_angle"]))
+    }
+    coordinates |= {name: ((), float(value), attributes_of(fields[name])) for name, value in operation.items()}
+    records = subject.implausible(operation)
+    said = "; ".join(f"{record.name}: {record.text}" for record in records)
+    start = "from rest" if found.from_rest else "after a reversal"
+    attributes = {
+        **subject.attributes(),
+        "title": f"Ball screw friction {start}, model {subject.model.label}",
+        "start": start,
+        "comment": HYPOTHESIS,
+    }
+    return xr.Dataset(variables, coordinates, attributes | ({"warnings": said} if said else {}))
+
+
+def contribution(mechanism: str, *, steady: bool = False) -> Quantity:
+    """The part of the torque by a mechanism, over the angle or of steady motion."""
+    words = moving_balls.MECHANISMS.get(mechanism, mechanism)
+    info = dataclasses.replace(
+        _TORQUE.info, symbol=f"M_S ({mechanism})", meaning=f"friction torque{' of steady motion' * steady}: {words}"
+    )
+    return Quantity(f"{'steady_' * steady}contribution_{mechanism}", _TORQUE.unit, info)
