@@ -56,7 +56,7 @@ def test_whether_the_load_starts():
 
 
 @pytest.mark.parametrize(
-    ("nut", "relative"), [(bs.DoubleNut(preload=3605.0), 1e-9), (bs.OversizeBallNut(preload=3605.0), 5e-3)]
+    ("nut", "relative"), [(bs.DoubleNut(preload=3605.0), 1e-9), (bs.OversizeBallNut(preload=3605.0), 8e-3)]
 )
 def test_flanks_that_have_lifted_off_hold_nothing(nut, relative):
     """Far beyond lift-off one half carries the load alone; oversize balls do so at an angle of their own."""

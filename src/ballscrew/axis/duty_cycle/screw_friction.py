@@ -140,9 +140,10 @@ class ModelledScrew(ByValue):
     def loads_at(self, axial_load: Numbers) -> BallLoads | None:
         """Loads of the balls that are solved one by one, kept for the next question at the same few loads; else None.
 
-        They depend on the axial load alone: cycle, fall and start of an axis ask for the same ones.
+        They depend on the axial load alone, but for a preload that was set at rest: cycle, fall and start of an axis
+        ask for the same ones.
         """
-        if not self.screw.nut.one_by_one:
+        if not self.screw.nut.one_by_one or self.screw.nut.set_at_rest:
             return None
         distinct, back = np.unique(axial_load, return_inverse=True)
         if distinct.size > FEW_LOADS:

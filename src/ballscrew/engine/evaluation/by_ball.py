@@ -182,6 +182,8 @@ def by_ball(
     left to the model itself, unless it is ``always`` recorded, until so much of its kind has been asked for that a
     recording pays.
     """
+    if plan.subject.nut.set_at_rest:
+        return "the model itself, on plain arrays: loads that friction changes are not solved before it"
     names = inputs_by_ball(plan.subject, plan.varying if varying is None else varying)
     wanted = _recorded_outputs(plan)
     work = plan.total * times * plan.subject.balls

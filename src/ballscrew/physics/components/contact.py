@@ -52,6 +52,19 @@ class Contact(ContactConditions):
             pure_rolling_offset,
         )
 
+    @lazy
+    def mutual_approach(
+        self,
+    ) -> Annotated[Length, Info(r"\delta", "mutual approach of ball and race, exact Hertz", "um")]:
+        """Mutual approach of ball and race by the exact Hertz solution, whatever fit the model uses."""
+        return hertz.mutual_approach(self._approach_coefficient, self.rolling_radius, self.load_parameter)
+
+    @lazy
+    def _approach_coefficient(self) -> Ratio:
+        kappa = hertz.ellipticity(self.radii_ratio)
+        integrals = hertz.elliptic_integrals(kappa)
+        return hertz.approach_coefficient(self.radii_ratio, kappa, integrals.K, integrals.E)
+
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class RaceState(Contact):
@@ -92,19 +105,6 @@ class RaceState(Contact):
         return hertz.contact_stiffness(
             self._approach_coefficient, self.equivalent_modulus, self.rolling_radius, self.load_parameter
         )
-
-    @lazy
-    def mutual_approach(
-        self,
-    ) -> Annotated[Length, Info(r"\delta", "mutual approach of ball and race, exact Hertz", "um")]:
-        """Mutual approach of ball and race by the exact Hertz solution, whatever fit the model uses."""
-        return hertz.mutual_approach(self._approach_coefficient, self.rolling_radius, self.load_parameter)
-
-    @lazy
-    def _approach_coefficient(self) -> Ratio:
-        kappa = hertz.ellipticity(self.radii_ratio)
-        integrals = hertz.elliptic_integrals(kappa)
-        return hertz.approach_coefficient(self.radii_ratio, kappa, integrals.K, integrals.E)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

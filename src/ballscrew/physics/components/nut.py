@@ -205,6 +205,8 @@ class NutParts(ByValue):
     contacts_per_ball = 2
     #: Whether the contact angle stays nominal where nothing braces the balls.
     nominal_angle = False
+    #: Whether the preload is that at rest; of a nut whose preload is the same at rest and in motion it is not asked.
+    set_at_rest = False
 
     @property
     def one_by_one(self) -> bool:
@@ -328,6 +330,9 @@ class DoubleNut(NutParts):
 
     preload: Preload
     spacing: Spacing = 0.0
+    #: Whether the preload is what the nut has at rest: in motion friction pushes the balls off the line of their
+    #: grooves, so that both halves press harder. Else it is what acts in motion.
+    set_at_rest: bool = dataclasses.field(default=False, kw_only=True)
     halves = 2
 
     def __post_init__(self) -> None:
@@ -346,6 +351,9 @@ class OffsetLeadNut(NutParts):
 
     preload: Preload
     spacing: Spacing = 0.0
+    #: Whether the preload is what the nut has at rest: in motion friction pushes the balls off the line of their
+    #: grooves, so that both halves press harder. Else it is what acts in motion.
+    set_at_rest: bool = dataclasses.field(default=False, kw_only=True)
     halves = 2
 
     def __post_init__(self) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ballscrew.basis.arrays import namespace
-from ballscrew.basis.quantities import Angle, Length, Pressure, Ratio, RotationalStiffness, Stiffness
+from ballscrew.basis.quantities import Angle, Compliance, Length, Pressure, Ratio, RotationalStiffness, Stiffness
 
 
 def shear_modulus(young_modulus: Pressure, poisson_ratio: Ratio) -> Pressure:
@@ -47,23 +47,29 @@ def torsional_stiffness(
     return 16 * a**3 / (3 * (1 / G_b + 1 / G_r))
 
 
-def sticking_stiffness(
-    tangential_stiffness: Stiffness,
-    torsional_stiffness: RotationalStiffness,
-    ball_diameter: Length,
-    lead_angle: Angle,
-    rolling_plane_sine: Ratio,
+def lateral_stiffness(
+    tangential_stiffness: Stiffness, groove_compliance: Compliance, ball_diameter: Length, lead_angle: Angle
 ) -> RotationalStiffness:
-    r"""Stiffness that a ball with sticking contacts has against rotation of the screw.
+    r"""Stiffness of a ball against rotation of the screw, by what holds it across its path.
 
-    .. math:: k_\theta = k_t \left(\frac{d_w}{2} \sin\varphi\right)^2 + k_s s_\alpha^2
+    .. math:: k_\varphi = \frac{k_t}{1 + k_t c_\eta} \left(\frac{d_w}{2} \sin\varphi\right)^2
 
-    The stiffnesses are those of both contacts in series. For each radian of the screw a ball that rolls is taken
-    :math:`(d_w / 2) \sin\varphi` across its path and spun by :math:`s_\alpha` between the races; what later slips is
-    elastic work first. The differential slip of the curved contact is left out.
+    For each radian of the screw a ball that rolls is taken :math:`(d_w / 2) \sin\varphi` across its path. Its sticking
+    contacts, both in series, give way, and long before that the ball rolls off the line of its grooves
+    (:func:`~ballscrew.physics.equations.across_groove.groove_compliance`); on four contacts it cannot.
     """
-    k_t, k_s, d_w, phi, s_alpha = (
-        tangential_stiffness, torsional_stiffness, ball_diameter, lead_angle, rolling_plane_sine,
-    )  # fmt: skip
-    xp = namespace(k_t, k_s, d_w, phi, s_alpha)
-    return k_t * (d_w / 2 * xp.sin(phi)) ** 2 + k_s * s_alpha**2
+    k_t, c_eta, d_w, phi = tangential_stiffness, groove_compliance, ball_diameter, lead_angle
+    xp = namespace(k_t, c_eta, d_w, phi)
+    return k_t / (1 + k_t * c_eta) * (d_w / 2 * xp.sin(phi)) ** 2
+
+
+def spin_stiffness(torsional_stiffness: RotationalStiffness, rolling_plane_sine: Ratio) -> RotationalStiffness:
+    r"""Stiffness of a ball against rotation of the screw, by the spin of its sticking contacts.
+
+    .. math:: k_\theta = k_s s_\alpha^2
+
+    The torsional stiffness is that of both contacts in series: for each radian of the screw they are spun by
+    :math:`s_\alpha` between the races. The differential slip of the curved contact is left out.
+    """
+    k_s, s_alpha = torsional_stiffness, rolling_plane_sine
+    return k_s * s_alpha**2

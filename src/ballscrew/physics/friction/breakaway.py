@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Annotated
+from collections.abc import Callable
+from typing import Annotated, Any
 
 import numpy as np
 
-from ballscrew.basis.arrays import lazy, where
+from ballscrew.basis.arrays import lazy, namespace, where
 from ballscrew.basis.errors import Fault, accepts_units, raise_if_any
 from ballscrew.basis.quantities import Angle, Force, Info, Length, Mask, Ratio, RotationalStiffness, Stiffness, Torque
 from ballscrew.physics.components.contact import Contact
+from ballscrew.physics.components.frame import Frame
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.mixed_friction import LoadSharing
 from ballscrew.physics.components.screw import BallScrew, Raceway
-from ballscrew.physics.equations import presliding
+from ballscrew.physics.equations import across_groove, presliding
 from ballscrew.physics.friction import directions
+from ballscrew.physics.friction.across_groove import arms_of
+from ballscrew.physics.friction.loaded_balls import LoadedPair
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.solvers.load_distribution import BallLoads
@@ -55,45 +59,65 @@ class Breakaway:
         """True where the load alone starts to turn the screw."""
         return abs(self.at_rest.ideal_torque) > self.torque
 
-    @lazy
+    @property
     def stiffness(
         self,
     ) -> Annotated[RotationalStiffness, Info(r"k_\theta", "torsional stiffness of the sticking contacts")]:
-        """Stiffness of all sticking contacts against rotation of the screw,
-        :mod:`~ballscrew.physics.equations.presliding`.
+        """Stiffness of all sticking contacts against rotation of the screw: of their spin, and of what holds them
+        across.
 
         Zero without load.
         """
-        screw, frame = self.at_rest.ball_screw, self.at_rest.frame
-        return sum(
-            # a flank pair that has lifted off holds nothing
-            kind.total(
-                where(
-                    pair.load > 0,
-                    _stiffness(screw, pair.screw, pair.nut, frame.lead_angle, frame.rolling_plane_sine),
-                    0.0,
-                )
-            )
-            for kind in self.at_rest.kinds
-            for pair in kind.pairs
-        )
+        return self.spin_stiffness + self.lateral_stiffness
 
     @lazy
-    def slip_torque(self) -> Annotated[Torque, Info("M_slip", "part of the torque that sliding contacts hold")]:
-        """The part of the torque that spin and lateral slip hold: what the stiffness winds up to."""
-        return self.at_rest.contributions["spin"] + self.at_rest.contributions["helix"]
+    def spin_stiffness(
+        self,
+    ) -> Annotated[RotationalStiffness, Info(r"k_s", "torsional stiffness of the sticking contacts by their spin")]:
+        """Stiffness by the spin of the contacts, :func:`~ballscrew.physics.equations.presliding.spin_stiffness`."""
+        return self._sum_of(_spin_stiffness)
+
+    @lazy
+    def lateral_stiffness(
+        self,
+    ) -> Annotated[
+        RotationalStiffness, Info(r"k_\varphi", "torsional stiffness of the balls by what holds them across their path")
+    ]:
+        """Stiffness by what holds the balls across their path: their contacts, and on two of them the grooves, in
+        series.
+
+        :func:`~ballscrew.physics.equations.presliding.lateral_stiffness`.
+        """
+        return self._sum_of(_lateral_stiffness)
+
+    def _sum_of(self, stiffness: Callable[[BallScrew, Frame, LoadedPair, bool], RotationalStiffness]) -> Any:
+        """The stiffness of all flank pairs of all balls; a pair that has lifted off holds nothing."""
+        screw, frame = self.at_rest.ball_screw, self.at_rest.frame
+        found: list[Any] = []
+        for kind in self.at_rest.kinds:
+            for pair in kind.pairs:
+                on_two = pair.load >= kind.load
+                found.append(kind.total(where(pair.load > 0, stiffness(screw, frame, pair, on_two), 0.0)))
+        return sum(found)
 
     @lazy
     def presliding_angle(self) -> Annotated[Angle, Info(r"\theta_b", "rotation before the contacts slip", "deg")]:
-        r"""Rotation of the screw before the contacts slip, slip torque over stiffness; NaN without load.
+        r"""Rotation of the screw before all contacts slip: torque over stiffness, of spin or of lateral slip; NaN
+        without load.
 
-        NaN as well for a model without spin and lateral slip, which does not say what winds up.
+        NaN as well for a model without spin and lateral slip, which does not say what winds up. On two contacts lateral
+        slip is the one that takes degrees, as the balls roll off the line of their grooves before they slip.
 
-        The parameter :math:`\sigma_0` of the friction models of Dahl and LuGre is the stiffness.
+        The parameter :math:`\sigma_0` of the friction models of Dahl and LuGre is a stiffness, of which there are two.
         """
-        k, slip = self.stiffness, self.slip_torque
-        winds_up = (k > 0) & (slip > 0)
-        return where(winds_up, slip / where(winds_up, k, 1.0), float("nan"))
+        parts = ((self.spin_stiffness, "spin"), (self.lateral_stiffness, "helix"))
+        angles: list[Any] = []
+        for k, name in parts:
+            held = self.at_rest.contributions[name]
+            winds_up = (k > 0) & (held > 0)
+            angles.append(where(winds_up, held / where(winds_up, k, 1.0), 0.0))
+        largest = namespace(*angles).maximum(*angles)
+        return where(largest > 0, largest, float("nan"))
 
 
 @accepts_units("operation")
@@ -126,16 +150,28 @@ def breakaway(
     )
 
 
-def _stiffness(
-    screw: BallScrew, on_screw: Contact, on_nut: Contact, lead_angle: Angle, rolling_plane_sine: Ratio
-) -> RotationalStiffness:
-    """Stiffness of one flank pair of a ball: its two contacts in series."""
-    sides = [
-        _of_contact(screw, contact, race)
-        for contact, race in ((on_screw, screw.screw_raceway), (on_nut, screw.nut_raceway))
-    ]
-    tangential, torsional = (_series(*both) for both in zip(*sides, strict=True))
-    return presliding.sticking_stiffness(tangential, torsional, screw.ball_diameter, lead_angle, rolling_plane_sine)
+def _spin_stiffness(screw: BallScrew, frame: Frame, pair: LoadedPair, on_two: Mask) -> RotationalStiffness:  # noqa: ARG001
+    """Stiffness of one flank pair of a ball by the spin of its two contacts in series."""
+    _, torsional = _of_pair(screw, pair)
+    return presliding.spin_stiffness(torsional, frame.rolling_plane_sine)
+
+
+def _lateral_stiffness(screw: BallScrew, frame: Frame, pair: LoadedPair, on_two: Mask) -> RotationalStiffness:
+    """Stiffness of one flank pair of a ball across its path; a ball that another pair braces cannot leave its line."""
+    tangential, _ = _of_pair(screw, pair)
+    arms = arms_of(screw, pair.screw, pair.nut)
+    leans = (pair.load > 0) & on_two
+    compliance = across_groove.groove_compliance(where(leans, pair.load, 1.0), *arms)
+    return presliding.lateral_stiffness(
+        tangential, where(leans, compliance, 0.0), screw.ball_diameter, frame.lead_angle
+    )
+
+
+def _of_pair(screw: BallScrew, pair: LoadedPair) -> tuple[Stiffness, RotationalStiffness]:
+    """Tangential and torsional stiffness of the two contacts of a flank pair in series."""
+    sides = ((pair.screw, screw.screw_raceway), (pair.nut, screw.nut_raceway))
+    tangential, torsional = zip(*(_of_contact(screw, contact, race) for contact, race in sides), strict=True)
+    return _series(*tangential), _series(*torsional)
 
 
 def _of_contact(screw: BallScrew, contact: Contact, race: Raceway) -> tuple[Stiffness, RotationalStiffness]:

@@ -56,6 +56,7 @@ from ballscrew.physics.components.rolling_laws import biboulet_houpert_rolling, 
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.equations.transmission import contact_load as equal_contact_load
+from ballscrew.physics.friction.across_groove import in_motion
 from ballscrew.physics.friction.law_names import fault_of_law
 from ballscrew.physics.friction.loaded_balls import balls_under, loads_of, row_of_balls
 from ballscrew.physics.friction.plausibility import named_parts
@@ -234,6 +235,8 @@ class FrictionModel(ByValue):
         raise_if_any([*_misfits(state), *self._misfits_of_nut(screw)])
         oil = lubricant if temperature is None else lubricant.at(state.temperature)
         with overflow_as_input_error(), np.errstate(all="ignore"):
+            if screw.nut.set_at_rest and loads is None:
+                screw = in_motion(self, screw, oil, state.settled)
             known = loads_of(screw, state.axial_load) if loads is None and not screw.nut.is_row else loads
             return self.under(known, screw, oil, state)
 
