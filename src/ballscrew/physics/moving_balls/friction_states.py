@@ -49,8 +49,8 @@ DAMPING_RATIO = 0.5
 MOST_ELEMENTS = 4
 #: Angles at which elements may begin to slide, among which the best are searched; they are refined after that.
 _CANDIDATES = 36
-#: Share of the Coulomb torque below which an element is left out.
-_LEAST_SHARE = 1e-6
+#: Error, as a share of the Coulomb torque, that no further element is worth.
+_NOTHING = 1e-6
 #: Stiffnesses of Dahl among which the best is searched, a decade.
 _PER_DECADE = 12
 
@@ -182,7 +182,9 @@ class SlipElement:
 class DahlFit:
     """The model of Dahl fitted to a reversal."""
 
+    #: The fitted model.
     model: Dahl
+    #: How far it is from the curve.
     error: FitError
 
 
@@ -190,7 +192,9 @@ class DahlFit:
 class LuGreFit:
     """The model LuGre fitted to a reversal."""
 
+    #: The fitted model.
     model: LuGre
+    #: How far it is from the curve.
     error: FitError
 
 
@@ -198,7 +202,9 @@ class LuGreFit:
 class SlipElementsFit:
     """Maxwell-slip elements fitted to a reversal, the one that slides first at the front."""
 
+    #: The fitted elements.
     elements: Sequence[SlipElement]
+    #: How far their sum is from the curve.
     error: FitError
 
 
@@ -263,8 +269,8 @@ def fit_slip_elements(curve: WindingUp, count: int) -> SlipElementsFit:
     r"""Maxwell-slip elements, ``count`` of them at most (1 to 4), of which each share of the swing counts alike.
 
     Least squares with :math:`M_i \ge 0` and :math:`\sum M_i = M_c`. For given angles at which the elements slide the
-    torques follow exactly; the angles are searched among some dozens and then refined. Elements that would have no
-    torque are left out.
+    torques follow exactly; the angles are searched among some dozens and then refined. No
+    more elements are made than hold the curve.
 
     Raises :class:`~ballscrew.basis.errors.InputError` for another number of elements.
     """
@@ -279,9 +285,9 @@ def fit_slip_elements(curve: WindingUp, count: int) -> SlipElementsFit:
     elements = [
         SlipElement(stiffness=swing * share * M_c / slides, slip_torque=share * M_c)
         for slides, share in sorted(zip(angles.tolist(), shares.tolist(), strict=True))
-        if share > _LEAST_SHARE
+        if share > 0
     ]
-    return SlipElementsFit(elements=tuple(elements), error=_error(curve, _of_elements(elements, curve)))
+    return SlipElementsFit(elements=tuple(elements), error=_error(curve, of_elements(elements, curve)))
 
 
 def gms_torque(elements: Sequence[SlipElement], screw_angles: Array, *, initial_torques: Array | None = None) -> Array:
@@ -347,7 +353,8 @@ def _minimum(function: Callable[[float], float], low: float, high: float) -> flo
     return float(found.x)
 
 
-def _of_elements(elements: Sequence[SlipElement], curve: WindingUp) -> Vector:
+def of_elements(elements: Sequence[SlipElement], curve: WindingUp) -> Vector:
+    """Torque of elements at the angles of a curve, N m, with its start: slid in the other direction, or from rest."""
     angle = np.asarray(curve.screw_angle, dtype=float)
     share = 0.0 if curve.from_rest else -1.0
     return np.sum(
@@ -375,30 +382,34 @@ class _Shares:
         return self.start + (1 - self.start) * risen
 
     def solved(self, count: int) -> tuple[Vector, Vector]:
-        """The angles at which the best elements slide, and their shares."""
+        """The angles at which the best elements slide, and their shares; as few elements as hold the curve as well."""
         grid = np.geomspace(self.angle[self.angle > 0][0], self.angle[-1], _CANDIDATES)
         products = self._products(grid)
-        best: tuple[float, Vector] = (math.inf, grid[:1])
-        for size in range(1, count + 1):  # elements without torque are a smaller number of elements
+        best, least = grid[:1], math.inf
+        for size in range(1, count + 1):
             chosen = np.array(list(itertools.combinations(range(len(grid)), size)))
             _, squares = _least_squares(products[chosen[:, :, None], chosen[:, None, :]])
-            least = int(np.argmin(squares))
-            if squares[least] < best[0]:
-                best = float(squares[least]), grid[chosen[least]]
-        return self._refined(best[1])
+            if not math.isfinite(squares.min()):  # some shares of so many are negative everywhere
+                break
+            angles = self._refined(grid[chosen[int(np.argmin(squares))]])
+            reached = self._squares(angles)
+            if reached < least - _NOTHING**2 * self.weights.sum():
+                best, least = angles, reached
+        return best, _least_squares(self._products(best))[0]
 
-    def _refined(self, slides: Vector) -> tuple[Vector, Vector]:
-        def squares(logarithms: Vector) -> float:
-            return float(_least_squares(self._products(np.exp(logarithms)))[1])
-
+    def _refined(self, slides: Vector) -> Vector:
         start = np.log(slides)
-        simplex = np.vstack([start, start + 0.1 * np.eye(len(start))])
         found: Any = optimize.minimize(
-            squares, start, method="Nelder-Mead",
-            options={"xatol": 1e-10, "fatol": math.inf, "maxiter": 4000, "initial_simplex": simplex},
+            lambda logarithms: self._squares(np.exp(logarithms)), start, method="Nelder-Mead",
+            options={
+                "xatol": 1e-10, "fatol": math.inf, "maxiter": 4000,
+                "initial_simplex": np.vstack([start, start + 0.1 * np.eye(len(start))]),
+            },
         )  # fmt: skip
-        angles = np.exp(found.x)
-        return angles, _least_squares(self._products(angles))[0]
+        return np.exp(found.x)
+
+    def _squares(self, slides: Vector) -> float:
+        return float(_least_squares(self._products(slides))[1])
 
     def _products(self, slides: Vector) -> Vector:
         """Weighted products of the errors that elements of share one would have.

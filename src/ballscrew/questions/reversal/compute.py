@@ -1,0 +1,191 @@
+"""Friction of a case after a reversal or from rest, and the models of control engineering fitted to it."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+from collections.abc import Mapping, Sequence
+from typing import Annotated, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.overflow import overflow_as_input_error
+from ballscrew.basis.quantities import Angle, Info, Length, Quantity, Ratio, quantities_of
+from ballscrew.basis.records import Message, Record
+from ballscrew.cases.case_files.case import Case
+from ballscrew.engine.sweeps.reversal import QUANTITIES
+from ballscrew.physics.moving_balls import reversal as moving_balls
+from ballscrew.physics.moving_balls.friction_states import (
+    AT_ONCE,
+    Dahl,
+    DahlFit,
+    LuGreFit,
+    SlipElementsFit,
+    WindingUp,
+    fit_dahl,
+    fit_dahl_first,
+    fit_lugre,
+    fit_slip_elements,
+)
+from ballscrew.questions.reversal.options import ReversalOptions
+
+#: Shares of the swing whose places are told.
+SHARES = (0.5, 0.63, 0.9, 0.98)
+#: The share of which verdicts and captions speak.
+MOST = 0.9
+#: Numbers of Maxwell-slip elements that are fitted.
+COUNTS = (2, 3, 4)
+ANGLE, TRAVEL, TORQUE = (QUANTITIES[name] for name in ("screw_angle", "travel", "steady_torque"))
+STIFFNESS: Quantity = quantities_of(Dahl)["bristle_stiffness"]
+
+
+class Place(NamedTuple):
+    """Where friction has come back to a share of its swing; NaN where it does not within the travel."""
+
+    share: Annotated[Ratio, Info("", "share of the swing of the friction torque")]
+    screw_angle: Annotated[Angle, Info(r"\theta", "angle of the screw at which this share is back", "deg")]
+    travel: Annotated[Length, Info("x", "travel of the nut at which this share is back", "um")]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ReversalReport:
+    """Friction of a case after a reversal, or from rest, with the models fitted to it."""
+
+    case: Case
+    reversal: moving_balls.Reversal
+    curve: WindingUp
+    #: For the first 0.02° alone; None where the curve has too few angles there.
+    first: DahlFit | None
+    tracking: DahlFit
+    lugre: LuGreFit
+    #: With two, three and four elements, as far as they are of use.
+    elements: Sequence[SlipElementsFit]
+
+    @functools.cached_property
+    def places(self) -> Sequence[Place]:
+        """Where the shares of the swing are back, of all friction."""
+        steady = float(self.reversal.steady_torque)
+        return self._places(np.asarray(self.reversal.screw_torque, dtype=float), steady)
+
+    @functools.cached_property
+    def places_by_mechanism(self) -> Mapping[str, Sequence[Place]]:
+        """The same of each mechanism whose torque winds up, and not of those that follow the direction at once."""
+        steady = {name: float(value) for name, value in self.reversal.steady_contributions.items()}
+        return {
+            name: self._places(np.asarray(values, dtype=float), steady[name])
+            for name, values in self.reversal.contributions.items()
+            if name not in AT_ONCE and steady[name]
+        }
+
+    def _places(self, torque: NDArray[np.float64], steady: float) -> Sequence[Place]:
+        start = 0.0 if self.reversal.from_rest else -steady
+        angle, travel = (np.asarray(one, dtype=float) for one in (self.reversal.screw_angle, self.reversal.travel))
+        return [Place(share, *_reached((torque - start) / (steady - start), share, angle, travel)) for share in SHARES]
+
+    @property
+    def verdicts(self) -> list[Record]:
+        """Where most of the friction is back, that one stiffness cannot hold it, and how many elements can."""
+        place = next(one for one in self.places if one.share == MOST)
+        share = units.percent(MOST)
+        start = Message("from rest") if self.reversal.from_rest else Message("after a reversal")
+        if math.isfinite(place.screw_angle):
+            values = {
+                "share": share, "start": start, "angle": units.measured(place.screw_angle, ANGLE, 3),
+                "travel": units.measured(place.travel, TRAVEL, 3),
+            }  # fmt: skip
+            message = Message("{start} {share} of the friction is back within {angle} of the screw, {travel}", values)
+        else:
+            end = units.measured(float(np.asarray(self.curve.travel)[-1]), TRAVEL, 3)
+            message = Message(
+                "{start} less than {share} of the friction is back within {end}",
+                {"share": share, "start": start, "end": end},
+            )
+        found = [units.record(message, id="reversal.back", subject="screw_torque", value=place.screw_angle, unit="rad")]
+        two = self.elements[0]
+        if self.first is not None:
+            first, tracking = self.first.model.bristle_stiffness, self.tracking.model.bristle_stiffness
+            values = {
+                "first": units.measured(first, STIFFNESS, 3), "tracking": units.measured(tracking, STIFFNESS, 3),
+                "off": units.percent(self.tracking.error.largest),
+            }  # fmt: skip
+            message = Message(
+                "one stiffness of Dahl or LuGre is {first} for the first 0.02° and {tracking} for tracking over more "
+                "than 0.1 mm; with the latter the torque is off by up to {off} of the steady one",
+                values,
+            )
+            found.append(
+                units.record(
+                    message, id="reversal.one_stiffness", subject="bristle_stiffness", value=self.tracking.error.largest
+                )
+            )
+        message = Message(
+            "{count} Maxwell-slip elements are off by up to {off}",
+            {"count": units.fixed(len(two.elements)), "off": units.percent(two.error.largest)},
+        )
+        found.append(
+            units.record(message, id="reversal.slip_elements", subject="slip_elements", value=two.error.largest)
+        )
+        return found
+
+    @property
+    def warnings(self) -> list[Record]:
+        """That the helix part is a hypothesis, what is known of the first range, and implausible inputs."""
+        found: list[Record] = []
+        if float(self.reversal.steady_contributions.get("helix", 0.0)):
+            message = Message(
+                "helix slip that comes back over degrees of the screw is a hypothesis: it is computed, and the log of "
+                "one axis (EMPS: guides, an unknown screw) is all that speaks for it"
+            )
+            found.append(units.record(message, id="reversal.hypothesis", subject="helix", severity="warning"))
+        message = Message("the stiffness of the first hundredths of a degree is known to a factor of three")
+        found.append(units.record(message, id="reversal.first_range", subject="spin_and_curvature", severity="info"))
+        return [*found, *self.case.implausible()]
+
+
+@overflow_as_input_error()
+def reversal(case: Case, options: ReversalOptions) -> ReversalReport:
+    """The reversal of a case at its operating point.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for a screw at rest, which has no direction, and for a travel in
+    which there is no curve.
+    """
+    speed = float(case.operation.screw_speed)
+    if not speed:
+        remedy = 'give the speed that it turns with: --set operation.screw_speed="10 rpm"'
+        raise InputError(Fault("operation.screw_speed", "must not be zero", "0 rpm", remedy))
+    found = moving_balls.reversal(
+        case.model, case.screw, case.lubricant, axial_load=case.operation.axial_load, screw_speed=speed,
+        travel=options.travel, from_rest=options.from_rest,
+    )  # fmt: skip
+    return of(case, found, options)
+
+
+def of(case: Case, found: moving_balls.Reversal, options: ReversalOptions) -> ReversalReport:
+    """The report of a reversal that is known."""
+    curve = WindingUp.of(found)
+    speed = float(case.operation.screw_speed)
+    fits = (fit_slip_elements(curve, count) for count in COUNTS)
+    return ReversalReport(
+        case=case,
+        reversal=found,
+        curve=curve,
+        first=fit_dahl_first(curve),
+        tracking=fit_dahl(curve),
+        lugre=fit_lugre(curve, screw_speed=speed, moment_of_inertia=options.inertia),
+        elements=tuple({len(fit.elements): fit for fit in fits}.values()),
+    )
+
+
+def _reached(
+    shares: NDArray[np.float64], share: float, angle: NDArray[np.float64], travel: NDArray[np.float64]
+) -> tuple[float, float]:
+    """Angle and travel at which a share is first reached, on straight lines; NaN where it is not."""
+    there = np.flatnonzero(shares >= share)
+    if not there.size:
+        return math.nan, math.nan
+    here = slice(max(int(there[0]) - 1, 0), int(there[0]) + 1)
+    return float(np.interp(share, shares[here], angle[here])), float(np.interp(share, shares[here], travel[here]))
