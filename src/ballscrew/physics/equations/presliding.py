@@ -2,8 +2,19 @@
 
 from __future__ import annotations
 
+import math
+
 from ballscrew.basis.arrays import namespace
-from ballscrew.basis.quantities import Angle, Compliance, Length, Pressure, Ratio, RotationalStiffness, Stiffness
+from ballscrew.basis.quantities import (
+    Angle,
+    Compliance,
+    Length,
+    Pressure,
+    Ratio,
+    RotationalStiffness,
+    Stiffness,
+    StiffnessDensity,
+)
 
 
 def shear_modulus(young_modulus: Pressure, poisson_ratio: Ratio) -> Pressure:
@@ -45,6 +56,22 @@ def torsional_stiffness(
     """
     a, G_b, G_r = contact_radius, ball_shear_modulus, race_shear_modulus
     return 16 * a**3 / (3 * (1 / G_b + 1 / G_r))
+
+
+def bristle_stiffness(
+    half_width: Length, ball_shear_modulus: Pressure, race_shear_modulus: Pressure
+) -> StiffnessDensity:
+    r"""Stiffness for each area of a strip of bristles that gives way as the elastic strip does when it rolls.
+
+    .. math:: k = \frac{\pi}{4 l} \frac{2}{1/G_b + 1/G_r}
+
+    A strip of the half width l that rolls without slip under a creepage :math:`\xi` across its path carries
+    :math:`(\pi/2) G l \xi` on each length, Carter's solution with the shear modulus in place of :math:`G/(1 - \nu)`;
+    bristles carry :math:`2 k l^2 \xi`. Summed over the strips of a slender ellipse the force is :math:`(\pi^2/4) G a b
+    \xi`, Kalker's for such a contact (Kalker1967).
+    """
+    l, G_b, G_r = half_width, ball_shear_modulus, race_shear_modulus  # noqa: E741
+    return math.pi / (4 * l) * 2 / (1 / G_b + 1 / G_r)
 
 
 def lateral_stiffness(

@@ -102,10 +102,11 @@ def growth_of(screw: BallScrew, approach: Length, lateral_friction_angle: Angle)
     """What the balls of ``screw`` that an ``approach`` presses press more off the line, at centres that stay."""
     A = deflection.groove_centre_distance(screw.screw_conformity, screw.nut_conformity, screw.ball_diameter)
     s, d_w = A + approach, screw.ball_diameter
+    conformities = screw.screw_conformity, screw.nut_conformity
+    one, other = ((conformity - 0.5) * d_w + approach / 2 for conformity in conformities)
+    growth = across_groove.off_line_growth(s, one, other, lateral_friction_angle)
     # the arms off the line are longer by the growth itself, which is a hundredth of them at most
-    arms = [(conformity - 0.5) * d_w + approach / 2 for conformity in (screw.screw_conformity, screw.nut_conformity)]
-    growth = across_groove.off_line_growth(s, *arms, lateral_friction_angle)
-    return across_groove.off_line_growth(s, *(arm + growth / 2 for arm in arms), lateral_friction_angle)
+    return across_groove.off_line_growth(s, one + growth / 2, other + growth / 2, lateral_friction_angle)
 
 
 def _of_rigid_bodies(screw: BallScrew, beta: Angle) -> Force:

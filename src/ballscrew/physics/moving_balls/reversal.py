@@ -1,21 +1,56 @@
-"""Friction over the angle of the screw after a reversal, or from rest."""
+"""Friction over the angle of the screw after a reversal, or from rest.
+
+Four things come back at their own pace. The resistances to rolling are there at once. Spin and curvature slip wind up
+within the contacts, in hundredths of a degree. The lateral slip of the helix comes back only as the balls roll from one
+side of their grooves to the other, over degrees (:mod:`ballscrew.physics.equations.across_groove`). And balls press on
+each other again when the gap of their circuit has closed. The second and third are computed with bristles
+(:mod:`ballscrew.physics.moving_balls.brush`), ball for ball of each kind, and brought to the steady torque of the
+model, from which theirs differs by some thousandths; the last is a straight line over the gap, which is assumed.
+"""
 
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Annotated, Any, NamedTuple
 
-from ballscrew.basis.quantities import Angle, Array, Length, Torque
+import numpy as np
+from numpy.typing import NDArray
 
-#: The parts of the torque after a reversal, by how they come back.
-MECHANISMS: Mapping[str, str] = {
-    "rolling": "rolling resistance, at once",
-    "spin_and_curvature": "spin and curvature slip, within the contacts",
-    "helix": "helix slip, as the balls roll across their grooves",
-    "ball_to_ball": "ball to ball and return, as the gaps close",
-    "losses": "losses of the nut, at once",
+from ballscrew.basis.errors import Fault, accepts_units, raise_if_any
+from ballscrew.basis.quantities import Angle, AngularSpeed, Array, Force, Info, Length, Ratio, Torque
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.components.traits import traits_of
+from ballscrew.physics.equations import kinematics
+from ballscrew.physics.friction.balls import BallFriction
+from ballscrew.physics.friction.loaded_balls import LoadedBalls
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.moving_balls.brush import CELLS, BallContacts, Brush, Step
+
+Field = NDArray[np.float64]
+
+#: The parts of the torque after a reversal, by how they come back, and the mechanisms of the model that they are.
+MECHANISMS: Mapping[str, tuple[str, ...]] = {
+    "rolling": ("hydrodynamic_rolling", "elastic_hysteresis"),
+    "spin_and_curvature": ("spin", "curvature"),
+    "helix": ("helix",),
+    "ball_to_ball": ("ball_to_ball", "chain_braking"),
 }
+#: The rest of the steady torque: losses of the nut, which are there at once.
+LOSSES = "losses"
+#: Angles that the balls need to roll across to the other side of their grooves, after which nothing changes any more.
+CROSSINGS = 4.0
+#: Contact lengths that the bristles need to settle.
+CONTACTS = 6.0
+#: Parts into which the first cells of the contacts are cut: there spin and curvature wind up.
+FINE_CELLS = (64, 16, 8, 4, 2)
+#: Points of a curve behind the first cells.
+POINTS = 200
+#: The gap of a circuit, in balls, where none is given: assumed; a usual fill has 0.1 and more.
+GAP = 0.5
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -23,16 +58,228 @@ class Reversal:
     """Friction over the angle that the screw has turned since it reversed, or since it started."""
 
     #: Angle of the screw since then, rad, increasing from zero.
-    screw_angle: Angle
+    screw_angle: Annotated[Angle, Info(r"\theta", "angle of the screw since it reversed or started", "deg")]
     #: Travel of the nut since then, m.
-    travel: Length
+    travel: Annotated[Length, Info("x", "travel since the screw reversed or started", "mm")]
     #: Friction torque against the new direction, N m: from minus the steady torque (zero from rest) to plus it.
-    screw_torque: Torque
+    screw_torque: Annotated[Torque, Info("M", "friction torque against the new direction")]
     #: Its parts by mechanism, N m; they sum to it.
     contributions: Mapping[str, Array]
     #: The friction torque of steady motion, N m, which it goes to, and its parts.
-    steady_torque: Torque
+    steady_torque: Annotated[Torque, Info(r"M_\infty", "friction torque of steady motion")]
     steady_contributions: Mapping[str, Torque]
     #: How far the balls lie off the line of their grooves, m; of the half that carries the load first.
-    displacement: Any
+    displacement: tuple[Array, ...]
+    #: Steady slip torque of the bristles over that of the model.
+    bristles_over_model: Ratio
     from_rest: bool
+
+    def angle_at(self, share: float) -> Angle:
+        """Angle at which a ``share`` of the swing from the first to the steady torque has come back, rad."""
+        first = self.screw_torque[0]
+        back = (self.screw_torque - first) / (self.steady_torque - first)
+        reached = np.nonzero(back >= share)[0]
+        if not reached.size:
+            return math.nan
+        i = int(reached[0])
+        if i == 0:
+            return float(self.screw_angle[0])
+        part = (share - back[i - 1]) / (back[i] - back[i - 1])
+        return float(self.screw_angle[i - 1] + part * (self.screw_angle[i] - self.screw_angle[i - 1]))
+
+
+class _Ball(NamedTuple):
+    """A ball of a kind with one of its flank pairs, and how many of them there are."""
+
+    contacts: BallContacts
+    number: float
+    #: Angle of the screw in which the ball rolls from the line of its grooves to where it lies in motion.
+    crossing: Angle
+    #: Whether the screw pushes the ball the way that it moves after the reversal.
+    lifts: bool
+
+
+class _Curve(NamedTuple):
+    """Slip torque of one ball over the angle, by part, its way off the line, and the steady slip torque."""
+
+    angle: Field
+    spin_and_curvature: Field
+    helix: Field
+    distance: Field
+    steady: Torque
+
+
+@accepts_units("operation")
+def reversal(
+    model: FrictionModel,
+    screw: BallScrew,
+    lubricant: Lubricant,
+    *,
+    axial_load: Force,
+    screw_speed: AngularSpeed,
+    travel: Length | None = None,
+    from_rest: bool = False,
+    gap: Ratio = GAP,
+) -> Reversal:
+    """Friction of a ball screw after it has reversed in motion, or ``from_rest``: a :class:`Reversal`.
+
+    ``model`` gives the steady friction of ``screw`` with ``lubricant`` under ``axial_load`` (N) at ``screw_speed``
+    (rad/s), that after the reversal; what winds up depends on the angle, not on the time, so that a slow reversal is
+    one at the friction coefficients of that speed. ``travel`` (m) is how far to follow; by default until nothing
+    changes any more. The ``gap`` of each circuit, in balls, closes before they press on each other again.
+
+    A hypothesis, but for its steady ends: no published ball screw tells it apart from guides that wind up as well.
+    Balls that differ are taken as alike. On four contacts the other flanks keep a ball on its line: helix slip, too,
+    winds up within the contacts, and their curve is that of each pair of flanks by itself.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for arrays, a speed of zero, a travel or a gap that is not above
+    zero, and for a model without slip across the path.
+    """
+    raise_if_any(_faults(model, {"axial_load": axial_load, "screw_speed": screw_speed}, travel, gap))
+    operation: dict[str, Any] = {"axial_load": float(axial_load), "screw_speed": float(screw_speed)}
+    steady = model(screw, lubricant, **operation)
+    lifts = operation["axial_load"] * operation["screw_speed"] >= 0
+    balls = _balls(_of_balls_alike(model, steady, lubricant, operation), lifts=lifts)
+    advance, closing = float(screw.lead) / (2 * math.pi), _closing(steady, float(gap))
+    whole = max((_whole(ball) for ball in balls), default=0.0)
+    end = max(whole, 1.2 * closing) if travel is None else float(travel) / advance
+    curves = [_curve(ball, end, whole, from_rest) for ball in balls]
+    angle = _angles(curves, end)
+    slip, of_bristles = {"spin_and_curvature": 0 * angle, "helix": 0 * angle}, 0.0
+    for ball, curve in zip(balls, curves, strict=True):
+        of_bristles += ball.number * curve.steady
+        for name in slip:
+            slip[name] = slip[name] + ball.number * np.interp(angle, curve.angle, getattr(curve, name))
+    parts = {name: sum(float(steady.contributions[each]) for each in of) for name, of in MECHANISMS.items()}
+    parts[LOSSES] = float(steady.screw_torque) - sum(parts.values())
+    scale = sum(parts[name] for name in slip) / of_bristles if of_bristles > 0 else 0.0
+    turned = angle > 0
+    at_once = np.where(turned, 1.0, 0.0 if from_rest else -1.0)
+    pressed = np.where(turned, np.minimum(angle / closing, 1.0) if closing > 0 else 1.0, at_once)
+    contributions = {
+        "rolling": parts["rolling"] * at_once,
+        **{name: scale * values for name, values in slip.items()},
+        "ball_to_ball": parts["ball_to_ball"] * pressed,
+        LOSSES: parts[LOSSES] * at_once,
+    }
+    return Reversal(
+        screw_angle=angle,
+        travel=advance * angle,
+        screw_torque=sum(contributions.values(), 0 * angle),
+        contributions=contributions,
+        steady_torque=float(steady.screw_torque),
+        steady_contributions=parts,
+        displacement=tuple(np.interp(angle, curve.angle, curve.distance) for curve in curves),
+        bristles_over_model=1 / scale if scale else math.nan,
+        from_rest=from_rest,
+    )
+
+
+def _of_balls_alike(
+    model: FrictionModel, steady: FrictionResult, lubricant: Lubricant, operation: Mapping[str, Any]
+) -> FrictionResult:
+    """The friction of the nut with all balls of a kind alike, between rigid bodies."""
+    screw = steady.ball_screw
+    if not screw.nut.one_by_one:
+        return steady
+    nut = dataclasses.replace(screw.nut, bodies=None, deviations=None, losses={})
+    return model(dataclasses.replace(screw, nut=nut), lubricant, **operation)
+
+
+def _balls(found: FrictionResult, *, lifts: bool) -> list[_Ball]:
+    """The balls that carry load, each flank pair by itself; those of a braced half are pushed the other way."""
+    balls: list[_Ball] = []
+    for place, kind in enumerate(found.kinds):
+        held = sum(float(pair.load) > 0 for pair in kind.pairs) > 1
+        for pair in kind.pairs:
+            if float(pair.load) <= 0:
+                continue
+            frame = found.frame
+            if isinstance(kind.friction, BallFriction):
+                frame = kind.friction.frame
+            contacts = BallContacts.of(found.ball_screw, frame, pair.screw, pair.nut, held=held)
+            balls.append(_Ball(contacts, float(kind.balls), _crossing(contacts, kind), lifts == (place == 0)))
+    return balls
+
+
+def _crossing(contacts: BallContacts, kind: LoadedBalls) -> Angle:
+    if math.isinf(contacts.hold) or not contacts.lateral or not isinstance(kind.friction, BallFriction):
+        return 0.0
+    return float(kind.friction.lateral_force) / contacts.hold / (contacts.lateral / 2)
+
+
+def _whole(ball: _Ball) -> Angle:
+    """Angle after which a ball has settled: in its groove, and in its contacts."""
+    return max(CROSSINGS * ball.crossing, CONTACTS * CELLS * ball.contacts.cell / ball.contacts.rolled)
+
+
+def _closing(steady: FrictionResult, gap: Ratio) -> Angle:
+    """Angle in which the balls travel along their path by a gap."""
+    frame = steady.frame
+    orbit = kinematics.orbital_rotation(frame.entrainment_speed(1.0), frame.nut_contact_radius)
+    return gap * float(steady.ball_screw.ball_diameter / kinematics.orbital_speed(orbit, frame.path_radius))
+
+
+def _curve(ball: _Ball, end: Angle, whole: Angle, from_rest: bool) -> _Curve:
+    """The slip of a ball after it has settled the other way, or from rest."""
+    brush, cell = Brush(ball.contacts), ball.contacts.cell / ball.contacts.rolled
+    way = 1.0 if ball.lifts else -1.0
+    settled = math.ceil(whole / cell)
+    first = (0.0, 0.0, 0.0)
+    last = first
+    if not from_rest:
+        for _ in range(settled):
+            step = brush.turn(-way * cell)
+            last = _along(way, step)
+        first = last
+    steps = [cell / parts for parts in FINE_CELLS for _ in range(parts)]
+    steps += [cell] * max(math.ceil(end / cell) - len(FINE_CELLS), 0)
+    rows = [(0.0, *first)]
+    for size in steps:
+        rows.append((rows[-1][0] + size, *_along(way, brush.turn(way * size))))
+        if rows[-1][0] >= end:
+            break
+    if from_rest:
+        for _ in range(max(settled - len(rows), 0)):
+            last = _along(way, brush.turn(way * cell))
+        last = last if settled > len(rows) else rows[-1][1:]
+    return _Curve(*np.array(rows).T, steady=abs(last[0] + last[1]))
+
+
+def _along(way: float, step: Step) -> tuple[float, float, float]:
+    """Torques against the new direction, and the way off the line."""
+    spin, curvature, helix = step.torque
+    return way * (spin + curvature), way * helix, way * step.distance
+
+
+def _angles(curves: list[_Curve], end: Angle) -> Field:
+    """The angles to show: dense where spin and curvature wind up, then in a geometric series."""
+    if not curves:
+        return np.linspace(0.0, end, POINTS)
+    finest = min(curves, key=lambda curve: curve.angle[1]).angle
+    dense = finest[: sum(FINE_CELLS) : 4]
+    rest = np.geomspace(dense[-1], min(end, *(float(curve.angle[-1]) for curve in curves)), POINTS)
+    return np.concatenate([dense, rest[1:]])
+
+
+def _faults(model: FrictionModel, operation: Mapping[str, Any], travel: Length | None, gap: Ratio) -> list[Fault]:
+    numbers = {**{f"operation.{n}": v for n, v in operation.items()}, "reversal.travel": travel, "reversal.gap": gap}
+    remedy = "follow one reversal at a time"
+    found = [
+        Fault(name, "must be one number", "an array", remedy)
+        for name, value in numbers.items()
+        if value is not None and np.ndim(value)
+    ]
+    if found:
+        return found
+    if operation["screw_speed"] == 0:
+        remedy = "give the speed after the reversal, a slow one"
+        found.append(Fault("operation.screw_speed", "must not be zero", "", remedy))
+    if travel is not None and not travel > 0:
+        found.append(Fault("reversal.travel", "must be above zero", str(travel), "give how far to follow: 1 mm"))
+    if not gap >= 0:
+        remedy = "give the gap of a circuit in balls: 0.5"
+        found.append(Fault("reversal.gap", "must not be negative", str(gap), remedy))
+    if not traits_of(model.slip).lateral_slip or traits_of(model.slip).curvature_alone:
+        found.append(Fault("model.slip", "knows no slip across the path", "", "take the model reference"))
+    return found
