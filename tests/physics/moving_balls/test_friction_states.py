@@ -13,15 +13,17 @@ from ballscrew.basis.errors import InputError
 from ballscrew.physics.equations import friction_states as equations
 from ballscrew.physics.moving_balls.friction_states import (
     Dahl,
+    FitError,
     SlipElement,
     WindingUp,
+    error_of,
     fit_dahl,
     fit_dahl_first,
     fit_lugre,
     fit_slip_elements,
     gms_torque,
 )
-from ballscrew.physics.moving_balls.reversal import Reversal
+from support.reversals import STEADY, closed_form
 
 #: Metres of travel for each radian, of a lead of 10 mm.
 PER_RADIAN = 0.01 / (2 * math.pi)
@@ -166,33 +168,38 @@ def test_lugre_has_the_stiffness_of_dahl():
     assert model.torque(math.radians(1e4), curve.initial_torque, 8.0) == pytest.approx(curve.steady_torque, rel=1e-12)
 
 
-def test_a_reversal_in_its_parts():
-    """Rolling and losses are beside what winds up; errors are shares of all friction."""
-    angles = np.array([0.0, 1e-4, 1e-3, 1e-2, 1e-1])
-    steady = {"rolling": 0.02, "spin_and_curvature": 0.03, "helix": 0.05, "ball_to_ball": 0.01, "losses": 0.04}
-    parts = {
-        "rolling": np.full(5, 0.02), "losses": np.full(5, 0.04), "ball_to_ball": np.linspace(-0.01, 0.01, 5),
-        "spin_and_curvature": np.linspace(-0.03, 0.03, 5), "helix": np.linspace(-0.05, 0.05, 5),
-    }  # fmt: skip
-    curve = WindingUp.of(
-        Reversal(
-            screw_angle=angles,
-            travel=angles * PER_RADIAN,
-            screw_torque=sum(parts.values()),
-            contributions=parts,
-            steady_torque=0.15,
-            steady_contributions=steady,
-            displacement=None,
-            from_rest=False,
-        )
-    )
-    assert curve.coulomb_torque == pytest.approx(0.09, rel=1e-14)
-    assert curve.at_once == pytest.approx(0.06, rel=1e-14)
-    assert curve.torque == pytest.approx(np.linspace(-0.09, 0.09, 5), abs=1e-16)
-    assert curve.share_of_swing == pytest.approx(np.linspace(0, 1, 5), abs=1e-14)
+@pytest.mark.parametrize("from_rest", [False, True])
+def test_a_reversal_in_its_parts(from_rest):
+    """What follows at once is beside what winds up: rolling, losses, and half of what parts at once and presses later.
+
+    From rest balls press later on all of it.
+    """
+    curve = WindingUp.of(closed_form(from_rest=from_rest))
+    at_once = STEADY["rolling"] + STEADY["losses"] + (0.0 if from_rest else STEADY["ball_to_ball"] / 2)
+    assert curve.at_once == pytest.approx(at_once, rel=1e-5)
+    assert curve.steady_torque == pytest.approx(sum(STEADY.values()), rel=1e-14)
+    assert curve.torque[0] == pytest.approx(curve.initial_torque, abs=1e-14)
+    assert curve.share_of_swing[[0, -1]] == pytest.approx([0.0, 1.0], abs=1e-14)
+    # no step is left: the first 1e-4 degrees wind up the contacts, which slide at 0.02 degrees from rest
+    swing = curve.coulomb_torque - curve.initial_torque
+    assert np.diff(curve.share_of_swing)[0] == pytest.approx(0.06 * 1e-4 / 0.02 / swing, rel=2e-2)
+
+
+def test_elements_of_mechanisms():
+    """Three mechanisms wind up on straight lines, an element each; of the balls that close up it has the half."""
+    found = fit_slip_elements(WindingUp.of(closed_form()), 4)
+    assert [one.slip_torque for one in found.elements] == pytest.approx([0.06, 0.1, 0.01], rel=1e-4)
+    angles = [math.degrees(2 * one.slip_angle) for one in found.elements]
+    assert angles == pytest.approx([0.04, 10.0, 30.0], rel=1e-4)
+
+
+def test_errors_are_shares_of_all_friction():
+    """A stiffness of next to nothing never leaves the start: twice the Coulomb torque is missing in the end."""
+    curve = of_elements(THREE, at_once=0.1)
     slow = Dahl(bristle_stiffness=1e-9, coulomb_torque=curve.coulomb_torque)
-    # which never leaves the start: twice the Coulomb torque is missing at the end
-    assert np.max(np.abs(slow.torque(angles, -0.09) - curve.torque)) / 0.15 == pytest.approx(1.2, rel=1e-6)
+    assert error_of(curve, slow.torque(curve.screw_angle, curve.initial_torque)).largest == pytest.approx(1, rel=1e-6)
+    assert error_of(curve, curve.torque) == FitError(largest=0.0, rms=0.0)
+    assert error_of(curve, np.asarray(curve.torque) + 0.02).rms == pytest.approx(0.1, rel=1e-12)
 
 
 # -- along any path -------------------------------------------------------------------------------

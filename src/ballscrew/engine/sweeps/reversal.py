@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Mapping
 from typing import Any
 
@@ -10,29 +9,26 @@ import numpy as np
 import xarray as xr
 
 from ballscrew.basis.errors import accepts_units
-from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Quantity, fields_of, quantities_of
+from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Quantity, Ratio, fields_of, quantities_of
 from ballscrew.engine.evaluation.outputs import attributes_of
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.moving_balls import reversal as moving_balls
 
-_TORQUE = quantities_of(FrictionResult)["screw_torque"]
-#: The numbers over the angle, and the angle itself.
-QUANTITIES: Mapping[str, Quantity] = {
-    "screw_angle": Quantity("screw_angle", "rad", Info(r"\theta", "angle of the screw since the reversal", "deg")),
-    "travel": Quantity("travel", "m", Info("x", "travel of the nut since the reversal", "um")),
-    "screw_torque": dataclasses.replace(
-        _TORQUE,
-        info=dataclasses.replace(_TORQUE.info, meaning="friction torque on the screw, against its new direction"),
-    ),
-    "steady_torque": Quantity(
-        "steady_torque", _TORQUE.unit, dataclasses.replace(_TORQUE.info, meaning="friction torque of steady motion")
-    ),
+#: The numbers of a reversal: over the angle, and of steady motion.
+QUANTITIES: Mapping[str, Quantity] = quantities_of(moving_balls.Reversal)
+#: The parts of the torque, by how they come back.
+PARTS: Mapping[str, str] = {
+    "rolling": "rolling resistance, at once",
+    "spin_and_curvature": "spin and curvature slip, within the contacts",
+    "helix": "helix slip, as the balls roll across their grooves",
+    "ball_to_ball": "ball to ball and return, as the gaps close",
+    moving_balls.LOSSES: "losses of the nut, at once",
 }
+_LENGTH = Quantity("displacement", "m", Info(r"\eta", "way of the balls off the line of their grooves", "um"))
 #: Said of every dataset.
 HYPOTHESIS = (
     "a hypothesis: that helix slip comes back over degrees of the screw follows from the contacts, "
@@ -50,21 +46,26 @@ def reversal(
     screw_speed: AngularSpeed,
     travel: Length | None = None,
     from_rest: bool = False,
+    gap: Ratio = moving_balls.GAP,
 ) -> xr.Dataset:
     """Friction torque over the angle of the screw after it has turned round, by mechanism.
 
     ``model``, ``screw`` and ``lubricant`` are those of a steady point under an ``axial_load`` (N) at a ``screw_speed``
     (rad/s); the curve goes from minus the steady torque to plus it, or ``from_rest`` from zero, over a ``travel`` (m)
-    of the nut; without it as far as the curve goes. The dataset that is returned has the coordinate ``screw_angle`` and
-    the variables ``travel``, ``screw_torque``, ``contribution_…`` by mechanism, and the same of steady motion
-    (``steady_torque``, ``steady_contribution_…``); names, units and sources are those of a sweep.
+    of the nut; without it until nothing changes any more. The ``gap`` of each circuit, in balls, closes before they
+    press on each other again. The dataset that is returned has the coordinate ``screw_angle`` and
+    the variables ``travel``, ``screw_torque``, ``contribution_…`` by mechanism, the same of steady motion
+    (``steady_torque``, ``steady_contribution_…``), and the ``displacement`` of the balls of each kind off the line of
+    their grooves; names, units and sources are those of a sweep.
 
     A hypothesis: that the helix part comes back over degrees of the screw follows from the contacts, and is not
-    measured. Raises :class:`~ballscrew.basis.errors.InputError` for inputs without a curve.
+    measured. Raises :class:`~ballscrew.basis.errors.InputError` for arrays, a speed of zero, a travel or a gap that is
+    not above zero, and for a model without slip across the path.
     """
     found = moving_balls.reversal(
-        model, screw, lubricant, axial_load=axial_load, screw_speed=screw_speed, travel=travel, from_rest=from_rest
-    )
+        model, screw, lubricant, axial_load=axial_load, screw_speed=screw_speed, travel=travel, from_rest=from_rest,
+        gap=gap,
+    )  # fmt: skip
     operation = {"axial_load": axial_load, "screw_speed": screw_speed}
     return dataset_of(Configuration(model, screw, lubricant), found, operation)
 
@@ -83,6 +84,8 @@ def dataset_of(subject: Configuration, found: moving_balls.Reversal, operation: 
     for mechanism, value in found.steady_contributions.items():
         name = f"steady_contribution_{mechanism}"
         variables[name] = ((), float(value), attributes_of(contribution(mechanism, steady=True)))
+    if found.displacement:
+        variables["displacement"] = (("kind", *over), np.array(found.displacement), attributes_of(_LENGTH))
     fields = fields_of(OperatingState)
     coordinates: dict[str, Any] = {
         "screw_angle": (over, np.asarray(found.screw_angle, dtype=float), attributes_of(QUANTITIES["screw_angle"]))
@@ -102,8 +105,7 @@ def dataset_of(subject: Configuration, found: moving_balls.Reversal, operation: 
 
 def contribution(mechanism: str, *, steady: bool = False) -> Quantity:
     """The part of the torque by a mechanism, over the angle or of steady motion."""
-    words = moving_balls.MECHANISMS.get(mechanism, mechanism)
-    info = dataclasses.replace(
-        _TORQUE.info, symbol=f"M_S ({mechanism})", meaning=f"friction torque{' of steady motion' * steady}: {words}"
-    )
-    return Quantity(f"{'steady_' * steady}contribution_{mechanism}", _TORQUE.unit, info)
+    torque = QUANTITIES["screw_torque"]
+    symbol, words = f"{torque.info.symbol} ({mechanism})", PARTS.get(mechanism, mechanism)
+    info = Info(symbol, f"friction torque{' of steady motion' * steady}: {words}")
+    return Quantity(f"{'steady_' * steady}contribution_{mechanism}", torque.unit, info)

@@ -1,7 +1,7 @@
 """The friction models of control engineering and their parameters, fitted to the friction after a reversal.
 
-Rolling resistance and the losses of the nut follow the direction at once; the rest winds up over the angle of the
-screw, and this is what Dahl, LuGre and Maxwell-slip elements describe. As friction comes back in two ranges of the
+A part of the friction follows the direction at once; the rest winds up over the angle of the screw, and this is what
+Dahl, LuGre and Maxwell-slip elements describe. As friction comes back in two ranges of the
 angle a hundred times apart, no single stiffness holds both: Dahl is fitted to each of them, and both are given.
 """
 
@@ -35,8 +35,8 @@ from ballscrew.physics.moving_balls.reversal import Reversal
 
 Vector: TypeAlias = NDArray[np.float64]
 
-#: The parts of a reversal that follow its direction at once.
-AT_ONCE = ("rolling", "losses")
+#: The parts of a reversal that wind up within the contacts and across the grooves, and do not jump at its start.
+SLIP = ("spin_and_curvature", "helix")
 #: The first range of the angle, rad: within it the contacts themselves wind up.
 FIRST_RANGE = math.radians(0.02)
 #: Angles at least, beside the start, that the first range is fitted to.
@@ -89,15 +89,23 @@ class WindingUp:
 
     @classmethod
     def of(cls, reversal: Reversal) -> WindingUp:
-        """The part of a reversal that winds up."""
-        parts = {n: np.asarray(part, dtype=float) for n, part in reversal.contributions.items() if n not in AT_ONCE}
-        steady = reversal.steady_contributions
+        """The part of a reversal that winds up.
+
+        What follows the direction at once is the jump at the start, of which a reversal has twice as much as a start
+        from rest: rolling, losses, and half of what the balls press on each other with, as they part at once and press
+        again once their gap has closed.
+        """
+        parts = {name: np.asarray(part, dtype=float) for name, part in reversal.contributions.items()}
+        angle, whole = np.asarray(reversal.screw_angle, dtype=float), np.asarray(reversal.screw_torque, dtype=float)
+        others = sum((part for name, part in parts.items() if name not in SLIP), np.zeros(angle.shape))
+        before, share = (0.0, 1.0) if reversal.from_rest else (-1.0, 0.5)
+        at_once = share * float(others[1] - others[0])
         return cls(
-            screw_angle=reversal.screw_angle,
+            screw_angle=angle,
             travel=reversal.travel,
-            torque=sum(parts.values(), np.zeros(np.shape(reversal.screw_angle))),
-            coulomb_torque=float(sum(value for name, value in steady.items() if name not in AT_ONCE)),
-            at_once=float(sum(value for name, value in steady.items() if name in AT_ONCE)),
+            torque=whole - at_once * np.where(angle > 0, 1.0, before),
+            coulomb_torque=float(reversal.steady_torque) - at_once,
+            at_once=at_once,
             from_rest=reversal.from_rest,
         )
 
@@ -287,7 +295,7 @@ def fit_slip_elements(curve: WindingUp, count: int) -> SlipElementsFit:
         for slides, share in sorted(zip(angles.tolist(), shares.tolist(), strict=True))
         if share > 0
     ]
-    return SlipElementsFit(elements=tuple(elements), error=_error(curve, of_elements(elements, curve)))
+    return SlipElementsFit(elements=tuple(elements), error=error_of(curve, of_elements(elements, curve)))
 
 
 def gms_torque(elements: Sequence[SlipElement], screw_angles: Array, *, initial_torques: Array | None = None) -> Array:
@@ -320,8 +328,8 @@ def _steps(values: Vector) -> Vector:
     return np.diff(values, prepend=values[:1]) / 2 + np.diff(values, append=values[-1:]) / 2
 
 
-def _error(curve: WindingUp, fitted: Vector) -> FitError:
-    """Error of a fitted torque that winds up."""
+def error_of(curve: WindingUp, fitted: Vector) -> FitError:
+    """Error of a torque at the angles of a curve, N m, without what follows the direction at once."""
     off = np.abs(fitted - np.asarray(curve.torque)) / curve.steady_torque
     travel = np.asarray(curve.travel, dtype=float)
     settled = np.flatnonzero(np.asarray(curve.share_of_swing) >= SETTLED)
@@ -341,7 +349,7 @@ def _fitted_dahl(curve: WindingUp, weights: Vector) -> DahlFit:
 
     stiffness = math.exp(_minimum(squares, math.log(0.01 * M_c / angle[-1]), math.log(100 * M_c / angle[angle > 0][0])))
     model = Dahl(bristle_stiffness=stiffness, coulomb_torque=M_c)
-    return DahlFit(model=model, error=_error(curve, np.asarray(model.torque(angle, curve.initial_torque))))
+    return DahlFit(model=model, error=error_of(curve, np.asarray(model.torque(angle, curve.initial_torque))))
 
 
 def _minimum(function: Callable[[float], float], low: float, high: float) -> float:
@@ -399,8 +407,12 @@ class _Shares:
 
     def _refined(self, slides: Vector) -> Vector:
         start = np.log(slides)
+
+        def squares(logarithms: Vector) -> float:
+            return self._squares(np.exp(logarithms))
+
         found: Any = optimize.minimize(
-            lambda logarithms: self._squares(np.exp(logarithms)), start, method="Nelder-Mead",
+            squares, start, method="Nelder-Mead",
             options={
                 "xatol": 1e-10, "fatol": math.inf, "maxiter": 4000,
                 "initial_simplex": np.vstack([start, start + 0.1 * np.eye(len(start))]),

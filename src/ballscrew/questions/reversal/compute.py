@@ -20,7 +20,6 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.sweeps.reversal import QUANTITIES
 from ballscrew.physics.moving_balls import reversal as moving_balls
 from ballscrew.physics.moving_balls.friction_states import (
-    AT_ONCE,
     Dahl,
     DahlFit,
     LuGreFit,
@@ -35,16 +34,20 @@ from ballscrew.questions.reversal.options import ReversalOptions
 
 #: Shares of the swing whose places are told.
 SHARES = (0.5, 0.63, 0.9, 0.98)
+#: Share of the steady torque that is what a difference of torques leaves.
+_ROUNDING = 1e-12
 #: The share of which verdicts and captions speak.
 MOST = 0.9
 #: Numbers of Maxwell-slip elements that are fitted.
 COUNTS = (2, 3, 4)
-ANGLE, TRAVEL, TORQUE = (QUANTITIES[name] for name in ("screw_angle", "travel", "steady_torque"))
+ANGLE, TORQUE = (QUANTITIES[name] for name in ("screw_angle", "steady_torque"))
+#: In µm, as the first of it are.
+TRAVEL = dataclasses.replace(QUANTITIES["travel"], info=dataclasses.replace(QUANTITIES["travel"].info, shown_in="um"))
 STIFFNESS: Quantity = quantities_of(Dahl)["bristle_stiffness"]
 
 
 class Place(NamedTuple):
-    """Where friction has come back to a share of its swing; NaN where it does not within the travel."""
+    """Where friction has come back to a share of its swing; zero at once, NaN where it does not within the travel."""
 
     share: Annotated[Ratio, Info("", "share of the swing of the friction torque")]
     screw_angle: Annotated[Angle, Info(r"\theta", "angle of the screw at which this share is back", "deg")]
@@ -73,12 +76,12 @@ class ReversalReport:
 
     @functools.cached_property
     def places_by_mechanism(self) -> Mapping[str, Sequence[Place]]:
-        """The same of each mechanism whose torque winds up, and not of those that follow the direction at once."""
+        """The same of each part that there is; what follows the direction at once has zeros."""
         steady = {name: float(value) for name, value in self.reversal.steady_contributions.items()}
         return {
             name: self._places(np.asarray(values, dtype=float), steady[name])
             for name, values in self.reversal.contributions.items()
-            if name not in AT_ONCE and steady[name]
+            if abs(steady[name]) > _ROUNDING * abs(float(self.reversal.steady_torque))
         }
 
     def _places(self, torque: NDArray[np.float64], steady: float) -> Sequence[Place]:
@@ -159,7 +162,7 @@ def reversal(case: Case, options: ReversalOptions) -> ReversalReport:
         raise InputError(Fault("operation.screw_speed", "must not be zero", "0 rpm", remedy))
     found = moving_balls.reversal(
         case.model, case.screw, case.lubricant, axial_load=case.operation.axial_load, screw_speed=speed,
-        travel=options.travel, from_rest=options.from_rest,
+        travel=options.travel, from_rest=options.from_rest, gap=options.gap,
     )  # fmt: skip
     return of(case, found, options)
 
@@ -183,9 +186,14 @@ def of(case: Case, found: moving_balls.Reversal, options: ReversalOptions) -> Re
 def _reached(
     shares: NDArray[np.float64], share: float, angle: NDArray[np.float64], travel: NDArray[np.float64]
 ) -> tuple[float, float]:
-    """Angle and travel at which a share is first reached, on straight lines; NaN where it is not."""
+    """Angle and travel at which a share is first reached, on straight lines; NaN where it is not.
+
+    Zero where the first angle beside zero has it: what follows the direction at once.
+    """
     there = np.flatnonzero(shares >= share)
     if not there.size:
         return math.nan, math.nan
-    here = slice(max(int(there[0]) - 1, 0), int(there[0]) + 1)
+    if there[0] <= 1:
+        return 0.0, 0.0
+    here = slice(int(there[0]) - 1, int(there[0]) + 1)
     return float(np.interp(share, shares[here], angle[here])), float(np.interp(share, shares[here], travel[here]))

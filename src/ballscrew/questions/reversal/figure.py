@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from ballscrew.basis import units
+from ballscrew.engine.sweeps.reversal import PARTS
 from ballscrew.physics.moving_balls.friction_states import SlipElementsFit, of_elements
-from ballscrew.physics.moving_balls.reversal import MECHANISMS
 from ballscrew.questions.reversal import text
 from ballscrew.questions.reversal.compute import ANGLE, TORQUE, ReversalReport
 from ballscrew.questions.shared import charts
@@ -29,7 +29,7 @@ _TITLE_CHARACTERS = 100
 
 def picture(report: ReversalReport) -> Figure:
     """The parts and the models over the angle, which is logarithmic; call within the house style."""
-    figure, panels = charts.new_figure(text.caption(report))
+    figure, panels = charts.new_figure(text.caption(report), height=4.2)
     figure.suptitle(
         "\n".join(textwrap.wrap(text.title(report), _TITLE_CHARACTERS)),
         x=0.012, ha="left", fontsize=11, fontweight="bold",
@@ -40,7 +40,8 @@ def picture(report: ReversalReport) -> Figure:
         panel.set_xscale("log")
         panel.set(xlabel="angle of the screw [°]", ylabel=f"friction torque [{units.label(TORQUE)}]")
         panel.axhline(0.0, color=charts.GREY, lw=0.8)
-        panel.legend(fontsize="small")
+        # curves fill their panel
+        panel.legend(fontsize="small", loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=2)
     return figure
 
 
@@ -55,7 +56,7 @@ def _parts(panel: Axes, report: ReversalReport) -> None:
     for name, values in report.reversal.contributions.items():
         torque = np.asarray(values, dtype=float)[here]
         if np.any(torque):
-            words = MECHANISMS.get(name, name).partition(",")[0]
+            words = PARTS.get(name, name).partition(",")[0]
             panel.plot(shown, torque, color=_COLOURS.get(name, charts.GREY), lw=1.4, label=words)
     panel.plot(shown, np.asarray(report.reversal.screw_torque)[here], color=charts.INK, label="all friction")
     panel.set_title("by mechanism")

@@ -27,3 +27,11 @@ class ReversalOptions:
             unit="kg m^2", above=0,
         ),
     ] = None  # fmt: skip
+    gap: Annotated[
+        float,
+        Option(
+            "Balls that would still go into a circuit; they close up before they press again.",
+            metavar="BALLS",
+            at_least=0,
+        ),
+    ] = 0.5

@@ -9,8 +9,8 @@ from ballscrew.basis import units
 from ballscrew.basis.output.wrapping import aligned, wrapped
 from ballscrew.basis.quantities import Quantity, quantities_of
 from ballscrew.cases.case_files import descriptions
-from ballscrew.physics.moving_balls.friction_states import AT_ONCE, FitError, LuGre, SlipElement
-from ballscrew.physics.moving_balls.reversal import MECHANISMS
+from ballscrew.engine.sweeps.reversal import PARTS
+from ballscrew.physics.moving_balls.friction_states import FitError, LuGre, SlipElement
 from ballscrew.questions.reversal.compute import ANGLE, MOST, STIFFNESS, TORQUE, TRAVEL, Place, ReversalReport
 from ballscrew.questions.shared.text_tables import shown_or_dash
 
@@ -49,20 +49,19 @@ def title(report: ReversalReport) -> str:
 def _mechanisms(report: ReversalReport) -> list[str]:
     """Each part of the steady torque, and where most of it is back."""
     rows = [["part", "steady torque", f"{MOST:.0%} back at", "travel"]]
-    for name, value in report.reversal.steady_contributions.items():
-        place = _at(report.places_by_mechanism.get(name, ()), MOST)
-        words = MECHANISMS.get(name, name)
-        if place is None:
-            where = ["at once", ""] if name in AT_ONCE and float(value) else ["–", ""]
-        else:
-            where = [_shown(place.screw_angle, ANGLE), _shown(place.travel, TRAVEL)]
-        rows.append([words, _shown(float(value), TORQUE), *where])
-    whole = _at(report.places, MOST)
-    assert whole is not None
-    steady = float(report.reversal.steady_torque)
-    where = [_shown(whole.screw_angle, ANGLE), _shown(whole.travel, TRAVEL)]
-    rows.append(["all friction", _shown(steady, TORQUE), *where])
+    for name, places in report.places_by_mechanism.items():
+        steady = float(report.reversal.steady_contributions[name])
+        rows.append([PARTS.get(name, name), _shown(steady, TORQUE), *_where(places)])
+    rows.append(["all friction", _shown(float(report.reversal.steady_torque), TORQUE), *_where(report.places)])
     return aligned(rows)
+
+
+def _where(places: Sequence[Place]) -> list[str]:
+    """Angle and travel at which most is back."""
+    place = next(one for one in places if one.share == MOST)
+    if not place.screw_angle:
+        return ["at once", ""]
+    return [_shown(place.screw_angle, ANGLE), _shown(place.travel, TRAVEL)]
 
 
 def _swing(report: ReversalReport) -> list[str]:
@@ -109,10 +108,6 @@ def _elements(report: ReversalReport) -> list[str]:
 
 def _errors(error: FitError) -> list[str]:
     return [f"{one:.1%}" for one in (error.largest, error.rms)]
-
-
-def _at(places: Sequence[Place], share: float) -> Place | None:
-    return next((one for one in places if one.share == share), None)
 
 
 def _shown(value: float, quantity: Quantity) -> str:
