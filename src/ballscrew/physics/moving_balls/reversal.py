@@ -28,6 +28,7 @@ from ballscrew.physics.friction.balls import BallFriction
 from ballscrew.physics.friction.loaded_balls import LoadedBalls
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.moving_balls.across_groove import of_balls_alike
 from ballscrew.physics.moving_balls.brush import CELLS, BallContacts, Brush, Step
 
 Field = NDArray[np.float64]
@@ -139,7 +140,7 @@ def reversal(
     operation: dict[str, Any] = {"axial_load": float(axial_load), "screw_speed": float(screw_speed)}
     steady = model(screw, lubricant, **operation)
     lifts = operation["axial_load"] * operation["screw_speed"] >= 0
-    balls = _balls(_of_balls_alike(model, steady, lubricant, operation), lifts=lifts)
+    balls = _balls(of_balls_alike(model, steady.ball_screw, lubricant, **operation), lifts=lifts)
     advance, closing = float(screw.lead) / (2 * math.pi), _closing(steady, float(gap))
     whole = max((_whole(ball) for ball in balls), default=0.0)
     end = max(whole, 1.2 * closing) if travel is None else float(travel) / advance
@@ -173,17 +174,6 @@ def reversal(
         bristles_over_model=1 / scale if scale else math.nan,
         from_rest=from_rest,
     )
-
-
-def _of_balls_alike(
-    model: FrictionModel, steady: FrictionResult, lubricant: Lubricant, operation: Mapping[str, Any]
-) -> FrictionResult:
-    """The friction of the nut with all balls of a kind alike, between rigid bodies."""
-    screw = steady.ball_screw
-    if not screw.nut.one_by_one:
-        return steady
-    nut = dataclasses.replace(screw.nut, bodies=None, deviations=None, losses={})
-    return model(dataclasses.replace(screw, nut=nut), lubricant, **operation)
 
 
 def _balls(found: FrictionResult, *, lifts: bool) -> list[_Ball]:
