@@ -158,10 +158,11 @@ def test_tracking_is_free_of_the_way_that_it_is_sampled():
 
 def test_lugre_has_the_stiffness_of_dahl():
     curve = of_elements(THREE, at_once=0.04)
-    found = fit_lugre(curve, screw_speed=-8.0, moment_of_inertia=2e-3)
+    found = fit_lugre(curve, screw_speed=-8.0, viscous_slope=0.002, moment_of_inertia=2e-3)
     model = found.model
     assert model.bristle_stiffness == fit_dahl(curve).model.bristle_stiffness
-    assert model.viscous_slope == pytest.approx(0.04 / 8)
+    # of the 0.04 N m that follow at once, 0.016 are viscous at this speed
+    assert model.dry_torque == pytest.approx(0.024, rel=1e-12)
     # an inertia on a spring: the logarithmic decrement of a damping ratio of a half
     assert model.micro_damping == pytest.approx(math.sqrt(model.bristle_stiffness * 2e-3), rel=1e-12)
     assert fit_lugre(curve, screw_speed=8.0).model.micro_damping == 0
@@ -320,7 +321,6 @@ def test_what_a_fit_refuses():
     for call, where in (
         (lambda: fit_slip_elements(curve, 5), "fit_slip_elements.count"),
         (lambda: fit_slip_elements(curve, 0), "fit_slip_elements.count"),
-        (lambda: fit_lugre(curve, screw_speed=0.0), "fit_lugre.screw_speed"),
         (lambda: gms_torque(THREE, [0.0, 1.0], initial_torques=[0.0]), "gms_torque.initial_torques"),
         (lambda: gms_torque(THREE, [0.0, 1.0], initial_torques=[0.0, 0.0, 0.06]), "gms_torque.initial_torques"),
     ):

@@ -135,6 +135,22 @@ def test_the_picture(report):
     assert left.get_xscale() == right.get_xscale() == "log"
 
 
+@pytest.mark.parametrize("speed", ["100 rpm", "-100 rpm"])
+def test_the_viscous_slope_is_that_of_a_run(speed):
+    """Torques by rolling at 90 and 110 rpm, of runs, either way; the rest of what follows at once is dry."""
+    case = case_file.load(EXAMPLE, [f"operation.screw_speed={speed}"])
+    rolling = []
+    for rpm in (90, 110):
+        found = case.model(case.screw, case.lubricant, axial_load=0.0, screw_speed=rpm * math.pi / 30)
+        rolling.append(found.contributions["hydrodynamic_rolling"] + found.contributions["elastic_hysteresis"])
+    slope = (rolling[1] - rolling[0]) / (20 * math.pi / 30)
+    model = compute.of(case, closed_form(), ReversalOptions()).lugre.model
+    # the chord of a curve over a tenth either way, against one over a hundredth
+    assert model.viscous_slope == pytest.approx(slope, rel=5e-3)
+    at_once = STEADY["rolling"] + STEADY["losses"] + STEADY["ball_to_ball"] / 2
+    assert model.dry_torque + model.viscous_slope * 100 * math.pi / 30 == pytest.approx(at_once, rel=1e-5)
+
+
 def test_a_screw_at_rest_is_refused():
     resting = case_file.load(EXAMPLE, ["operation.screw_speed=0 rpm"])
     with pytest.raises(InputError) as error:

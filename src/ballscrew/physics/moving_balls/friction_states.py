@@ -160,8 +160,9 @@ class LuGre:
     micro_damping: Annotated[
         RotationalDamping, Info(r"\sigma_1", "damping of the bristles, a choice; zero where no inertia is given")
     ]
-    viscous_slope: Annotated[
-        RotationalDamping, Info(r"\sigma_2", "friction torque that follows the direction at once, over the speed")
+    viscous_slope: Annotated[RotationalDamping, Info(r"\sigma_2", "slope of the friction torque over the speed")]
+    dry_torque: Annotated[
+        Torque, Info("M_d", "friction torque that follows the direction at once and is not viscous, beside the model")
     ]
 
     def torque(self, screw_angle: Angle, initial_torque: Torque, screw_speed: AngularSpeed) -> Torque:
@@ -170,7 +171,7 @@ class LuGre:
         """
         sigma_0, M_c = self.bristle_stiffness, self.coulomb_torque
         wound = equations.dahl_torque(sigma_0, M_c, initial_torque, screw_angle)
-        return equations.lugre_torque(wound, M_c, self.micro_damping, self.viscous_slope, screw_speed)
+        return equations.lugre_torque(wound, M_c, self.micro_damping, self.viscous_slope, screw_speed) + self.dry_torque
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -241,26 +242,20 @@ def fit_lugre(
     curve: WindingUp,
     *,
     screw_speed: AngularSpeed,
+    viscous_slope: RotationalDamping = 0.0,
     moment_of_inertia: MomentOfInertia | None = None,
     damping_ratio: Ratio = DAMPING_RATIO,
 ) -> LuGreFit:
-    r"""The model LuGre for tracking.
+    r"""The model LuGre for tracking, at the ``screw_speed`` of the curve (rad/s).
 
     At a slow steady speed its bristles have the torque of Dahl, so :math:`\sigma_0` and the error are those of
-    :func:`fit_dahl`. :math:`\sigma_2` is what follows the direction at once over ``screw_speed`` (rad/s, not zero): the
-    slope of a line through zero, which is right at this speed alone. :math:`\sigma_1` cannot be seen in a slow
-    reversal. With a ``moment_of_inertia`` (kg m²) of everything that turns with the screw it is chosen so that this
-    swings on the bristles with the ``damping_ratio``; without one it is zero, which is a value and no finding. It acts
-    while the bristles wind up: where :math:`\sigma_1 \omega` comes near :math:`M_c` it is far too much, and users of
-    the model let it fade with the speed.
-
-    Raises :class:`~ballscrew.basis.errors.InputError` for a speed of zero.
+    :func:`fit_dahl`. :math:`\sigma_2` is the ``viscous_slope`` (N m s/rad), which one curve at one speed does not tell:
+    that of the steady torque over the speed. What else follows the direction at once is its ``dry_torque``.
+    :math:`\sigma_1` cannot be seen in a slow reversal either. With a ``moment_of_inertia`` (kg m²) of everything that
+    turns with the screw it is chosen so that this swings on the bristles with the ``damping_ratio``; without one it is
+    zero, which is a value and no finding. It acts while the bristles wind up: where :math:`\sigma_1 \omega` comes near
+    :math:`M_c` it is far too much, and users of the model let it fade with the speed.
     """
-    speed = abs(float(screw_speed))
-    if not speed > 0:
-        raise_if_any(
-            [Fault("fit_lugre.screw_speed", "must not be zero", f"{screw_speed}", "give the speed of the curve")]
-        )
     dahl = fit_dahl(curve)
     sigma_0 = dahl.model.bristle_stiffness
     sigma_1 = 0.0 if moment_of_inertia is None else equations.micro_damping(sigma_0, moment_of_inertia, damping_ratio)
@@ -268,7 +263,8 @@ def fit_lugre(
         bristle_stiffness=sigma_0,
         coulomb_torque=dahl.model.coulomb_torque,
         micro_damping=float(sigma_1),
-        viscous_slope=curve.at_once / speed,
+        viscous_slope=viscous_slope,
+        dry_torque=curve.at_once - viscous_slope * abs(float(screw_speed)),
     )
     return LuGreFit(model=model, error=dahl.error)
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.overflow import overflow_as_input_error
-from ballscrew.basis.quantities import Angle, Info, Length, Quantity, Ratio, quantities_of
+from ballscrew.basis.quantities import Angle, Info, Length, Quantity, Ratio, RotationalDamping, quantities_of
 from ballscrew.basis.records import Message, Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.sweeps.reversal import QUANTITIES
@@ -36,6 +36,8 @@ from ballscrew.questions.reversal.options import ReversalOptions
 SHARES = (0.5, 0.63, 0.9, 0.98)
 #: Share of the steady torque that is what a difference of torques leaves.
 _ROUNDING = 1e-12
+#: Step of the speed, as a share, over which the slope of a torque is taken.
+_STEP = 0.01
 #: The share of which verdicts and captions speak.
 MOST = 0.9
 #: Numbers of Maxwell-slip elements that are fitted.
@@ -170,7 +172,6 @@ def reversal(case: Case, options: ReversalOptions) -> ReversalReport:
 def of(case: Case, found: moving_balls.Reversal, options: ReversalOptions) -> ReversalReport:
     """The report of a reversal that is known."""
     curve = WindingUp.of(found)
-    speed = float(case.operation.screw_speed)
     fits = (fit_slip_elements(curve, count) for count in COUNTS)
     return ReversalReport(
         case=case,
@@ -178,9 +179,29 @@ def of(case: Case, found: moving_balls.Reversal, options: ReversalOptions) -> Re
         curve=curve,
         first=fit_dahl_first(curve),
         tracking=fit_dahl(curve),
-        lugre=fit_lugre(curve, screw_speed=speed, moment_of_inertia=options.inertia),
+        lugre=fit_lugre(
+            curve,
+            screw_speed=float(case.operation.screw_speed),
+            viscous_slope=viscous_slope(case),
+            moment_of_inertia=options.inertia,
+        ),
         elements=tuple({len(fit.elements): fit for fit in fits}.values()),
     )
+
+
+def viscous_slope(case: Case) -> RotationalDamping:
+    """Slope of the rolling resistance over the speed at the operating point, N m s/rad.
+
+    Rolling grows with less than the speed, so that this is a tangent; what falls with the speed is not in it.
+    """
+    speed = float(case.operation.screw_speed)
+    ends = (speed * (1 - _STEP), speed * (1 + _STEP))
+    load = case.operation.axial_load
+    slower, faster = (case.model(case.screw, case.lubricant, axial_load=load, screw_speed=each) for each in ends)
+    rolling = [
+        sum(float(one.contributions[name]) for name in moving_balls.MECHANISMS["rolling"]) for one in (slower, faster)
+    ]
+    return (rolling[1] - rolling[0]) / abs(ends[1] - ends[0])
 
 
 def _reached(

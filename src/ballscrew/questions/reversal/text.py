@@ -88,7 +88,11 @@ def _models(report: ReversalReport) -> list[str]:
     viscous = _shown(lugre.viscous_slope, _LUGRE["viscous_slope"])
     rows.append(["LuGre, tracking", stiffness, _coulomb(report), damping, viscous, *_errors(report.lugre.error)])
     at_once = _shown(report.curve.at_once, TORQUE)
-    return [*aligned(rows), f"to Dahl and to the elements add {at_once} with the sign of the speed: it follows at once"]
+    dry = _shown(lugre.dry_torque, _LUGRE["dry_torque"])
+    return [
+        *aligned(rows),
+        f"with the sign of the speed, as it follows at once, add {at_once} to Dahl and to the elements, {dry} to LuGre",
+    ]
 
 
 def _coulomb(report: ReversalReport) -> str:
