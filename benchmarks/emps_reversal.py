@@ -5,7 +5,8 @@ repository, as its licence is not stated (docs/howto/moving_log.md says where it
 
 Position and force are filtered alike at 150 Hz. Mass, offset and a steady law F_0 + c |v|^n are fitted to what lies
 more than 5 mm behind a reversal. What is left of the force nearer to one, against the new direction, is friction after
-it: the mean of all reversals, with their standard deviation. Nothing of the model is tuned: the screw of EMPS is unknown but for its lead, and the one taken here is a guess.
+it: the mean of all reversals, with their standard deviation. Nothing of the model is tuned: the screw of EMPS is
+unknown but for its lead, and the one taken here is a guess.
 
 Confounders: guides wind up over 10 to 50 µm, too; inertia is several times the friction at these reversals, so that a
 mass or a time that is a little off makes newtons (``off`` below); the speed rises from zero meanwhile.

@@ -23,7 +23,7 @@ def test_json_and_picture(ballscrew, tmp_path):
     assert sum(parts) == pytest.approx(results["screw_torque"][40], rel=1e-12)
     assert 1 < math.degrees(results["swing"][2]["screw_angle"]) < 40
     lugre = results["lugre"]["model"]
-    assert lugre["micro_damping"] == pytest.approx(math.sqrt(lugre["bristle_stiffness"] * 2e-3), rel=1e-12)
+    assert lugre["micro_damping"] == pytest.approx(math.sqrt(lugre["presliding_stiffness"] * 2e-3), rel=1e-12)
     assert found["warnings"][0]["id"] == "reversal.hypothesis"
     picture = drawn(tmp_path / "turned.svg").text
     assert "angle of the screw" in picture

@@ -93,10 +93,10 @@ def test_dahl_finds_its_own_stiffness(stiffness, from_rest):
     start = 0.0 if from_rest else -0.2
     curve = curve_of(lambda at: equations.dahl_torque(stiffness, 0.2, start, at), 0.2, from_rest=from_rest)
     found = fit_dahl(curve)
-    assert found.model.bristle_stiffness == pytest.approx(stiffness, rel=1e-6)
+    assert found.model.presliding_stiffness == pytest.approx(stiffness, rel=1e-6)
     assert found.error.largest < 1e-6
     first = fit_dahl_first(curve)
-    assert first.model.bristle_stiffness == pytest.approx(stiffness, rel=1e-6)
+    assert first.model.presliding_stiffness == pytest.approx(stiffness, rel=1e-6)
 
 
 @pytest.mark.parametrize("from_rest", [False, True])
@@ -132,7 +132,7 @@ def test_one_stiffness_cannot_hold_both_ranges():
     two = THREE[0], THREE[2]
     curve = of_elements(two)
     first, tracking = fit_dahl_first(curve), fit_dahl(curve)
-    assert first.model.bristle_stiffness > 20 * tracking.model.bristle_stiffness
+    assert first.model.presliding_stiffness > 20 * tracking.model.presliding_stiffness
     # after the contacts have slid, Dahl with their stiffness is at the steady torque: half of the swing is missing
     assert first.error.largest > 0.9
     # when the contacts have slid, Dahl for tracking has hardly begun
@@ -152,7 +152,7 @@ def test_tracking_is_free_of_the_way_that_it_is_sampled():
         screw_angle=dense, travel=dense * PER_RADIAN, torque=np.interp(dense, curve.screw_angle, curve.torque),
         coulomb_torque=curve.coulomb_torque,
     )  # fmt: skip
-    one, other = (fit_dahl(each).model.bristle_stiffness for each in (curve, again))
+    one, other = (fit_dahl(each).model.presliding_stiffness for each in (curve, again))
     assert other == pytest.approx(one, rel=1e-4)
 
 
@@ -160,11 +160,11 @@ def test_lugre_has_the_stiffness_of_dahl():
     curve = of_elements(THREE, at_once=0.04)
     found = fit_lugre(curve, screw_speed=-8.0, viscous_slope=0.002, moment_of_inertia=2e-3)
     model = found.model
-    assert model.bristle_stiffness == fit_dahl(curve).model.bristle_stiffness
+    assert model.presliding_stiffness == fit_dahl(curve).model.presliding_stiffness
     # of the 0.04 N m that follow at once, 0.016 are viscous at this speed
     assert model.dry_torque == pytest.approx(0.024, rel=1e-12)
     # an inertia on a spring: the logarithmic decrement of a damping ratio of a half
-    assert model.micro_damping == pytest.approx(math.sqrt(model.bristle_stiffness * 2e-3), rel=1e-12)
+    assert model.micro_damping == pytest.approx(math.sqrt(model.presliding_stiffness * 2e-3), rel=1e-12)
     assert fit_lugre(curve, screw_speed=8.0).model.micro_damping == 0
     assert model.torque(math.radians(1e4), curve.initial_torque, 8.0) == pytest.approx(curve.steady_torque, rel=1e-12)
 
@@ -197,7 +197,7 @@ def test_elements_of_mechanisms():
 def test_errors_are_shares_of_all_friction():
     """A stiffness of next to nothing never leaves the start: twice the Coulomb torque is missing in the end."""
     curve = of_elements(THREE, at_once=0.1)
-    slow = Dahl(bristle_stiffness=1e-9, coulomb_torque=curve.coulomb_torque)
+    slow = Dahl(presliding_stiffness=1e-9, coulomb_torque=curve.coulomb_torque)
     assert error_of(curve, slow.torque(curve.screw_angle, curve.initial_torque)).largest == pytest.approx(1, rel=1e-6)
     assert error_of(curve, curve.torque) == FitError(largest=0.0, rms=0.0)
     assert error_of(curve, np.asarray(curve.torque) + 0.02).rms == pytest.approx(0.1, rel=1e-12)
@@ -335,4 +335,4 @@ def test_no_first_range_where_nothing_was_sampled():
         screw_angle=angles, travel=angles, torque=equations.dahl_torque(50.0, 0.1, -0.1, angles), coulomb_torque=0.1
     )
     assert fit_dahl_first(curve) is None
-    assert fit_dahl(curve).model.bristle_stiffness == pytest.approx(50.0, rel=1e-6)
+    assert fit_dahl(curve).model.presliding_stiffness == pytest.approx(50.0, rel=1e-6)

@@ -1,5 +1,6 @@
 """The answer of a reversal: places of a curve that is known, and the same on every face."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -77,17 +78,40 @@ def test_elements_are_those_that_are_there(report):
 def test_both_stiffnesses_are_told(report):
     said = {one.id: one for one in report.verdicts}["reversal.one_stiffness"]
     assert said.value == report.tracking.error.largest > 0.3
-    assert report.first.model.bristle_stiffness > 20 * report.tracking.model.bristle_stiffness
+    assert report.first.model.presliding_stiffness > 20 * report.tracking.model.presliding_stiffness
 
 
 def test_the_hypothesis_is_said(report):
     assert report.warnings[0].id == "reversal.hypothesis"
     assert "EMPS" in text.text(report)
     assert "EMPS" in text.caption(report)
-    without = closed_form(steady={**STEADY, "helix": 0.0})
-    alone = compute.of(CASE, without, ReversalOptions())
+    held = dataclasses.replace(closed_form(), displacement=(np.zeros(501),))
+    alone = compute.of(CASE, held, ReversalOptions())
     assert "reversal.hypothesis" not in [one.id for one in alone.warnings]
-    assert "helix" not in alone.places_by_mechanism
+
+
+def test_a_part_that_is_not_there():
+    without = compute.of(CASE, closed_form(steady={**STEADY, "helix": 0.0, "losses": 1e-17}), ReversalOptions())
+    assert without.places_by_mechanism.keys() == {"rolling", "spin_and_curvature", "ball_to_ball"}
+
+
+def test_bristles_that_are_far_off_are_said(report):
+    assert [one.id for one in report.warnings] == ["reversal.hypothesis", "reversal.first_range"]
+    off = compute.of(CASE, dataclasses.replace(closed_form(), bristles_over_model=0.63), ReversalOptions())
+    said = {one.id: one for one in off.warnings}["reversal.bristles"]
+    assert said.value == 0.63
+    assert "63%" in said.text
+
+
+def test_a_part_goes_to_where_its_curve_ends():
+    """Bristles that give the helix a part of what the model has by spin: 90 % is of the way that it really goes."""
+    found = closed_form()
+    moved = {**found.contributions}
+    moved["helix"] = 1.1 * found.contributions["helix"]
+    moved["spin_and_curvature"] = found.screw_torque - sum(v for n, v in moved.items() if n != "spin_and_curvature")
+    other = compute.of(CASE, dataclasses.replace(found, contributions=moved), ReversalOptions())
+    place = by_share(other.places_by_mechanism["helix"])[0.9]
+    assert math.degrees(place.screw_angle) == pytest.approx(9, rel=1e-3)
 
 
 def test_every_number_is_in_the_document(report):
@@ -165,7 +189,7 @@ def test_a_computed_reversal():
     assert float(found.reversal.steady_torque) == pytest.approx(float(run.screw_torque), rel=1e-12)
     helix, spin = (by_share(found.places_by_mechanism[name])[0.9] for name in ("helix", "spin_and_curvature"))
     assert helix.screw_angle > 100 * spin.screw_angle > 0
-    assert found.first.model.bristle_stiffness > 10 * found.tracking.model.bristle_stiffness
+    assert found.first.model.presliding_stiffness > 10 * found.tracking.model.presliding_stiffness
     errors = [fit.error.largest for fit in found.elements]
     assert errors == sorted(errors, reverse=True)
     assert errors[0] < found.tracking.error.largest < found.first.error.largest

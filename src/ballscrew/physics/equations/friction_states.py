@@ -20,7 +20,7 @@ from ballscrew.basis.quantities import (
 
 
 def dahl_torque(
-    bristle_stiffness: RotationalStiffness, coulomb_torque: Torque, initial_torque: Torque, screw_angle: Angle
+    presliding_stiffness: RotationalStiffness, coulomb_torque: Torque, initial_torque: Torque, screw_angle: Angle
 ) -> Torque:
     r"""Torque of the model of Dahl after a rotation in one direction.
 
@@ -30,7 +30,7 @@ def dahl_torque(
     :math:`\mathrm{d}M/\mathrm{d}\theta = \sigma_0 (1 - M/M_c)` from the torque :math:`M_0` at the start, which is
     :math:`-M_c` after a long way in the other direction, and zero from rest. For a rotation of zero or more.
     """
-    sigma_0, M_c, M_0, theta = bristle_stiffness, coulomb_torque, initial_torque, screw_angle
+    sigma_0, M_c, M_0, theta = presliding_stiffness, coulomb_torque, initial_torque, screw_angle
     xp = namespace(sigma_0, M_c, M_0, theta)
     return M_c - (M_c - M_0) * xp.exp(-sigma_0 * theta / M_c)
 
@@ -55,7 +55,7 @@ def lugre_torque(
 
 
 def micro_damping(
-    bristle_stiffness: RotationalStiffness, moment_of_inertia: MomentOfInertia, damping_ratio: Ratio
+    presliding_stiffness: RotationalStiffness, moment_of_inertia: MomentOfInertia, damping_ratio: Ratio
 ) -> RotationalDamping:
     r"""Damping of the bristles with which an inertia that sticks on them swings with a damping ratio.
 
@@ -63,7 +63,7 @@ def micro_damping(
 
     A choice and no property of the contact: the example of CanudasDeWit1995 has :math:`\zeta = 1/2`.
     """
-    sigma_0, J, zeta = bristle_stiffness, moment_of_inertia, damping_ratio
+    sigma_0, J, zeta = presliding_stiffness, moment_of_inertia, damping_ratio
     xp = namespace(sigma_0, J, zeta)
     return 2 * zeta * xp.sqrt(sigma_0 * J)
 

@@ -139,12 +139,12 @@ class FitError:
 class Dahl:
     """The model of Dahl, with the exponent one."""
 
-    bristle_stiffness: Annotated[RotationalStiffness, Info(r"\sigma_0", "stiffness of the bristles", above=0)]
+    presliding_stiffness: Annotated[RotationalStiffness, Info(r"\sigma_0", "stiffness of the bristles", above=0)]
     coulomb_torque: Annotated[Torque, Info("M_c", "friction torque that winds up, in steady motion", above=0)]
 
     def torque(self, screw_angle: Angle, initial_torque: Torque) -> Torque:
         """Torque that is wound up after an angle, :func:`~ballscrew.physics.equations.friction_states.dahl_torque`."""
-        return equations.dahl_torque(self.bristle_stiffness, self.coulomb_torque, initial_torque, screw_angle)
+        return equations.dahl_torque(self.presliding_stiffness, self.coulomb_torque, initial_torque, screw_angle)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -155,7 +155,7 @@ class LuGre:
     the steady torque of the screw, which a sweep over the speed has.
     """
 
-    bristle_stiffness: Annotated[RotationalStiffness, Info(r"\sigma_0", "stiffness of the bristles", above=0)]
+    presliding_stiffness: Annotated[RotationalStiffness, Info(r"\sigma_0", "stiffness of the bristles", above=0)]
     coulomb_torque: Annotated[Torque, Info("M_c", "friction torque that the bristles hold in steady motion", above=0)]
     micro_damping: Annotated[
         RotationalDamping, Info(r"\sigma_1", "damping of the bristles, a choice; zero where no inertia is given")
@@ -169,7 +169,7 @@ class LuGre:
         """Torque after an angle at a steady speed,
         :func:`~ballscrew.physics.equations.friction_states.lugre_torque`.
         """
-        sigma_0, M_c = self.bristle_stiffness, self.coulomb_torque
+        sigma_0, M_c = self.presliding_stiffness, self.coulomb_torque
         wound = equations.dahl_torque(sigma_0, M_c, initial_torque, screw_angle)
         return equations.lugre_torque(wound, M_c, self.micro_damping, self.viscous_slope, screw_speed) + self.dry_torque
 
@@ -257,10 +257,10 @@ def fit_lugre(
     :math:`M_c` it is far too much, and users of the model let it fade with the speed.
     """
     dahl = fit_dahl(curve)
-    sigma_0 = dahl.model.bristle_stiffness
+    sigma_0 = dahl.model.presliding_stiffness
     sigma_1 = 0.0 if moment_of_inertia is None else equations.micro_damping(sigma_0, moment_of_inertia, damping_ratio)
     model = LuGre(
-        bristle_stiffness=sigma_0,
+        presliding_stiffness=sigma_0,
         coulomb_torque=dahl.model.coulomb_torque,
         micro_damping=float(sigma_1),
         viscous_slope=viscous_slope,
@@ -344,7 +344,7 @@ def _fitted_dahl(curve: WindingUp, weights: Vector) -> DahlFit:
         return float(weights @ off**2)
 
     stiffness = math.exp(_minimum(squares, math.log(0.01 * M_c / angle[-1]), math.log(100 * M_c / angle[angle > 0][0])))
-    model = Dahl(bristle_stiffness=stiffness, coulomb_torque=M_c)
+    model = Dahl(presliding_stiffness=stiffness, coulomb_torque=M_c)
     return DahlFit(model=model, error=error_of(curve, np.asarray(model.torque(angle, curve.initial_torque))))
 
 

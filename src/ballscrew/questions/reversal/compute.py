@@ -38,6 +38,8 @@ SHARES = (0.5, 0.63, 0.9, 0.98)
 _ROUNDING = 1e-12
 #: Step of the speed, as a share, over which the slope of a torque is taken.
 _STEP = 0.01
+#: How far the steady slip torque of the bristles may be from the model's without a word, as a share.
+BRISTLES_OFF = 0.1
 #: The share of which verdicts and captions speak.
 MOST = 0.9
 #: Numbers of Maxwell-slip elements that are fitted.
@@ -45,7 +47,7 @@ COUNTS = (2, 3, 4)
 ANGLE, TORQUE = (QUANTITIES[name] for name in ("screw_angle", "steady_torque"))
 #: In µm, as the first of it are.
 TRAVEL = dataclasses.replace(QUANTITIES["travel"], info=dataclasses.replace(QUANTITIES["travel"].info, shown_in="um"))
-STIFFNESS: Quantity = quantities_of(Dahl)["bristle_stiffness"]
+STIFFNESS: Quantity = quantities_of(Dahl)["presliding_stiffness"]
 
 
 class Place(NamedTuple):
@@ -73,23 +75,33 @@ class ReversalReport:
     @functools.cached_property
     def places(self) -> Sequence[Place]:
         """Where the shares of the swing are back, of all friction."""
-        steady = float(self.reversal.steady_torque)
-        return self._places(np.asarray(self.reversal.screw_torque, dtype=float), steady)
+        return self._places(np.asarray(self.reversal.screw_torque, dtype=float), float(self.reversal.steady_torque))
 
     @functools.cached_property
     def places_by_mechanism(self) -> Mapping[str, Sequence[Place]]:
-        """The same of each part that there is; what follows the direction at once has zeros."""
+        """The same of each part that there is; what follows the direction at once has zeros.
+
+        The swing of a part ends where its curve ends, once all friction is back: the bristles may share the slip in
+        another way than the model does.
+        """
         steady = {name: float(value) for name, value in self.reversal.steady_contributions.items()}
+        whole = abs(float(self.reversal.steady_torque))
+        back = math.isfinite(self.places[-1].screw_angle)
         return {
-            name: self._places(np.asarray(values, dtype=float), steady[name])
+            name: self._places(np.asarray(values, dtype=float), float(values[-1]) if back else steady[name])
             for name, values in self.reversal.contributions.items()
-            if abs(steady[name]) > _ROUNDING * abs(float(self.reversal.steady_torque))
+            if abs(steady[name]) > _ROUNDING * whole
         }
 
-    def _places(self, torque: NDArray[np.float64], steady: float) -> Sequence[Place]:
-        start = 0.0 if self.reversal.from_rest else -steady
+    @property
+    def crosses(self) -> bool:
+        """True where the balls roll across their grooves, so that helix slip comes back over degrees."""
+        return any(np.ptp(np.asarray(one, dtype=float)) > 0 for one in self.reversal.displacement)
+
+    def _places(self, torque: NDArray[np.float64], end: float) -> Sequence[Place]:
         angle, travel = (np.asarray(one, dtype=float) for one in (self.reversal.screw_angle, self.reversal.travel))
-        return [Place(share, *_reached((torque - start) / (steady - start), share, angle, travel)) for share in SHARES]
+        shares = (torque - torque[0]) / (end - torque[0])
+        return [Place(share, *_reached(shares, share, angle, travel)) for share in SHARES]
 
     @property
     def verdicts(self) -> list[Record]:
@@ -112,7 +124,7 @@ class ReversalReport:
         found = [units.record(message, id="reversal.back", subject="screw_torque", value=place.screw_angle, unit="rad")]
         two = self.elements[0]
         if self.first is not None:
-            first, tracking = self.first.model.bristle_stiffness, self.tracking.model.bristle_stiffness
+            first, tracking = self.first.model.presliding_stiffness, self.tracking.model.presliding_stiffness
             values = {
                 "first": units.measured(first, STIFFNESS, 3), "tracking": units.measured(tracking, STIFFNESS, 3),
                 "off": units.percent(self.tracking.error.largest),
@@ -124,7 +136,10 @@ class ReversalReport:
             )
             found.append(
                 units.record(
-                    message, id="reversal.one_stiffness", subject="bristle_stiffness", value=self.tracking.error.largest
+                    message,
+                    id="reversal.one_stiffness",
+                    subject="presliding_stiffness",
+                    value=self.tracking.error.largest,
                 )
             )
         message = Message(
@@ -140,12 +155,25 @@ class ReversalReport:
     def warnings(self) -> list[Record]:
         """That the helix part is a hypothesis, what is known of the first range, and implausible inputs."""
         found: list[Record] = []
-        if float(self.reversal.steady_contributions.get("helix", 0.0)):
+        if self.crosses:
             message = Message(
                 "helix slip that comes back over degrees of the screw is a hypothesis: it is computed, and the log of "
                 "one axis (EMPS: guides, an unknown screw) is all that speaks for it"
             )
             found.append(units.record(message, id="reversal.hypothesis", subject="helix", severity="warning"))
+        ratio = float(self.reversal.bristles_over_model)
+        if abs(ratio - 1) > BRISTLES_OFF:
+            message = Message(
+                "the bristles that the curve is computed with have {ratio} of the steady slip torque of the model, to "
+                "which the curve is scaled: its shape is as uncertain",
+                {"ratio": units.percent(ratio)},
+            )
+            found.append(
+                units.record(
+                    message, id="reversal.bristles", subject="bristles_over_model", severity="warning", value=ratio,
+                    limit=BRISTLES_OFF,
+                )
+            )  # fmt: skip
         message = Message("the stiffness of the first hundredths of a degree is known to a factor of three")
         found.append(units.record(message, id="reversal.first_range", subject="spin_and_curvature", severity="info"))
         return [*found, *self.case.implausible()]

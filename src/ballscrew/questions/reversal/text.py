@@ -80,9 +80,9 @@ def _models(report: ReversalReport) -> list[str]:
     lugre = report.lugre.model
     rows = [["model", "σ0", "M_c", "σ1", "σ2", "largest error", "rms error"]]
     if report.first is not None:
-        stiffness = _shown(report.first.model.bristle_stiffness, STIFFNESS)
+        stiffness = _shown(report.first.model.presliding_stiffness, STIFFNESS)
         rows.append(["Dahl, first 0.02°", stiffness, _coulomb(report), "", "", *_errors(report.first.error)])
-    stiffness = _shown(report.tracking.model.bristle_stiffness, STIFFNESS)
+    stiffness = _shown(report.tracking.model.presliding_stiffness, STIFFNESS)
     rows.append(["Dahl, tracking", stiffness, _coulomb(report), "", "", *_errors(report.tracking.error)])
     damping = _shown(lugre.micro_damping, _LUGRE["micro_damping"]) if lugre.micro_damping else "none chosen"
     viscous = _shown(lugre.viscous_slope, _LUGRE["viscous_slope"])
