@@ -75,6 +75,15 @@ def test_elements_are_those_that_are_there(report):
     assert report.elements[1].error.largest < 1e-4 < report.elements[0].error.largest
 
 
+def test_a_curve_that_one_element_holds():
+    """Of rolling and of contacts that wind up over straight lines, and a travel too short for tracking."""
+    steady = {"rolling": 0.05, "spin_and_curvature": 0.06}
+    found = compute.of(CASE, closed_form(steady=steady, travel=5e-5), ReversalOptions())
+    assert [len(fit.elements) for fit in found.elements] == [1]
+    assert found.verdicts[-1].text == "one Maxwell-slip element is off by up to 0%"
+    assert "reversal.one_stiffness" not in [one.id for one in found.verdicts]
+
+
 def test_both_stiffnesses_are_told(report):
     said = {one.id: one for one in report.verdicts}["reversal.one_stiffness"]
     assert said.value == report.tracking.error.largest > 0.3

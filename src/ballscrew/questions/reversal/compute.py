@@ -38,6 +38,8 @@ SHARES = (0.5, 0.63, 0.9, 0.98)
 _ROUNDING = 1e-12
 #: Step of the speed, as a share, over which the slope of a torque is taken.
 _STEP = 0.01
+#: Travel beyond which the stiffness for tracking is of use, m.
+TRACKING = 1e-4
 #: How far the steady slip torque of the bristles may be from the model's without a word, as a share.
 BRISTLES_OFF = 0.1
 #: The share of which verdicts and captions speak.
@@ -123,7 +125,7 @@ class ReversalReport:
             )
         found = [units.record(message, id="reversal.back", subject="screw_torque", value=place.screw_angle, unit="rad")]
         two = self.elements[0]
-        if self.first is not None:
+        if self.first is not None and float(np.asarray(self.curve.travel)[-1]) > TRACKING:
             first, tracking = self.first.model.presliding_stiffness, self.tracking.model.presliding_stiffness
             values = {
                 "first": units.measured(first, STIFFNESS, 3), "tracking": units.measured(tracking, STIFFNESS, 3),
@@ -142,10 +144,11 @@ class ReversalReport:
                     value=self.tracking.error.largest,
                 )
             )
-        message = Message(
-            "{count} Maxwell-slip elements are off by up to {off}",
-            {"count": units.fixed(len(two.elements)), "off": units.percent(two.error.largest)},
-        )
+        off = units.percent(two.error.largest)
+        message = Message("one Maxwell-slip element is off by up to {off}", {"off": off})
+        if len(two.elements) > 1:
+            count = units.fixed(len(two.elements))
+            message = Message("{count} Maxwell-slip elements are off by up to {off}", {"count": count, "off": off})
         found.append(
             units.record(message, id="reversal.slip_elements", subject="slip_elements", value=two.error.largest)
         )
