@@ -31,5 +31,6 @@ def closed_form(*, from_rest=False, lead=0.01, travel=None, steady=STEADY):
     return Reversal(
         screw_angle=angles, travel=angles * lead / (2 * math.pi), screw_torque=sum(parts.values()),
         contributions=parts, steady_torque=sum(steady.values()), steady_contributions=steady,
-        displacement=tuple(1e-5 * shares[n] for n in ("helix",) if n in shares), bristles_over_model=1.0, from_rest=from_rest,
+        displacement=tuple(1e-5 * share for name, share in shares.items() if name == "helix"), bristles_over_model=1.0,
+        from_rest=from_rest,
     )  # fmt: skip
