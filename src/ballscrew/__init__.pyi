@@ -26,6 +26,7 @@ from ballscrew.cases.case_files.oil_library import oils as oils
 from ballscrew.cases.screw_tables.catalogue import screws as screws
 from ballscrew.engine.evaluation.derivatives import derivatives as derivatives
 from ballscrew.engine.evaluation.evaluator import evaluator as evaluator
+from ballscrew.engine.sweeps.reversal import reversal as reversal
 from ballscrew.engine.sweeps.store_check import verify as verify
 from ballscrew.engine.sweeps.sweep import sweep as sweep
 from ballscrew.engine.uncertainty.bands import band as band

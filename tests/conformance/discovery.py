@@ -144,6 +144,8 @@ BY_UNIT = {
     "1/m^2": (1e9, 1e11),
     "1/s": (1e5, 1e7),
     "1/K": (0.01, 0.06),
+    "kg m^2": (1e-4, 1e-2),
+    "N m s/rad": (1e-4, 1e-2),
 }
 
 #: The same by name, where the unit alone does not keep the value in the domain.

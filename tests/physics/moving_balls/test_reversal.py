@@ -42,6 +42,18 @@ def test_it_goes_from_minus_to_plus_the_steady_torque(turned):
     np.testing.assert_allclose(sum(turned.contributions.values()), turned.screw_torque, rtol=1e-12)
 
 
+@pytest.mark.parametrize("travel", [1e-8, 3e-7, 2e-6, 2e-5])
+def test_a_short_travel_is_the_begin_of_the_curve(turned, travel):
+    """Also where it ends before the contacts have wound up."""
+    short = reversal(REFERENCE, SINGLE, OIL, **SLOW, travel=travel)
+    assert np.all(np.diff(short.screw_angle) > 0)
+    assert short.travel[-1] == pytest.approx(travel, rel=1e-12)
+    there = np.interp(short.screw_angle[1:], turned.screw_angle[1:], turned.screw_torque[1:])
+    beyond = short.screw_angle[1:] >= turned.screw_angle[1]
+    # the longer curve has straight lines between fewer angles
+    assert short.screw_torque[1:][beyond] == pytest.approx(there[beyond], abs=2e-3 * turned.steady_torque)
+
+
 @pytest.mark.parametrize(
     ("screw", "oil", "load"), [(PAPER, PAPER_OIL, 500.0), (SINGLE, OIL, 3605.0), (SINGLE, OIL, 15e3)]
 )

@@ -247,9 +247,12 @@ def _angles(curves: list[_Curve], end: Angle) -> Field:
     if not curves:
         return np.linspace(0.0, end, POINTS)
     finest = min(curves, key=lambda curve: curve.angle[1]).angle
+    last = min(end, *(float(curve.angle[-1]) for curve in curves))
     dense = finest[: sum(FINE_CELLS) : 4]
-    rest = np.geomspace(dense[-1], min(end, *(float(curve.angle[-1]) for curve in curves)), POINTS)
-    return np.concatenate([dense, rest[1:]])
+    dense = dense[dense < last]
+    if len(dense) < 2:  # a travel within the first cell
+        return np.linspace(0.0, last, POINTS)
+    return np.concatenate([dense, np.geomspace(dense[-1], last, POINTS)[1:]])
 
 
 def _faults(model: FrictionModel, operation: Mapping[str, Any], travel: Length | None, gap: Ratio) -> list[Fault]:

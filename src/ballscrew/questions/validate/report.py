@@ -31,7 +31,8 @@ _MARKS = {MODEL: ("o", charts.BLUE), CALIBRATION: ("D", charts.RED), RULE: ("|",
 NOT_MEASURED = (
     "The torque of any ball screw with its size, balls, nut, preload, oil, temperature and speed all stated. Of "
     "the one public set of measured screws neither diameter nor nut nor oil is stated.",
-    "A full complement of balls against spacer balls at equal load of each ball: whether neighbours rub on each other.",
+    "A full complement of balls against spacer balls at equal load of each ball: how full the circuits are, on "
+    "which it depends whether neighbours rub on each other.",
     "The same nut with two leads on one diameter: the makers' rules differ there by a factor of two.",
     "The torque of a preloaded nut below 0 °C: whether oil comes back into the track in time.",
     "The gap that is left in a circuit of balls, and the deviation of its grooves over a turn.",
@@ -40,11 +41,12 @@ NOT_MEASURED = (
 #: The day at a rig that would settle it.
 EXPERIMENT = (
     "An adjustable double nut without wipers, its preload measured, torque to 1 mN m, both ways.",
-    "1 to 2000 rpm at 20 and 40 °C: rolling from boundary friction.",
+    "1 to 2000 rpm at 25 and 60 °C: rolling from boundary friction.",
     "Preloads of 2, 5 and 10 % of the rating: the exponent of the load.",
-    "Full complement against spacer balls 1:1 at equal load of each ball: the force between neighbours.",
+    "Full complement against spacer balls 1:1 at equal load of each ball: the fill of the circuits.",
     "Oils of VG 10 and VG 220 at equal temperature: film from boundary friction.",
     "Leads of 5 and 20 mm on one diameter: JIS B 1192 has twice the torque, the rules of Rexroth and HIWIN the same.",
+    "A slow reversal, a triangle below 1 mm/s: over which angle helix slip comes back.",
 )
 
 

@@ -1,0 +1,251 @@
+"""Friction of a case after a reversal or from rest, and the models of control engineering fitted to it."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+from collections.abc import Mapping, Sequence
+from typing import Annotated, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.overflow import overflow_as_input_error
+from ballscrew.basis.quantities import Angle, Info, Length, Quantity, Ratio, RotationalDamping, quantities_of
+from ballscrew.basis.records import Message, Record
+from ballscrew.cases.case_files.case import Case
+from ballscrew.engine.sweeps.reversal import QUANTITIES
+from ballscrew.physics.moving_balls import reversal as moving_balls
+from ballscrew.physics.moving_balls.friction_states import (
+    Dahl,
+    DahlFit,
+    LuGreFit,
+    SlipElementsFit,
+    WindingUp,
+    fit_dahl,
+    fit_dahl_first,
+    fit_lugre,
+    fit_slip_elements,
+)
+from ballscrew.questions.reversal.options import ReversalOptions
+
+#: Shares of the swing whose places are told.
+SHARES = (0.5, 0.63, 0.9, 0.98)
+#: Share of the steady torque that is what a difference of torques leaves.
+_ROUNDING = 1e-12
+#: Step of the speed, as a share, over which the slope of a torque is taken.
+_STEP = 0.01
+#: Travel beyond which the stiffness for tracking is of use, m.
+TRACKING = 1e-4
+#: How far the steady slip torque of the bristles may be from the model's without a word, as a share.
+BRISTLES_OFF = 0.1
+#: The share of which verdicts and captions speak.
+MOST = 0.9
+#: Numbers of Maxwell-slip elements that are fitted.
+COUNTS = (2, 3, 4)
+ANGLE, TORQUE = (QUANTITIES[name] for name in ("screw_angle", "steady_torque"))
+#: In µm, as the first of it are.
+TRAVEL = dataclasses.replace(QUANTITIES["travel"], info=dataclasses.replace(QUANTITIES["travel"].info, shown_in="um"))
+STIFFNESS: Quantity = quantities_of(Dahl)["presliding_stiffness"]
+
+
+class Place(NamedTuple):
+    """Where friction has come back to a share of its swing; zero at once, NaN where it does not within the travel."""
+
+    share: Annotated[Ratio, Info("", "share of the swing of the friction torque")]
+    screw_angle: Annotated[Angle, Info(r"\theta", "angle of the screw at which this share is back", "deg")]
+    travel: Annotated[Length, Info("x", "travel of the nut at which this share is back", "um")]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ReversalReport:
+    """Friction of a case after a reversal, or from rest, with the models fitted to it."""
+
+    case: Case
+    reversal: moving_balls.Reversal
+    curve: WindingUp
+    #: For the first 0.02° alone; None where the curve has too few angles there.
+    first: DahlFit | None
+    tracking: DahlFit
+    lugre: LuGreFit
+    #: With two, three and four elements, as far as they are of use.
+    elements: Sequence[SlipElementsFit]
+
+    @functools.cached_property
+    def places(self) -> Sequence[Place]:
+        """Where the shares of the swing are back, of all friction."""
+        return self._places(np.asarray(self.reversal.screw_torque, dtype=float), float(self.reversal.steady_torque))
+
+    @functools.cached_property
+    def places_by_mechanism(self) -> Mapping[str, Sequence[Place]]:
+        """The same of each part that there is; what follows the direction at once has zeros.
+
+        The swing of a part ends where its curve ends, once all friction is back: the bristles may share the slip in
+        another way than the model does.
+        """
+        steady = {name: float(value) for name, value in self.reversal.steady_contributions.items()}
+        whole = abs(float(self.reversal.steady_torque))
+        back = math.isfinite(self.places[-1].screw_angle)
+        return {
+            name: self._places(np.asarray(values, dtype=float), float(values[-1]) if back else steady[name])
+            for name, values in self.reversal.contributions.items()
+            if abs(steady[name]) > _ROUNDING * whole
+        }
+
+    @property
+    def crosses(self) -> bool:
+        """True where the balls roll across their grooves, so that helix slip comes back over degrees."""
+        return any(np.ptp(np.asarray(one, dtype=float)) > 0 for one in self.reversal.displacement)
+
+    def _places(self, torque: NDArray[np.float64], end: float) -> Sequence[Place]:
+        angle, travel = (np.asarray(one, dtype=float) for one in (self.reversal.screw_angle, self.reversal.travel))
+        shares = (torque - torque[0]) / (end - torque[0])
+        return [Place(share, *_reached(shares, share, angle, travel)) for share in SHARES]
+
+    @property
+    def verdicts(self) -> list[Record]:
+        """Where most of the friction is back, that one stiffness cannot hold it, and how many elements can."""
+        place = next(one for one in self.places if one.share == MOST)
+        share = units.percent(MOST)
+        start = Message("from rest") if self.reversal.from_rest else Message("after a reversal")
+        if math.isfinite(place.screw_angle):
+            values = {
+                "share": share, "start": start, "angle": units.measured(place.screw_angle, ANGLE, 3),
+                "travel": units.measured(place.travel, TRAVEL, 3),
+            }  # fmt: skip
+            message = Message("{start} {share} of the friction is back within {angle} of the screw, {travel}", values)
+        else:
+            end = units.measured(float(np.asarray(self.curve.travel)[-1]), TRAVEL, 3)
+            message = Message(
+                "{start} less than {share} of the friction is back within {end}",
+                {"share": share, "start": start, "end": end},
+            )
+        found = [units.record(message, id="reversal.back", subject="screw_torque", value=place.screw_angle, unit="rad")]
+        two = self.elements[0]
+        if self.first is not None and float(np.asarray(self.curve.travel)[-1]) > TRACKING:
+            first, tracking = self.first.model.presliding_stiffness, self.tracking.model.presliding_stiffness
+            values = {
+                "first": units.measured(first, STIFFNESS, 3), "tracking": units.measured(tracking, STIFFNESS, 3),
+                "off": units.percent(self.tracking.error.largest),
+            }  # fmt: skip
+            message = Message(
+                "one stiffness of Dahl or LuGre is {first} for the first 0.02° and {tracking} for tracking over more "
+                "than 0.1 mm; with the latter the torque is off by up to {off} of the steady one",
+                values,
+            )
+            found.append(
+                units.record(
+                    message,
+                    id="reversal.one_stiffness",
+                    subject="presliding_stiffness",
+                    value=self.tracking.error.largest,
+                )
+            )
+        off = units.percent(two.error.largest)
+        message = Message("one Maxwell-slip element is off by up to {off}", {"off": off})
+        if len(two.elements) > 1:
+            count = units.fixed(len(two.elements))
+            message = Message("{count} Maxwell-slip elements are off by up to {off}", {"count": count, "off": off})
+        found.append(
+            units.record(message, id="reversal.slip_elements", subject="slip_elements", value=two.error.largest)
+        )
+        return found
+
+    @property
+    def warnings(self) -> list[Record]:
+        """That the helix part is a hypothesis, what is known of the first range, and implausible inputs."""
+        found: list[Record] = []
+        if self.crosses:
+            message = Message(
+                "helix slip that comes back over degrees of the screw is a hypothesis: it is computed, and the log of "
+                "one axis (EMPS: guides, an unknown screw) is all that speaks for it"
+            )
+            found.append(units.record(message, id="reversal.hypothesis", subject="helix", severity="warning"))
+        ratio = float(self.reversal.bristles_over_model)
+        if abs(ratio - 1) > BRISTLES_OFF:
+            message = Message(
+                "the bristles that the curve is computed with have {ratio} of the steady slip torque of the model, to "
+                "which the curve is scaled: its shape is as uncertain",
+                {"ratio": units.percent(ratio)},
+            )
+            found.append(
+                units.record(
+                    message, id="reversal.bristles", subject="bristles_over_model", severity="warning", value=ratio,
+                    limit=BRISTLES_OFF,
+                )
+            )  # fmt: skip
+        message = Message("the stiffness of the first hundredths of a degree is known to a factor of three")
+        found.append(units.record(message, id="reversal.first_range", subject="spin_and_curvature", severity="info"))
+        return [*found, *self.case.implausible()]
+
+
+@overflow_as_input_error()
+def reversal(case: Case, options: ReversalOptions) -> ReversalReport:
+    """The reversal of a case at its operating point.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for a screw at rest, which has no direction, and for a travel in
+    which there is no curve.
+    """
+    speed = float(case.operation.screw_speed)
+    if not speed:
+        remedy = 'give the speed that it turns with: --set operation.screw_speed="10 rpm"'
+        raise InputError(Fault("operation.screw_speed", "must not be zero", "0 rpm", remedy))
+    found = moving_balls.reversal(
+        case.model, case.screw, case.lubricant, axial_load=case.operation.axial_load, screw_speed=speed,
+        travel=options.travel, from_rest=options.from_rest, gap=options.gap,
+    )  # fmt: skip
+    return of(case, found, options)
+
+
+def of(case: Case, found: moving_balls.Reversal, options: ReversalOptions) -> ReversalReport:
+    """The report of a reversal that is known."""
+    curve = WindingUp.of(found)
+    fits = (fit_slip_elements(curve, count) for count in COUNTS)
+    return ReversalReport(
+        case=case,
+        reversal=found,
+        curve=curve,
+        first=fit_dahl_first(curve),
+        tracking=fit_dahl(curve),
+        lugre=fit_lugre(
+            curve,
+            screw_speed=float(case.operation.screw_speed),
+            viscous_slope=viscous_slope(case),
+            moment_of_inertia=options.inertia,
+        ),
+        elements=tuple({len(fit.elements): fit for fit in fits}.values()),
+    )
+
+
+def viscous_slope(case: Case) -> RotationalDamping:
+    """Slope of the rolling resistance over the speed at the operating point, N m s/rad.
+
+    Rolling grows with less than the speed, so that this is a tangent; what falls with the speed is not in it.
+    """
+    speed = float(case.operation.screw_speed)
+    ends = (speed * (1 - _STEP), speed * (1 + _STEP))
+    load = case.operation.axial_load
+    slower, faster = (case.model(case.screw, case.lubricant, axial_load=load, screw_speed=each) for each in ends)
+    rolling = [
+        sum(float(one.contributions[name]) for name in moving_balls.MECHANISMS["rolling"]) for one in (slower, faster)
+    ]
+    return (rolling[1] - rolling[0]) / abs(ends[1] - ends[0])
+
+
+def _reached(
+    shares: NDArray[np.float64], share: float, angle: NDArray[np.float64], travel: NDArray[np.float64]
+) -> tuple[float, float]:
+    """Angle and travel at which a share is first reached, on straight lines; NaN where it is not.
+
+    Zero where the first angle beside zero has it: what follows the direction at once.
+    """
+    there = np.flatnonzero(shares >= share)
+    if not there.size:
+        return math.nan, math.nan
+    if there[0] <= 1:
+        return 0.0, 0.0
+    here = slice(int(there[0]) - 1, int(there[0]) + 1)
+    return float(np.interp(share, shares[here], angle[here])), float(np.interp(share, shares[here], travel[here]))
