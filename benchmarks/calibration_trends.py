@@ -8,7 +8,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from ballscrew.evidence.validation.sets import SETS
 from ballscrew.physics.components.conditions import ContactConditions
 from ballscrew.physics.components.film_laws import Inlet, flooded_inlet
 from ballscrew.physics.components.laws import ProportionalBallForce, imposed_ball_force, two_neighbours
+from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.mixed_friction import (
     BalanSharing,
     GreenwoodTrippSharing,
@@ -28,6 +29,7 @@ from ballscrew.physics.components.mixed_friction import (
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.calibrations import calibrated, calibrations
 from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.validate import compute as validation
 
 #: The sets that the calibrations are fitted to, and a column of each that is a maximum and no band.
@@ -142,6 +144,28 @@ def trends_table() -> str:
     return _markdown(lines)
 
 
+class _OfNutsSetAtRest:
+    """A model asked for nuts whose preload was set at rest, where they have two contacts a ball."""
+
+    def __init__(self, model: FrictionModel) -> None:
+        self._model = model
+
+    def __call__(self, screw: BallScrew, oil: Lubricant, **operation: Any) -> FrictionResult:
+        nut: Any = screw.nut
+        braced = dataclasses.replace(nut, set_at_rest=True) if nut.halves == 2 else nut
+        return self._model(dataclasses.replace(screw, nut=braced), oil, **operation)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._model, name)
+
+
+def set_at_rest(model: FrictionModel) -> FrictionModel:
+    """The model, asked for nuts whose preload was set at rest."""
+    return cast("FrictionModel", _OfNutsSetAtRest(model))
+
+
+#: A fill with gaps: a share of the load that rubbing hardly counts with.
+_WITH_GAPS = dataclasses.replace(REFERENCE, ball_force=ProportionalBallForce(0.0005))
 #: One assumption of the reference model changed at a time, by words.
 CHANGES: Mapping[str, FrictionModel] = {
     "as it is": REFERENCE,
@@ -154,9 +178,9 @@ CHANGES: Mapping[str, FrictionModel] = {
     ),
     "boundary friction 0.06, of fresh surfaces": dataclasses.replace(REFERENCE, friction=RunInSharing(0.06)),
     "a full bath of oil": dataclasses.replace(REFERENCE, inlet=flooded_inlet),
-    "force between balls 0.0005 Q, a fill with gaps": dataclasses.replace(
-        REFERENCE, ball_force=ProportionalBallForce(0.0005)
-    ),
+    "force between balls 0.0005 Q, a fill with gaps": _WITH_GAPS,
+    "preload set at rest, balls off their line": set_at_rest(REFERENCE),
+    "both: 0.0005 Q, and set at rest": set_at_rest(_WITH_GAPS),
     "calibration rexroth-2006": calibrated(REFERENCE, calibrations()["rexroth-2006"]),
     "calibration hiwin": calibrated(REFERENCE, calibrations()["hiwin"]),
     "calibration jis": calibrated(REFERENCE, calibrations()["jis"]),
