@@ -106,38 +106,39 @@ def creep_coefficient(
     lateral_slip_speed: Speed,
     spin: AngularSpeed,
     semi_major_axis: Length,
-    entrainment_speed: Speed,
+    ball_speed: Speed,
 ) -> Ratio:
     r"""Force along the path over the load of a ball, for each unit by which its speed deviates from the natural one.
 
-    .. math:: c = \frac{0.87 \mu}{\sqrt{\left(\frac{D}{4 v}\right)^2 + \left(\frac{\Omega a}{6 v}\right)^2}}
+    .. math:: c = \frac{0.95 \mu}{\sqrt{\left(\frac{D}{4 v}\right)^2 + \left(\frac{\Omega a}{6 v}\right)^2}}
 
-    D and Ω are the lateral slip and the spin that both contacts share. Dry friction of contacts that slip anyhow turns
-    with the slip, so that creep meets no threshold. Between the limits :func:`creep_coefficient_of_lateral_slip` and
-    :func:`creep_coefficient_of_spin`; the 0.87 is fitted to the slip over the ellipse, within 3 % at light loads, up to
-    5 % of the rating, and too large where curvature rules. Linear to a twentieth of the load; the force ends at
-    :math:`2 \mu`.
+    D and Ω are the lateral slip and the spin that both contacts share, v the speed of the ball along its path. Dry
+    friction of contacts that slip anyhow turns with the slip, so that creep meets no threshold. Between the limits
+    :func:`creep_coefficient_of_lateral_slip` and :func:`creep_coefficient_of_spin`; the 0.95 is fitted to the slip over
+    the ellipse, within 2 % at 5 % of the dynamic rating, and too large where curvature rules. Linear to a twentieth of
+    the load; the force ends at :math:`2 \mu`.
     """
-    mu, D, Omega, a, v = friction_coefficient, lateral_slip_speed, spin, semi_major_axis, entrainment_speed
+    mu, D, Omega, a, v = friction_coefficient, lateral_slip_speed, spin, semi_major_axis, ball_speed
     xp = namespace(mu, D, Omega, a, v)
-    return 0.87 * mu / xp.sqrt((D / (4 * v)) ** 2 + (Omega * a / (6 * v)) ** 2)
+    return 0.95 * mu / xp.sqrt((D / (4 * v)) ** 2 + (Omega * a / (6 * v)) ** 2)
 
 
 def creep_coefficient_of_lateral_slip(
-    friction_coefficient: Ratio, lateral_slip_speed: Speed, entrainment_speed: Speed
+    friction_coefficient: Ratio, lateral_slip_speed: Speed, ball_speed: Speed
 ) -> Ratio:
     r"""Creep coefficient of contacts that slip across the path and nothing else.
 
     .. math:: c = \frac{4 \mu v}{D}
 
-    Each contact has half of the lateral slip D and turns its friction by the angle of creep over slip.
+    Each contact has half of the lateral slip D and turns its friction by the angle of creep over slip; the speed of the
+    ball changes by the mean of the creeps of both.
     """
-    mu, D, v = friction_coefficient, lateral_slip_speed, entrainment_speed
+    mu, D, v = friction_coefficient, lateral_slip_speed, ball_speed
     return 4 * mu * v / D
 
 
 def creep_coefficient_of_spin(
-    friction_coefficient: Ratio, spin: AngularSpeed, semi_major_axis: Length, entrainment_speed: Speed
+    friction_coefficient: Ratio, spin: AngularSpeed, semi_major_axis: Length, ball_speed: Speed
 ) -> Ratio:
     r"""Creep coefficient of slender contacts that spin and nothing else.
 
@@ -145,7 +146,7 @@ def creep_coefficient_of_spin(
 
     Creep moves the one line of pure rolling; the pressure there is that of the middle.
     """
-    mu, Omega, a, v = friction_coefficient, spin, semi_major_axis, entrainment_speed
+    mu, Omega, a, v = friction_coefficient, spin, semi_major_axis, ball_speed
     return 6 * mu * v / (Omega * a)
 
 
