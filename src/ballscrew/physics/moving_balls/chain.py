@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from ballscrew.basis.errors import Fault, accepts_units, is_concrete, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, Count, Force, Info, Length, Power, Ratio
+from ballscrew.physics.components.chain_force import GRAVITY, STEEL_DENSITY, TURNS_IN_RETURN, WALL_FACTOR
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.components.traits import traits_of
@@ -32,14 +33,6 @@ from ballscrew.physics.moving_balls.loaded_zone import BallsInZone, LoadedZone, 
 
 Field = NDArray[np.float64]
 
-#: Standard gravity, m/s².
-GRAVITY = 9.80665
-#: Density of steel, kg/m³.
-STEEL_DENSITY = 7850.0
-#: Drag of a ball in its return against that in open oil: assumed, known to a factor of three.
-WALL_FACTOR = 10.0
-#: Turns of balls that a return holds where the number is not given: assumed.
-TURNS_IN_RETURN = 0.5
 #: Way of a ball between two moments that are kept, in ball diameters.
 STEP = 0.1
 #: Circulations that are computed, and those at the beginning that do not count.
@@ -285,8 +278,8 @@ def _faults(model: FrictionModel, screw: BallScrew, numbers: dict[str, Any], ret
         return faults
     for name in ("gap", "step", "relief"):
         if not numbers[name] > 0:
-            remedy = {"gap": "usual: 0.05 to 1 ball", "step": "usual: 0.1", "relief": "usual: 0.5 to 4 balls"}[name]
-            faults.append(Fault(f"chain.{name}", "must be positive", f"{numbers[name]:g}", remedy))
+            given = f"{numbers[name]:g}"
+            faults.append(Fault(f"chain.{name}", "must be positive", given, "in ball diameters"))
     for name in ("groove_deviation", "wall_factor"):
         if not numbers[name] >= 0:
             faults.append(Fault(f"chain.{name}", "must not be negative", f"{numbers[name]:g}", "zero is none"))
