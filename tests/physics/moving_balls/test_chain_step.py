@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from scipy.optimize import lsq_linear, nnls
 
-from ballscrew.physics.moving_balls.chain_step import Driven, pushed_balls
+from ballscrew.compiler.kernels.kernel import available
+from ballscrew.physics.moving_balls.chain_step import Driven, compiled_pushed_balls, pushed_balls
 
 #: Chains of random balls.
 SEEDS = range(100)
@@ -87,6 +88,16 @@ def test_the_step_is_an_optimum(seed):
     moving = speed != 0
     assert friction[moving] == pytest.approx(-np.sign(speed[moving]) * balls.resistance[moving], abs=1e-12)
     assert np.all(np.abs(friction[~moving]) <= balls.resistance[~moving] + 1e-12)
+
+
+@pytest.mark.skipif(not available(), reason="the compiler is not installed")
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_kernel_takes_the_same_steps(seed):
+    # 1e-12 is asked for; every operation rounds alike, so that nothing differs
+    balls, touches = random_balls(seed)
+    found = compiled_pushed_balls(np.array(balls), touches)
+    for by_kernel, one in zip(found, solved(balls, touches), strict=True):
+        assert np.array_equal(by_kernel, one)
 
 
 def test_forces_at_rest_are_the_least():
