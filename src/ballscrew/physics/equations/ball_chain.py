@@ -219,7 +219,7 @@ def balls_of_a_turn(path_radius: Length, ball_diameter: Length) -> Ratio:
     return 2 * xp.pi * L / d_w
 
 
-def relative_gap(gap: Ratio, balls: Count, natural_speed_range: Ratio) -> Ratio:
+def relative_gap(gap_in_balls: Ratio, balls: Count, natural_speed_range: Ratio) -> Ratio:
     r"""Gap of a circuit, over its length, against the range of the natural speeds.
 
     .. math:: x = \frac{G}{(N + G) R}
@@ -227,7 +227,7 @@ def relative_gap(gap: Ratio, balls: Count, natural_speed_range: Ratio) -> Ratio:
     The gap G in balls, beside N balls of the circuit. Below a tenth the balls are jammed; above a half they are free:
     balls that have passed the slowest place one after the other have gained more room than they lose at any other.
     """
-    G, N, R = gap, balls, natural_speed_range
+    G, N, R = gap_in_balls, balls, natural_speed_range
     return G / ((N + G) * R)
 
 
