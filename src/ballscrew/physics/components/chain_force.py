@@ -18,8 +18,9 @@ from ballscrew.physics.equations import ball_chain, deflection, kinematics
 GRAVITY, STEEL_DENSITY = 9.80665, 7850.0
 #: Turns of balls that a return holds, and the drag of a ball in it against that in open oil, within a factor of 3.
 TURNS_IN_RETURN, WALL_FACTOR = 0.5, 10.0
-#: Contacts through which the last loaded balls push the return: none to three, one with an end relieved over a ball.
-PUSHING_CONTACTS = 1.0
+#: Contacts through which the last loaded balls push the return: half of the last one where the end of the zone is
+#: relieved over a ball, as runs have it; up to three with longer ends.
+PUSHING_CONTACTS = 0.5
 
 
 class BallInCircuit(NamedTuple):
