@@ -44,8 +44,8 @@ CIRCULATIONS, SETTLING = 3.0, 1.0
 class MovingChain:
     """The balls of a circuit in motion, at moments of equal distance once their order has settled.
 
-    The balls are numbered against the motion of none: ball 1 is the one before ball 0. Means are over all of the time,
-    not over the moments alone.
+    In the arrays each ball is followed by the next one in the direction of motion, and the last by the first. Means are
+    over all of the time, not over the moments alone.
     """
 
     share: Annotated[Ratio, Info("F_B/Q", "force between balls / load of a ball, mean of the loaded balls")]

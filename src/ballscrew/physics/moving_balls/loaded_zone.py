@@ -64,7 +64,8 @@ class Groove:
     def at(self, angle: Any) -> Field:
         """The deviations along the axis and outwards at angles of the groove, m, the direction first."""
         multiples = np.asarray(angle)[..., None] * np.arange(1, self.harmonics.shape[-1] + 1)
-        return np.stack([np.cos(multiples) @ cosine + np.sin(multiples) @ sine for cosine, sine in self.harmonics])
+        waves = np.concatenate([np.cos(multiples), np.sin(multiples)], axis=-1)
+        return np.moveaxis(waves @ self.harmonics.reshape(2, -1).T, -1, 0)
 
     def mirrored(self, angle: Angle) -> Groove:
         """The groove seen in a mirror across its axis: what lay at an angle lies at ``angle`` less that one."""
@@ -185,7 +186,8 @@ class LoadedZone:
         nut = self.nut_groove.at(psi)
         screw = self.screw_groove.at(psi - self.direction * (angle[..., None] if angle.ndim else angle))
         between = nut - screw
-        between[0] *= self.flank
+        if self.flank < 0:
+            between[0] *= -1
         return between, (nut[1] + screw[1]) / 2
 
     def _on_flanks(self, off: Field, lift: Field, inside: Any, displacement: Any) -> tuple[Field, Field]:
