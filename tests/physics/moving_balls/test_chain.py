@@ -4,6 +4,7 @@ import dataclasses
 import math
 
 import numpy as np
+import pint
 import pytest
 
 import ballscrew as bs
@@ -193,11 +194,24 @@ def test_a_constant_load_is_carried_at_each_moment():
     assert axial == pytest.approx([load] * len(axial), rel=1e-9)
 
 
-def test_units_are_accepted_and_arrays_are_not():
+def test_quantities_of_pint():
+    unit = pint.UnitRegistry()
+    part, given = screw(1.0), {"circulations": 1.2}
+    plain = moving(0.1, 1.5e-6, part, **given)
+    found = moving(0.1, 1.5 * unit.um, part, screw_speed=100 * unit.rpm, axial_load=0 * unit.kN, **given)
+    assert found.share == pytest.approx(plain.share, rel=1e-6)
+    with pytest.raises(bs.InputError, match=r"chain\.groove_deviation: wrong unit"):
+        moving(0.1, 1.5 * unit.s, part, **given)
+
+
+def test_what_makes_no_circuit_is_refused():
     with pytest.raises(bs.InputError, match=r"chain\.gap: must be one number"):
         moving(np.array([0.1, 0.2]), 1e-6)
     with pytest.raises(bs.InputError, match=r"chain\.gap: must be positive"):
         moving(0.0, 1e-6)
+    for name in ("seed", "circuits", "return_balls"):
+        with pytest.raises(bs.InputError, match=rf"chain\.{name}: must be a whole number"):
+            moving(0.1, 1e-6, **{name: 1.5})
     with pytest.raises(bs.InputError, match=r"chain\.screw_speed"):
         moving(0.1, 1e-6, screw_speed=0.0)
     with pytest.raises(bs.InputError, match=r"chain\.axial_load"):
