@@ -113,6 +113,9 @@ PARTS += [
         getattr(nut_losses, name)()
         for name in ("JISDrag", "RexrothDrag", "Seals", "LipSeals", "Churning", "HarrisChurning", "Recirculation")
     ),
+    nut_losses.ReturnBraking(),
+    nut_losses.ShearedOil(),
+    nut_losses.SpinUp(),
 ]
 PARTS += [law() for laws in LAWS.values() for law in laws.values() if isinstance(law, type) and fields_of(law)]
 
