@@ -125,7 +125,8 @@ def test_bodies_deviations_and_losses_are_those_of_python():
     inputs = case_file.inputs(case)
     assert inputs["losses"]["recirculation"] == {"law": "force", "return_force": 1.0, "returns": 3}
     assert inputs["bodies"]["same_side"] is False
-    assert inputs["deviations"] == {"ball_diameter": pytest.approx(0.3e-6), "lead": pytest.approx(1e-6), "seed": 7}
+    expected = {"ball_diameter": pytest.approx(0.3e-6), "lead": pytest.approx(1e-6), "seed": 7, "groove": 0.0}
+    assert inputs["deviations"] == expected
 
 
 def test_losses_by_another_law_and_without_a_nut():
