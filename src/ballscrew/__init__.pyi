@@ -70,6 +70,8 @@ from ballscrew.physics.friction.breakaway import breakaway as breakaway
 from ballscrew.physics.friction.model import FrictionModel as FrictionModel
 from ballscrew.physics.friction.nut_friction import nut_friction as nut_friction
 from ballscrew.physics.friction.result import FrictionResult as FrictionResult
+from ballscrew.physics.moving_balls.chain import MovingChain as MovingChain
+from ballscrew.physics.moving_balls.chain import moving_chain as moving_chain
 from ballscrew.physics.sizing.catalogue import catalogue as catalogue
 from ballscrew.physics.sizing.rigidity import AxialRigidity as AxialRigidity
 from ballscrew.physics.sizing.rigidity import rigidity_iso3408 as rigidity_iso3408

@@ -1,0 +1,308 @@
+r"""The balls of a circuit over time: who touches whom, with what force, and what the return costs.
+
+A circuit is a loop of balls with a gap, one part of it the loaded zone
+(:mod:`ballscrew.physics.moving_balls.loaded_zone`), the other the return, where the balls lie still until they are
+pushed. At each step the loop is cut at its largest gap and solved (:mod:`ballscrew.physics.moving_balls.chain_step`);
+the step ends early where a gap closes. So no ball is ever moved by another without a force that does the work, and what
+the races put in is what creep and return take out.
+
+Rigid balls without inertia: 1 N is 0.3 µm of Hertz contact, and a ball coasts less than a tenth of a millimetre up to
+some 600 rpm. Left out: bends in which the return gets longer and shorter, the offset of a ball across its groove, and
+elastic bodies.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import Annotated, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew.basis.errors import Fault, accepts_units, is_concrete, raise_if_any
+from ballscrew.basis.quantities import AngularSpeed, Count, Force, Info, Length, Power, Ratio
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.components.traits import traits_of
+from ballscrew.physics.equations import ball_chain
+from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.moving_balls.chain_step import Driven, pushed_balls
+from ballscrew.physics.moving_balls.loaded_zone import BallsInZone, LoadedZone, loaded_zone
+
+Field = NDArray[np.float64]
+
+#: Standard gravity, m/s².
+GRAVITY = 9.80665
+#: Density of steel, kg/m³.
+STEEL_DENSITY = 7850.0
+#: Drag of a ball in its return against that in open oil: assumed, known to a factor of three.
+WALL_FACTOR = 10.0
+#: Turns of balls that a return holds where the number is not given: assumed.
+TURNS_IN_RETURN = 0.5
+#: Way of a ball between two moments that are kept, in ball diameters.
+STEP = 0.1
+#: Circulations that are computed, and those at the beginning that do not count.
+CIRCULATIONS, SETTLING = 3.0, 1.0
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class MovingChain:
+    """The balls of a circuit in motion, at moments of equal distance once their order has settled.
+
+    The balls are numbered against the motion of none: ball 1 is the one before ball 0. Means are over all of the time,
+    not over the moments alone.
+    """
+
+    share: Annotated[Ratio, Info("F_B/Q", "force between balls / load of a ball, mean of the loaded balls")]
+    contacts: Annotated[Ratio, Info("p", "share of the loaded balls that press on the next one")]
+    power_in: Annotated[Power, Info("P_i", "power of the races on the balls of the circuit, against one another")]
+    power_dissipated: Annotated[Power, Info("P_d", "power that creep and the return take")]
+    exit_push: Annotated[Force, Info("F_e", "force with which the last driven ball pushes the return, mean")]
+    return_resistance: Annotated[Force, Info("f", "force that a ball needs along the return")]
+    #: Angle of the screw at each moment, rad, in the direction in which it turns; shape [moments].
+    angle: Field
+    #: Place of each ball along the circuit from where the loaded zone begins, m; shape [moments, balls].
+    places: Field
+    #: Load of each ball, N; shape [moments, balls].
+    loads: Field
+    #: Force between each ball and the next one in the direction of motion, N; shape [moments, balls].
+    forces: Field
+    #: The loaded zone with its grooves.
+    zone: LoadedZone
+    #: Length of the circuit, m.
+    circuit_length: Length
+
+
+class Circuit(NamedTuple):
+    """A circuit as its balls meet it."""
+
+    zone: LoadedZone
+    balls: int
+    length: Length
+    return_resistance: Force
+
+
+@accepts_units("chain")
+def moving_chain(
+    model: FrictionModel,
+    screw: BallScrew,
+    lubricant: Lubricant,
+    *,
+    axial_load: Force,
+    screw_speed: AngularSpeed,
+    gap: Ratio,
+    groove_deviation: Length,
+    seed: Count,
+    circuits: Count = 1,
+    return_balls: Count | None = None,
+    wall_factor: Ratio = WALL_FACTOR,
+    relief: Ratio = 1.0,
+    keeps_load: bool | None = None,
+    step: Ratio = STEP,
+    circulations: Ratio = CIRCULATIONS,
+) -> MovingChain:
+    """The balls of one of the equal circuits of a nut in motion: a :class:`MovingChain`.
+
+    ``model`` tells the friction of ``screw`` with ``lubricant`` under ``axial_load`` (N) at ``screw_speed`` (rad/s),
+    both of either sign. ``gap`` is the free length of a circuit in balls, above zero. ``groove_deviation`` is the
+    root-mean-square deviation of the place of nut groove against screw groove, along the axis as outwards, m; the same
+    ``seed`` gives the same grooves. The loaded balls of the screw are shared by ``circuits``; ``return_balls`` lie in
+    the return of each, by default half a turn of them, which is assumed. ``wall_factor`` scales the drag of the oil in
+    the return; the default is assumed, and a factor of three uncertain. ``relief`` is the length at either end of the
+    loaded zone over which the load rises, in ball diameters. The balls ``keeps_load`` where their axial load is
+    constant, as by default that of a nut without preload; otherwise the displacement of screw against nut is. ``step``
+    is the way of a ball between two moments, in ball diameters, and ``circulations`` how often each ball passes the
+    loaded zone; the first time does not count.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for arrays, for numbers out of bounds, for a screw at rest,
+    without load, or with spacer balls, and for a model whose slip law knows no slip but that of the curvature.
+    """
+    numbers = {
+        "axial_load": axial_load, "screw_speed": screw_speed, "gap": gap, "groove_deviation": groove_deviation,
+        "seed": seed, "circuits": circuits, "wall_factor": wall_factor, "relief": relief, "step": step,
+        "circulations": circulations,
+    }  # fmt: skip
+    raise_if_any(_faults(model, screw, numbers, return_balls))
+    zone = loaded_zone(
+        model,
+        screw,
+        lubricant,
+        axial_load=axial_load,
+        screw_speed=screw_speed,
+        groove_deviation=groove_deviation,
+        seed=int(seed),
+        circuits=int(circuits),
+        relief=relief,
+        keeps_load=keeps_load,
+    )
+    circuit = circuit_of(model, screw, lubricant, zone, screw_speed, gap, circuits, return_balls, wall_factor)
+    return chain_run(circuit, abs(float(screw_speed)), step, circulations)
+
+
+def circuit_of(
+    model: FrictionModel,
+    screw: BallScrew,
+    lubricant: Lubricant,
+    zone: LoadedZone,
+    screw_speed: AngularSpeed,
+    gap: Ratio,
+    circuits: Count,
+    return_balls: Count | None,
+    wall_factor: Ratio,
+) -> Circuit:
+    """The circuit of a loaded zone with its return."""
+    d_w = screw.ball_diameter
+    resting = return_balls
+    if resting is None:
+        resting = math.ceil(TURNS_IN_RETURN * ball_chain.balls_of_a_turn(zone.path_radius, d_w))
+    balls = max(round(screw.loaded_balls / circuits), 1) + int(resting)
+    resistance = ball_chain.return_resistance(
+        model.ball_friction_coefficient,
+        ball_chain.ball_mass(d_w, STEEL_DENSITY),
+        GRAVITY,
+        lubricant.viscosity,
+        d_w,
+        zone.natural_speed * abs(screw_speed),
+        wall_factor,
+    )
+    return Circuit(zone, balls, float((balls + gap) * d_w), float(resistance))
+
+
+class _Sums:
+    """Integrals over the angle."""
+
+    angle = pressed = load = touching = loaded = power_in = dissipated = pushed = 0.0
+
+
+def chain_run(
+    circuit: Circuit, screw_speed: AngularSpeed, step: Ratio = STEP, circulations: Ratio = CIRCULATIONS
+) -> MovingChain:
+    """The balls of a circuit from rows with equal gaps on, at a speed of the screw without sign."""
+    zone, count = circuit.zone, circuit.balls
+    turned = step * zone.ball_diameter / zone.natural_speed
+    moments = math.ceil(circulations * circuit.length / zone.natural_speed / turned)
+    first = math.floor(SETTLING / circulations * moments)
+    places = np.arange(count) * (circuit.length / count)
+    touches = np.zeros(count, dtype=bool)
+    kept: list[tuple[float, Field, Field, Field]] = []
+    sums = _Sums()
+    for moment in range(moments):
+        start, left = moment * turned, turned
+        fresh = moment >= first
+        while left > 0:
+            here = places % circuit.length
+            balls = zone.at(here, start + turned - left)
+            speed, force, drive = _pushed(circuit, places, touches, balls)
+            if fresh:
+                kept.append((start, here, balls.load, force))
+                fresh = False
+            gaps = _gaps(circuit, places)
+            closing = speed - np.roll(speed, -1)
+            meets = ~touches & (closing > 0)
+            times = np.where(meets, np.maximum(gaps, 0.0) / np.where(meets, closing, 1.0), math.inf)
+            time = min(left, float(np.min(times)))
+            if moment >= first:
+                _add(sums, circuit, time, balls, speed, force, drive)
+            places = places + time * speed
+            if time > 0:
+                touches = touches & (closing >= 0)
+            touches = touches | (meets & (times <= time))
+            left = left - time
+    angle, where, loads, forces = (np.array(each) for each in zip(*kept, strict=True))
+    return MovingChain(
+        share=sums.pressed / sums.load,
+        contacts=sums.touching / sums.loaded,
+        power_in=screw_speed * sums.power_in / sums.angle,
+        power_dissipated=screw_speed * sums.dissipated / sums.angle,
+        exit_push=sums.pushed / sums.angle,
+        return_resistance=circuit.return_resistance,
+        angle=angle,
+        places=where,
+        loads=loads,
+        forces=forces,
+        zone=zone,
+        circuit_length=circuit.length,
+    )
+
+
+def _gaps(circuit: Circuit, places: Field) -> Field:
+    """Gap between each ball and the next one."""
+    ahead = np.roll(places, -1)
+    ahead[-1] += circuit.length
+    return ahead - places - circuit.zone.ball_diameter
+
+
+def _pushed(
+    circuit: Circuit, places: Field, touches: NDArray[np.bool_], balls: BallsInZone
+) -> tuple[Field, Field, Field]:
+    """Speeds, forces between balls and forces of the races, from a loop cut at its largest gap."""
+    gaps = np.where(touches, -math.inf, _gaps(circuit, places))
+    cut = int(np.argmax(gaps)) + 1
+    driven = balls.load > 0
+    row = Driven(
+        *(
+            np.roll(each, -cut).tolist()
+            for each in (
+                np.where(driven, balls.speed, 0.0),
+                balls.creep,
+                balls.limit,
+                np.where(driven, 0.0, circuit.return_resistance),
+            )
+        )
+    )
+    found = pushed_balls(row, np.roll(touches, -cut).tolist())
+    speed, force, drive = (np.roll(each, cut) for each in found)
+    return speed, force, drive
+
+
+def _add(
+    sums: _Sums, circuit: Circuit, time: float, balls: BallsInZone, speed: Field, force: Field, drive: Field
+) -> None:
+    """Add a step to the integrals."""
+    driven = balls.load > 0
+    behind = np.roll(force, 1)
+    sums.angle += time
+    sums.pressed += time * float(np.sum(((force + behind) / 2)[driven]))
+    sums.load += time * float(np.sum(balls.load))
+    sums.touching += time * int(np.sum((force > 0) & driven))
+    sums.loaded += time * int(np.sum(driven))
+    sums.power_in += time * float(np.sum(drive * balls.speed))
+    sums.dissipated += time * float(
+        np.sum(drive * (balls.speed - speed)) + circuit.return_resistance * np.sum(np.abs(speed[~driven]))
+    )
+    leaves = driven & ~np.roll(driven, -1)
+    sums.pushed += time * float(np.sum(force[leaves]))
+
+
+def _faults(model: FrictionModel, screw: BallScrew, numbers: dict[str, Any], return_balls: Any) -> list[Fault]:
+    faults = [
+        Fault(f"chain.{name}", "must be one number", repr(value), "compute one case after the other")
+        for name, value in numbers.items()
+        if not is_concrete(value)
+    ]
+    if faults:
+        return faults
+    for name in ("gap", "step", "relief"):
+        if not numbers[name] > 0:
+            remedy = {"gap": "usual: 0.05 to 1 ball", "step": "usual: 0.1", "relief": "usual: 0.5 to 4 balls"}[name]
+            faults.append(Fault(f"chain.{name}", "must be positive", f"{numbers[name]:g}", remedy))
+    for name in ("groove_deviation", "wall_factor"):
+        if not numbers[name] >= 0:
+            faults.append(Fault(f"chain.{name}", "must not be negative", f"{numbers[name]:g}", "zero is none"))
+    if not numbers["circuits"] >= 1 or numbers["circuits"] % 1:
+        faults.append(Fault("chain.circuits", "must be a whole number", f"{numbers['circuits']:g}", "give 1 or more"))
+    if not numbers["circulations"] > SETTLING:
+        given = f"{numbers['circulations']:g}"
+        faults.append(Fault("chain.circulations", "leaves nothing after the first one", given, "usual: 3"))
+    if not numbers["screw_speed"]:
+        faults.append(Fault("chain.screw_speed", "must not be zero", "0", "the force follows from the motion"))
+    if return_balls is not None and not (is_concrete(return_balls) and return_balls >= 0 and return_balls % 1 == 0):
+        given = repr(return_balls)
+        faults.append(Fault("chain.return_balls", "must be a whole number", given, "give 0 or more, or leave it out"))
+    if traits_of(model.slip).curvature_alone:
+        remedy = 'take the model reference, or slip = "ellipse"'
+        faults.append(Fault("model.slip", "knows no slip but that of the curvature", "", remedy))
+    if screw.nut.spacer_balls:
+        faults.append(Fault("nut.spacer_balls", "part the loaded balls", "", "they do not press on each other"))
+    return faults
