@@ -60,6 +60,8 @@ RESULTS = {
     "BallFriction",
     "FrictionResult",
     "BallLoads",
+    "NamedOrder",
+    "Ripple",
 }
 
 #: Read from files, whose values are text.
