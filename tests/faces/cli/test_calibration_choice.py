@@ -31,6 +31,7 @@ COMMANDS = {
     "check of rows": ("{case}", "--rows", "{rows}"),
     "compare": ("{case}",),
     "sensitivity": ("{case}",),
+    "ripple": ("{case}",),
     "report": ("{case}", "--to", "report.html"),
     "service": ("--case", "{case}", "--torque", "0.4 N m", "--speed", "100 rpm"),
     "fit": ("log.csv", "--case", "{case}"),

@@ -24,6 +24,7 @@ from ballscrew.faces.cli import (
     main,
     optimise,
     report,
+    ripple,
     run,
     select,
     sensitivity,
@@ -46,6 +47,7 @@ from ballscrew.questions.fit.options import FitOptions
 from ballscrew.questions.fit_motion.options import FitMotionOptions
 from ballscrew.questions.hand_over.options import HandOverOptions
 from ballscrew.questions.optimise.options import OptimiseOptions
+from ballscrew.questions.ripple.options import RippleOptions
 from ballscrew.questions.select.options import ListOptions, SelectOptions
 from ballscrew.questions.sensitivity.options import SensitivityOptions
 from ballscrew.questions.service.options import ReadingOptions, ServiceOptions
@@ -65,6 +67,7 @@ COMMANDS = {
     hand_over.hand_over: (HandOverOptions,),
     optimise.optimise: (OptimiseOptions,),
     report.report: (ReportOptions,),
+    ripple.ripple: (RippleOptions,),
     run.run: (BandOptions,),
     select.select: (SelectOptions, ListOptions),
     sensitivity.sensitivity: (SensitivityOptions,),
