@@ -17,7 +17,7 @@ from ballscrew.engine.evaluation import jax_derivatives
 from ballscrew.engine.evaluation.jax_derivatives import jax_value_and_partials
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.physics.components import film_laws, laws, mixed_friction, rolling_laws
+from ballscrew.physics.components import chain_force, film_laws, laws, mixed_friction, rolling_laws
 from ballscrew.physics.solvers.line_slip import line_slip
 
 PRESETS = {
@@ -35,7 +35,12 @@ OTHERS = {
         rolling=rolling_laws.aihara_rolling,
         ball_force=laws.ProportionalBallForce(),
     ),
-    "Arana": dataclasses.replace(reference, full_film=mixed_friction.arana_traction, inlet=film_laws.flooded_inlet),
+    "Arana": dataclasses.replace(
+        reference,
+        full_film=mixed_friction.arana_traction,
+        inlet=film_laws.flooded_inlet,
+        ball_force=chain_force.ChainBallForce(gap=0.03),
+    ),
     "Eyring": dataclasses.replace(
         corrected,
         full_film=mixed_friction.EyringTraction(),

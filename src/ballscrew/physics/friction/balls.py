@@ -11,6 +11,7 @@ import numpy as np
 from ballscrew.basis.arrays import lazy
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Mask, Power, Ratio, Speed, Torque
 from ballscrew.physics.components.balance import Resistances, ball_forces
+from ballscrew.physics.components.chain_force import BallInCircuit, force_between_balls
 from ballscrew.physics.components.conditions import Motion
 from ballscrew.physics.components.contact import Contact, ContactLaws, RaceState, rolling_contact
 from ballscrew.physics.components.frame import Frame
@@ -50,6 +51,11 @@ class BallModel(Protocol):
     @property
     def slip(self) -> Any:
         """The slip law, with its traits."""
+        ...
+
+    @property
+    def ball_force(self) -> Any:
+        """The law of the force between balls, with its traits."""
         ...
 
     @property
@@ -208,7 +214,9 @@ def ball_friction(
     lateral = kinematics.torsion_speed(screw_speed, d_w, frame.lead_angle)
     motion = Motion(v, spin / 2, lateral / 2)
     on_screw, on_nut = ball_contacts(model.contact_laws, screw, lubricant, frame, contact_load, (motion, motion))
-    F_B = laws.ball_force(imposed_ball_force, contact_load)
+    of_a_turn = kinematics.relative_spin(1.0, frame.rolling_plane_sine)
+    ball = BallInCircuit(screw, frame, on_screw, on_nut, of_a_turn, screw_speed, model.ball_friction_coefficient)
+    F_B = force_between_balls(model.ball_force, laws.ball_force, imposed_ball_force, contact_load, ball)
     chain = laws.ball_chain(model.ball_friction_coefficient, F_B, d_w, frame)
     asked = Resistances(
         on_screw.hydrodynamic_rolling_force,
@@ -258,7 +266,8 @@ def idle_ball_friction(
     """
     laws, d_w = model.laws, screw.ball_diameter
     share = 1.0 if traits_of(model.slip).curvature_alone else 0.0
-    F_B = laws.ball_force(imposed_ball_force, np.float64(0.0))
+    nothing = np.float64(0.0)
+    F_B = nothing if traits_of(model.ball_force).reads_ball else laws.ball_force(imposed_ball_force, nothing)
     chain = laws.ball_chain(model.ball_friction_coefficient, F_B, d_w, frame)
     net = chain.net_braking_force
     both, braking = (

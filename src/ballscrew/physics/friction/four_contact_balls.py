@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ballscrew.basis.arrays import namespace, where
 from ballscrew.basis.quantities import Angle, AngularSpeed, Force, Mask, Power, Ratio, Torque
+from ballscrew.physics.components.chain_force import BallInCircuit, force_between_balls
 from ballscrew.physics.components.conditions import Motion
 from ballscrew.physics.components.contact import Contact
+from ballscrew.physics.components.frame import Frame
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import kinematics
@@ -106,7 +108,8 @@ def four_contact_friction(
         contacts = ball_contacts(model.contact_laws, at_angle, lubricant, frame, computed, motions)
         pairs.append(LoadedFlanks(load, at_angle.contact_angle, *contacts))
     frame = laws.frame(screw)
-    F_B = laws.ball_force(imposed_ball_force, both)
+    ball = _in_circuit(model, screw, frame, pairs, omega)
+    F_B = force_between_balls(model.ball_force, laws.ball_force, imposed_ball_force, both, ball)
     chain = laws.ball_chain(model.ball_friction_coefficient, F_B, screw.ball_diameter, frame)
     one, other = (FlankPair(pair.screw, pair.nut, pair.angle) for pair in pairs)
     slip = four_point_slip(
@@ -138,6 +141,20 @@ def four_contact_friction(
     angle = where(both > 0, angle, screw.contact_angle)
     two = two_contact_friction(model, screw, lubricant, both, angle, omega, imposed_ball_force)
     return _on_two_where(lifted, found, two)
+
+
+def _in_circuit(
+    model: BallModel, screw: BallScrew, frame: Frame, pairs: Sequence[LoadedFlanks], screw_speed: AngularSpeed
+) -> BallInCircuit:
+    """The ball as a law of the force between balls may read it, with the spin of the pair that carries the load."""
+    one, other = pairs
+    both = one.load + other.load
+    xp = namespace(both, one.angle)
+    forced = kinematics.relative_spin(1.0, frame.rolling_plane_sine)
+    rotation = kinematics.ball_rotation(frame.entrainment_speed(1.0), screw.ball_diameter)
+    share = where(both > 0, xp.maximum(one.load - other.load, 0.0) / where(both > 0, both, 1.0), 0.0)
+    spin = forced + 2 * (1 - share) * rotation * xp.tan(screw.contact_angle)
+    return BallInCircuit(screw, frame, one.screw, one.nut, spin, screw_speed, model.ball_friction_coefficient)
 
 
 def two_contact_friction(

@@ -13,7 +13,7 @@ from typing import Any
 from ballscrew.basis.errors import Fault, nearest
 from ballscrew.basis.quantities import Quantity, fields_of
 from ballscrew.basis.records import Message
-from ballscrew.physics.components import film_laws, frame, laws, mixed_friction, rolling_laws
+from ballscrew.physics.components import chain_force, film_laws, frame, laws, mixed_friction, rolling_laws
 from ballscrew.physics.solvers.ellipse_slip import ellipse_slip
 from ballscrew.physics.solvers.line_slip import line_slip
 from ballscrew.physics.solvers.pure_rolling import curvature_slip
@@ -59,7 +59,11 @@ LAWS: Mapping[str, Mapping[str, Any]] = {
         "opposed-neighbours": laws.opposed_neighbours,
         "parted-neighbours": laws.parted_neighbours,
     },
-    "ball_force": {"imposed": laws.imposed_ball_force, "proportional": laws.ProportionalBallForce},
+    "ball_force": {
+        "imposed": laws.imposed_ball_force,
+        "proportional": laws.ProportionalBallForce,
+        "chain": chain_force.ChainBallForce,
+    },
     "race_torques": {"printed": laws.printed_race_torques, "balanced": laws.balanced_race_torques},
     "ideal_torque": {"printed": laws.printed_ideal_torque, "virtual-work": laws.virtual_work_torque},
 }

@@ -14,6 +14,7 @@ from ballscrew.basis.arrays import ByValue, as_array, lazy, same
 from ballscrew.basis.errors import Fault, accepts_units, faults_of, names_keywords, raise_if_any
 from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Ratio, Temperature, fields_of
+from ballscrew.physics.components.chain_force import CircuitForceLaw
 from ballscrew.physics.components.contact import ContactLaws
 from ballscrew.physics.components.film_laws import HamrockDowson, Inlet, ideal_inlet, root_sum_square_film_parameter
 from ballscrew.physics.components.film_laws import literal_film_parameter as printed_film_parameter
@@ -104,7 +105,7 @@ class FrictionModel(ByValue):
     #: Law of the contact of a ball with its neighbours.
     ball_chain: BallChainLaw
     #: Net braking force between neighbouring balls, N.
-    ball_force: BallForceLaw = imposed_ball_force
+    ball_force: BallForceLaw | CircuitForceLaw = imposed_ball_force
     #: Friction torque of one ball on screw and nut, N m.
     race_torques: RaceTorqueLaw
     #: Drive torque without friction, N m.

@@ -22,24 +22,18 @@ from numpy.typing import NDArray
 
 from ballscrew.basis.errors import Fault, accepts_units, is_concrete, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, Count, Force, Info, Length, Power, Ratio
+from ballscrew.compiler.kernels.kernel import available
+from ballscrew.physics.components.chain_force import GRAVITY, STEEL_DENSITY, TURNS_IN_RETURN, WALL_FACTOR
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.equations import ball_chain
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.physics.moving_balls.chain_step import Driven, pushed_balls
+from ballscrew.physics.moving_balls.chain_step import Driven, compiled_pushed_balls, pushed_balls
 from ballscrew.physics.moving_balls.loaded_zone import BallsInZone, LoadedZone, loaded_zone
 
 Field = NDArray[np.float64]
 
-#: Standard gravity, m/s².
-GRAVITY = 9.80665
-#: Density of steel, kg/m³.
-STEEL_DENSITY = 7850.0
-#: Drag of a ball in its return against that in open oil: assumed, known to a factor of three.
-WALL_FACTOR = 10.0
-#: Turns of balls that a return holds where the number is not given: assumed.
-TURNS_IN_RETURN = 0.5
 #: Way of a ball between two moments that are kept, in ball diameters.
 STEP = 0.1
 #: Circulations that are computed, and those at the beginning that do not count.
@@ -50,8 +44,8 @@ CIRCULATIONS, SETTLING = 3.0, 1.0
 class MovingChain:
     """The balls of a circuit in motion, at moments of equal distance once their order has settled.
 
-    The balls are numbered against the motion of none: ball 1 is the one before ball 0. Means are over all of the time,
-    not over the moments alone.
+    In the arrays each ball is followed by the next one in the direction of motion, and the last by the first. Means are
+    over all of the time, not over the moments alone.
     """
 
     share: Annotated[Ratio, Info("F_B/Q", "force between balls / load of a ball, mean of the loaded balls")]
@@ -176,14 +170,24 @@ class _Sums:
 
 
 def chain_run(
-    circuit: Circuit, screw_speed: AngularSpeed, step: Ratio = STEP, circulations: Ratio = CIRCULATIONS
+    circuit: Circuit,
+    screw_speed: AngularSpeed,
+    step: Ratio = STEP,
+    circulations: Ratio = CIRCULATIONS,
+    *,
+    compiled: bool | None = None,
 ) -> MovingChain:
-    """The balls of a circuit from rows with equal gaps on, at a speed of the screw without sign."""
+    """The balls of a circuit from rows with equal gaps on, at a speed of the screw without sign.
+
+    Its steps are ``compiled`` by default where the compiler is installed, with the same result.
+    """
     zone, count = circuit.zone, circuit.balls
+    by_kernel = available() if compiled is None else compiled
     turned = step * zone.ball_diameter / zone.natural_speed
     moments = math.ceil(circulations * circuit.length / zone.natural_speed / turned)
     first = math.floor(SETTLING / circulations * moments)
     places = np.arange(count) * (circuit.length / count)
+    ahead = (np.arange(count) + 1) % count
     touches = np.zeros(count, dtype=bool)
     kept: list[tuple[float, Field, Field, Field]] = []
     sums = _Sums()
@@ -193,19 +197,20 @@ def chain_run(
         while left > 0:
             here = places % circuit.length
             balls = zone.at(here, start + turned - left)
-            speed, force, drive = _pushed(circuit, places, touches, balls)
+            gaps = places[ahead] - places - zone.ball_diameter
+            gaps[-1] += circuit.length
+            speed, force, drive = _pushed(circuit, gaps, touches, balls, by_kernel)
             if fresh:
                 kept.append((start, here, balls.load, force))
                 fresh = False
-            gaps = _gaps(circuit, places)
-            closing = speed - np.roll(speed, -1)
+            closing = speed - speed[ahead]
             meets = ~touches & (closing > 0)
             times = np.where(meets, np.maximum(gaps, 0.0) / np.where(meets, closing, 1.0), math.inf)
             time = min(left, float(np.min(times)))
             if moment >= first:
-                _add(sums, circuit, time, balls, speed, force, drive)
+                _add(sums, circuit, time, balls, speed, force, drive, ahead)
             places = places + time * speed
-            if time > 0:
+            if time > 0:  # a pair that parts in no time touches until it has parted, so that no two take turns for ever
                 touches = touches & (closing >= 0)
             touches = touches | (meets & (times <= time))
             left = left - time
@@ -226,53 +231,56 @@ def chain_run(
     )
 
 
-def _gaps(circuit: Circuit, places: Field) -> Field:
-    """Gap between each ball and the next one."""
-    ahead = np.roll(places, -1)
-    ahead[-1] += circuit.length
-    return ahead - places - circuit.zone.ball_diameter
-
-
 def _pushed(
-    circuit: Circuit, places: Field, touches: NDArray[np.bool_], balls: BallsInZone
+    circuit: Circuit, gaps: Field, touches: NDArray[np.bool_], balls: BallsInZone, by_kernel: bool
 ) -> tuple[Field, Field, Field]:
     """Speeds, forces between balls and forces of the races, from a loop cut at its largest gap."""
-    gaps = np.where(touches, -math.inf, _gaps(circuit, places))
-    cut = int(np.argmax(gaps)) + 1
+    count = gaps.size
+    cut = int(np.argmax(np.where(touches, -math.inf, gaps))) + 1
+    order = (np.arange(count) + cut) % count
     driven = balls.load > 0
-    row = Driven(
-        *(
-            np.roll(each, -cut).tolist()
-            for each in (
-                np.where(driven, balls.speed, 0.0),
-                balls.creep,
-                balls.limit,
-                np.where(driven, 0.0, circuit.return_resistance),
-            )
-        )
+    row = np.stack(
+        [
+            np.where(driven, balls.speed, 0.0),
+            balls.creep,
+            balls.limit,
+            np.where(driven, 0.0, circuit.return_resistance),
+        ]
+    )[:, order]
+    found = np.empty((3, count))
+    found[:, order] = (
+        compiled_pushed_balls(row, touches[order])
+        if by_kernel
+        else pushed_balls(Driven(*row.tolist()), touches[order].tolist())
     )
-    found = pushed_balls(row, np.roll(touches, -cut).tolist())
-    speed, force, drive = (np.roll(each, cut) for each in found)
+    speed, force, drive = found
     return speed, force, drive
 
 
 def _add(
-    sums: _Sums, circuit: Circuit, time: float, balls: BallsInZone, speed: Field, force: Field, drive: Field
+    sums: _Sums,
+    circuit: Circuit,
+    time: float,
+    balls: BallsInZone,
+    speed: Field,
+    force: Field,
+    drive: Field,
+    ahead: NDArray[np.int_],
 ) -> None:
     """Add a step to the integrals."""
     driven = balls.load > 0
-    behind = np.roll(force, 1)
+    both = np.empty_like(force)
+    both[ahead] = (force + force[ahead]) / 2  # of the contacts behind and in front of a ball
+    leaves = driven & ~driven[ahead]
     sums.angle += time
-    sums.pressed += time * float(np.sum(((force + behind) / 2)[driven]))
+    sums.pressed += time * float(both @ driven)
     sums.load += time * float(np.sum(balls.load))
-    sums.touching += time * int(np.sum((force > 0) & driven))
-    sums.loaded += time * int(np.sum(driven))
-    sums.power_in += time * float(np.sum(drive * balls.speed))
-    sums.dissipated += time * float(
-        np.sum(drive * (balls.speed - speed)) + circuit.return_resistance * np.sum(np.abs(speed[~driven]))
-    )
-    leaves = driven & ~np.roll(driven, -1)
-    sums.pushed += time * float(np.sum(force[leaves]))
+    sums.touching += time * int(np.count_nonzero((force > 0) & driven))
+    sums.loaded += time * int(np.count_nonzero(driven))
+    sums.power_in += time * float(drive @ balls.speed)
+    resisted = circuit.return_resistance * float(np.abs(speed) @ ~driven)
+    sums.dissipated += time * (float(drive @ (balls.speed - speed)) + resisted)
+    sums.pushed += time * float(force @ leaves)
 
 
 def chain_faults(model: FrictionModel, screw: BallScrew, numbers: dict[str, Any], return_balls: Any) -> list[Fault]:
@@ -286,8 +294,8 @@ def chain_faults(model: FrictionModel, screw: BallScrew, numbers: dict[str, Any]
         return faults
     for name in ("gap", "step", "relief"):
         if not numbers[name] > 0:
-            remedy = {"gap": "usual: 0.05 to 1 ball", "step": "usual: 0.1", "relief": "usual: 0.5 to 4 balls"}[name]
-            faults.append(Fault(f"chain.{name}", "must be positive", f"{numbers[name]:g}", remedy))
+            given = f"{numbers[name]:g}"
+            faults.append(Fault(f"chain.{name}", "must be positive", given, "in ball diameters"))
     for name in ("groove_deviation", "wall_factor"):
         if not numbers[name] >= 0:
             faults.append(Fault(f"chain.{name}", "must not be negative", f"{numbers[name]:g}", "zero is none"))

@@ -21,6 +21,11 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
+from ballscrew.compiler.kernels.pooled_row import pooled_row
+
 
 class Pushed(NamedTuple):
     """Speeds of balls in a row, the last one first, and what each presses the next one with."""
@@ -39,6 +44,11 @@ class Driven(NamedTuple):
     slope: Sequence[float]
     limit: Sequence[float]
     resistance: Sequence[float]
+
+
+def compiled_pushed_balls(balls: NDArray[np.float64], touches: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """The same as :func:`pushed_balls` by a kernel, as arrays, with the fields in rows."""
+    return pooled_row(np.concatenate([balls, touches[None].astype(float)]))
 
 
 def pushed_balls(balls: Driven, touches: Sequence[bool]) -> Pushed:

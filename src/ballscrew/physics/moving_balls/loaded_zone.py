@@ -28,6 +28,7 @@ from ballscrew.physics.components.nut import OversizeBallNut
 from ballscrew.physics.components.screw import SINGLE_NUT, BallScrew
 from ballscrew.physics.equations import deflection, geometry, kinematics
 from ballscrew.physics.friction.balls import ball_friction
+from ballscrew.physics.friction.four_contact_balls import four_contact_friction
 from ballscrew.physics.friction.loaded_balls import loads_of
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.solvers.load_distribution import pair_load_deflection
@@ -41,9 +42,6 @@ HARMONICS = 3
 CREEP_LOADS = np.geomspace(0.02, 5.0, 14)
 #: Push, over the load, whose slip is the slope: far below the limit of friction, far above the rounding of the solver.
 PUSH = 0.01
-#: Creep of a ball on four contacts against one on two, for each unit of load: its contacts spin by the tangent of the
-#: contact angle of the rolling, which leaves friction little to hold its speed with.
-FOUR_CONTACTS = 0.25
 #: Newton's steps to the displacement under which the balls of a moment carry the load, and what counts as carried.
 STEPS, CARRIED = 50, 1e-13
 
@@ -66,7 +64,8 @@ class Groove:
     def at(self, angle: Any) -> Field:
         """The deviations along the axis and outwards at angles of the groove, m, the direction first."""
         multiples = np.asarray(angle)[..., None] * np.arange(1, self.harmonics.shape[-1] + 1)
-        return np.stack([np.cos(multiples) @ cosine + np.sin(multiples) @ sine for cosine, sine in self.harmonics])
+        waves = np.concatenate([np.cos(multiples), np.sin(multiples)], axis=-1)
+        return np.moveaxis(waves @ self.harmonics.reshape(2, -1).T, -1, 0)
 
     def mirrored(self, angle: Angle) -> Groove:
         """The groove seen in a mirror across its axis: what lay at an angle lies at ``angle`` less that one."""
@@ -169,7 +168,6 @@ class LoadedZone:
         xi: Any = self.displacement if self.axial_load is None else self._carrying(off, lift, inside)
         load, alpha = self._on_flanks(off, lift, inside, xi)
         speed = self._speed(alpha, shift)
-        quarter = 1.0
         if self.four_contacts:
             back, behind = self._on_flanks(
                 off * np.array([-1.0, 1.0]).reshape(2, *[1] * places.ndim), lift, inside, -xi
@@ -177,9 +175,9 @@ class LoadedZone:
             both = load + back
             share = np.divide(load, both, out=np.full_like(both, 0.5), where=both > 0)
             speed = share * speed + (1 - share) * self._speed(behind, shift)
-            load, quarter = both, FOUR_CONTACTS
+            load = both
         coefficient, limit = self.creep.at(load)
-        return BallsInZone(load, alpha, speed, quarter * coefficient * load / speed, limit * load)
+        return BallsInZone(load, alpha, speed, coefficient * load / speed, limit * load)
 
     def _deviations(self, places: Field, angle: Any) -> tuple[Field, Field]:
         """Deviations of nut against screw, towards the flank and outwards, and the shift of the path."""
@@ -188,7 +186,8 @@ class LoadedZone:
         nut = self.nut_groove.at(psi)
         screw = self.screw_groove.at(psi - self.direction * (angle[..., None] if angle.ndim else angle))
         between = nut - screw
-        between[0] *= self.flank
+        if self.flank < 0:
+            between[0] *= -1
         return between, (nut[1] + screw[1]) / 2
 
     def _on_flanks(self, off: Field, lift: Field, inside: Any, displacement: Any) -> tuple[Field, Field]:
@@ -244,30 +243,46 @@ def creep(
     lubricant: Lubricant,
     contact_load: Force,
     screw_speed: AngularSpeed,
+    *,
+    four_contacts: bool = False,
 ) -> Creep:
-    """What the contacts of a ball on two contacts do against a push along its path, by the slip law of the model.
+    """What the contacts of a ball do against a push along its path, by the slip law of the model.
 
-    ``contact_load`` is one load or some, ascending; the balls of ``screw`` have its contact angle.
+    ``contact_load`` is one load or some, ascending, on one pair of flanks or, with ``four_contacts``, half of it on
+    each of two; the balls of ``screw`` have its contact angle.
     """
     pushed = dataclasses.replace(
         model, ball_chain=one_neighbour, ball_force=imposed_ball_force, ball_friction_coefficient=0.0
     )
-    frame, omega = model.laws.frame(screw), abs(screw_speed)
-    Q = np.atleast_1d(np.asarray(contact_load, dtype=float))
-    speeds: list[Any] = []
-    for push in (-PUSH * Q, PUSH * Q):
-        found = ball_friction(pushed, screw, lubricant, frame, Q, omega, push)
-        on_screw, on_nut = found.screw, found.nut
-        w = kinematics.ball_surface_speed(
-            found.entrainment_speed, on_screw.creep_speed, on_nut.creep_speed,
-            on_screw.contact_radius, on_nut.contact_radius, frame.path_radius,
-        )  # fmt: skip
-        rotation = kinematics.orbital_rotation(w + on_nut.creep_speed, on_nut.contact_radius)
-        speeds.append(kinematics.orbital_speed(rotation, frame.path_radius))
-    faster, slower = speeds  # the push is against the motion
-    coefficient = 2 * PUSH / ((faster - slower) / ((faster + slower) / 2))
-    limit = found.screw.friction_coefficient + found.nut.friction_coefficient
+    Q, omega = np.atleast_1d(np.asarray(contact_load, dtype=float)), abs(screw_speed)
+    speed_at = _speed_on_four if four_contacts else _speed_on_two
+    (faster, _), (slower, limit) = (speed_at(pushed, screw, lubricant, Q, omega, push * Q) for push in (-PUSH, PUSH))
+    coefficient = 2 * PUSH / ((faster - slower) / ((faster + slower) / 2))  # the push is against the motion
     return Creep(Q, np.broadcast_to(coefficient, Q.shape), np.broadcast_to(limit, Q.shape))
+
+
+def _speed_on_two(
+    model: FrictionModel, screw: BallScrew, lubricant: Lubricant, load: Field, omega: AngularSpeed, push: Field
+) -> tuple[Field, Field]:
+    """Speed of a ball on two contacts that is pushed back, and the friction of both over the load."""
+    found = ball_friction(model, screw, lubricant, model.laws.frame(screw), load, omega, push)
+    on_screw, on_nut, L = found.screw, found.nut, found.frame.path_radius
+    w = kinematics.ball_surface_speed(
+        found.entrainment_speed, on_screw.creep_speed, on_nut.creep_speed,
+        on_screw.contact_radius, on_nut.contact_radius, L,
+    )  # fmt: skip
+    speed = kinematics.orbital_speed(kinematics.orbital_rotation(w + on_nut.creep_speed, on_nut.contact_radius), L)
+    return speed, on_screw.friction_coefficient + on_nut.friction_coefficient
+
+
+def _speed_on_four(
+    model: FrictionModel, screw: BallScrew, lubricant: Lubricant, load: Field, omega: AngularSpeed, push: Field
+) -> tuple[Field, Field]:
+    """The same on four contacts: the torque that a push asks for is the push at the speed of the ball."""
+    each = (load / 2, screw.contact_angle)
+    found = four_contact_friction(model, screw, lubricant, (each, each), omega, push)
+    speed = omega * found.contributions["chain_braking"] / (push * found.rolling_share)
+    return speed, found.screw.friction_coefficient + found.nut.friction_coefficient
 
 
 def loaded_zone(
@@ -322,7 +337,7 @@ def loaded_zone(
         ball_excess=float(delta - (s - A)) if four else 0.0,
         nut_groove=nut_groove,
         screw_groove=screw_groove,
-        creep=creep(model, at_angle, lubricant, load * CREEP_LOADS, screw_speed),
+        creep=creep(model, at_angle, lubricant, load * CREEP_LOADS, screw_speed, four_contacts=four),
         displacement=float(s * np.sin(alpha) - A * np.sin(screw.contact_angle)),
         axial_load=float(abs(axial_load) / circuits if four else carried) if keeps else None,
         nominal_load=float(load),
