@@ -132,8 +132,8 @@ def test_braking_of_the_return_is_its_force_along_the_path(seed_screw, seed_oil)
 
 
 def test_braking_of_the_return_is_dry_at_rest_and_viscous_in_motion(seed_screw, seed_oil):
-    law = ReturnBraking(return_balls=8, ball_density=7800.0, return_friction=0.1)
-    mass = 7800.0 * math.pi / 6 * seed_screw.ball_diameter**3
+    law = ReturnBraking(return_balls=8, ball_density=7850.0, return_friction=0.1)
+    mass = 7850.0 * math.pi / 6 * seed_screw.ball_diameter**3
     assert law.force(seed_screw, seed_oil, 0.0) == pytest.approx(0.1 * 8 * mass * 9.80665, rel=1e-12)
     smooth = dataclasses.replace(law, return_friction=0.0)
     stokes = Churning(1.0, balls=8)(seed_screw, dataclasses.replace(seed_oil, density=500.0), 1e-6)
@@ -170,7 +170,7 @@ def test_balls_that_enter_cost_the_cube_of_the_speed(seed_screw, seed_oil):
     assert 2 * SPEED * SpinUp(entries=1)(seed_screw, seed_oil, 2 * SPEED) == pytest.approx(8 * power, rel=1e-14)
     # a ball that rolls has 0.7 m v^2, of which 0.2 is its rotation: spun up, it costs twice that, to the curvature
     advance = Recirculation(return_force=1.0)(seed_screw, seed_oil, SPEED)
-    mass, speed = 7800.0 * math.pi / 6 * seed_screw.ball_diameter**3, advance * SPEED
+    mass, speed = 7850.0 * math.pi / 6 * seed_screw.ball_diameter**3, advance * SPEED
     rate = speed / seed_screw.ball_diameter
     gamma = 1 - 2 * advance / math.hypot(seed_screw.pitch_circle_diameter / 2, seed_screw.lead / 2 / math.pi)
     assert power == pytest.approx(0.4 * mass * (speed * (1 + gamma)) ** 2 * rate, rel=0.01)

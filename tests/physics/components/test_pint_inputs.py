@@ -60,6 +60,7 @@ RESULTS = {
     "BallFriction",
     "FrictionResult",
     "BallLoads",
+    "MovingChain",
     "NamedOrder",
     "Ripple",
 }

@@ -93,24 +93,6 @@ def test_drag_of_harris_is_near_the_pressure_on_the_cross_section(speed):
     assert force == pytest.approx(pressure_force * (2 * speed) ** -0.05, rel=1e-12)
 
 
-# -- braking of the return ------------------------------------------------------------------------
-
-
-def test_a_dry_return_has_the_weight_of_its_balls():
-    # 6 mm of steel: 0.88 g
-    assert nut_losses.ball_mass(7800.0, 6e-3) == pytest.approx(0.8822e-3, rel=1e-4)
-    weight = nut_losses.ball_weight(7800.0, 6e-3, 9.80665)
-    assert weight == pytest.approx(9.80665 * nut_losses.ball_mass(7800.0, 6e-3), rel=RELATIVE)
-    assert nut_losses.return_ball_force(0.1, weight, 0.0, **OIL) == pytest.approx(0.1 * weight, rel=RELATIVE)
-    assert nut_losses.return_ball_force(0.1, weight, 10.0, 0.1, 6e-3, 0.0) == pytest.approx(0.1 * weight, rel=RELATIVE)
-
-
-def test_a_wall_far_away_leaves_the_force_of_stokes():
-    stokes = nut_losses.ball_drag_force(1.0, **OIL, ball_reynolds_number=0.0)
-    assert nut_losses.return_ball_force(0.0, 1.0, 1.0, **OIL) == pytest.approx(stokes, rel=RELATIVE)
-    assert nut_losses.return_ball_force(0.0, 1.0, 10.0, **OIL) == pytest.approx(10 * stokes, rel=RELATIVE)
-
-
 # -- oil between balls ----------------------------------------------------------------------------
 
 

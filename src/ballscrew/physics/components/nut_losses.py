@@ -19,17 +19,16 @@ from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, InputError, accepts_units, faults_of, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, Count, Density, Force, Info, Length, Ratio, Speed, Torque
 from ballscrew.basis.records import Message
+from ballscrew.physics.components.chain_force import GRAVITY, STEEL_DENSITY, WALL_FACTOR
 from ballscrew.physics.components.frame import helix_frame
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.equations import geometry, kinematics, nut_losses, preload, transmission
+from ballscrew.physics.equations import ball_chain, geometry, kinematics, nut_losses, preload, transmission
 
 #: Coefficients behind the no-load torques of Rexroth2006: their middle meets the tables within their digits.
 DOUBLE_NUT_DRAG = 0.0040
 OVERSIZE_BALL_DRAG = 0.0100
 
-#: Of steel balls, kg/m^3, and the acceleration of free fall, m/s^2.
-STEEL_DENSITY, GRAVITY = 7800.0, 9.80665
 #: Shear in the gap to a ball that turns as the oil drives it, a quarter as fast and the other way, over that between
 #: balls that turn alike. The moment on a sphere by its own turning is 1/5 and by its neighbour's 1/20 of one size
 #: (JeffreyOnishi1984): (1/5 - 1/4/20) / 2 / (1/5 + 1/20).
@@ -338,7 +337,7 @@ BallDensity = Annotated[
         r"\rho_b",
         "density of the balls",
         above=0,
-        hint="steel has 7800 kg/m^3, silicon nitride 3200 kg/m^3",
+        hint="steel has 7850 kg/m^3, silicon nitride 3200 kg/m^3",
         usual=(2000.0, 20000.0),
     ),
 ]
@@ -370,7 +369,7 @@ class ReturnBraking(ByValue):
             hint="of order 10; no measured value is known",
             usual=(1.0, 100.0),
         ),
-    ] = 10.0
+    ] = WALL_FACTOR
     return_friction: Annotated[
         Ratio, Info(r"\mu_r", "friction coefficient of balls on the wall", at_least=0, hint="0.1", usual=(0.0, 1.0))
     ] = 0.1
@@ -390,9 +389,9 @@ class ReturnBraking(ByValue):
     def force(self, screw: BallScrew, lubricant: Lubricant, screw_speed: AngularSpeed) -> Force:
         """Force against the balls in one return, N."""
         d_w, v_o = screw.ball_diameter, _orbital_speed(screw, screw_speed)
-        weight = nut_losses.ball_weight(self.ball_density, d_w, GRAVITY)
-        of_ball = nut_losses.return_ball_force(
-            self.return_friction, weight, self.wall_factor, lubricant.viscosity, d_w, v_o
+        mass = ball_chain.ball_mass(d_w, self.ball_density)
+        of_ball = ball_chain.return_resistance(
+            self.return_friction, mass, GRAVITY, lubricant.viscosity, d_w, v_o, self.wall_factor
         )
         return self.return_balls * of_ball
 
@@ -456,7 +455,7 @@ class SpinUp(ByValue):
         """Torque on the screw, N m; the same with any ``lubricant``."""
         frame, d_w = helix_frame(screw), screw.ball_diameter
         surface_speed = frame.entrainment_speed(screw_speed)  # of a ball that rolls: ω_b d_w/2
-        mass = nut_losses.ball_mass(self.ball_density, d_w)
+        mass = ball_chain.ball_mass(d_w, self.ball_density)
         work = nut_losses.entry_work(mass, _orbital_speed(screw, screw_speed), surface_speed, self.lost_speed)
         return nut_losses.entry_torque(self.entries, work, _path_advance(screw), d_w)
 

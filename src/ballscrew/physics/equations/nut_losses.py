@@ -6,7 +6,6 @@ from typing import Annotated
 
 from ballscrew.basis.arrays import namespace
 from ballscrew.basis.quantities import (
-    Acceleration,
     AngularSpeed,
     Array,
     Count,
@@ -100,49 +99,6 @@ def ball_drag_force_harris(
     X, C_v, rho, d_w, v_o = oil_share, drag_coefficient, density, ball_diameter, orbital_speed
     xp = namespace(X, C_v, rho, d_w, v_o)
     return xp.pi * X * C_v * rho * d_w**2 * (2 * v_o) ** 1.95 / 32
-
-
-def ball_weight(ball_density: Density, ball_diameter: Length, gravity: Acceleration) -> Force:
-    r"""Weight of a ball.
-
-    .. math:: W = \frac{\pi}{6} \rho_b g d_w^3
-    """
-    rho_b, d_w, g = ball_density, ball_diameter, gravity
-    xp = namespace(rho_b, d_w, g)
-    return xp.pi / 6 * rho_b * g * d_w**3
-
-
-def ball_mass(ball_density: Density, ball_diameter: Length) -> Mass:
-    r"""Mass of a ball.
-
-    .. math:: m = \frac{\pi}{6} \rho_b d_w^3
-    """
-    rho_b, d_w = ball_density, ball_diameter
-    xp = namespace(rho_b, d_w)
-    return xp.pi / 6 * rho_b * d_w**3
-
-
-def return_ball_force(
-    return_friction: Ratio,
-    ball_weight: Force,
-    wall_factor: Ratio,
-    viscosity: Viscosity,
-    ball_diameter: Length,
-    orbital_speed: Speed,
-) -> Force:
-    r"""Force that a ball is pushed through the return with, where no race drives it.
-
-    .. math:: f = \mu W + 3 \pi k_w \eta_0 d_w v_o
-
-    Its weight rubs on the wall, and the oil around it is sheared: the drag of a sphere far from walls, times a factor
-    for a wall that is close. On the axis of a tube twice as wide as the sphere it is about 6 (HabermanSayre1958, as
-    recalled), and it grows without limit as the tube narrows; a return has oil on some of its wall, and balls that
-    shield each other. The 10 of :class:`~ballscrew.physics.components.nut_losses.ReturnBraking` is an assumption, to a
-    factor of three: no measured value is known. The weight counts as if it lay on the wall all the way.
-    """
-    mu, W, k_w, eta_0, d_w, v_o = return_friction, ball_weight, wall_factor, viscosity, ball_diameter, orbital_speed
-    xp = namespace(mu, W, k_w, eta_0, d_w, v_o)
-    return mu * W + 3 * xp.pi * k_w * eta_0 * d_w * v_o
 
 
 def ball_turns(path_radius: Length, curvature_ratio: Ratio, ball_diameter: Length) -> Ratio:

@@ -16,8 +16,9 @@ from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity, quantities_of
 from ballscrew.basis.records import Measured, Message, Record
 from ballscrew.cases.case_files.case import Case
+from ballscrew.physics.components.chain_force import ChainBallForce
 from ballscrew.physics.components.nut_losses import ReturnBraking
-from ballscrew.physics.moving_balls.chain import WALL_FACTOR
+from ballscrew.physics.equations import ball_chain
 from ballscrew.physics.moving_balls.ripple import (
     Defect,
     FullCircuit,
@@ -52,6 +53,7 @@ _FLAGS: Mapping[str, str] = {
 }
 _WIDTH = Quantity("width", "m", Info("w", "width of a spall", "mm"))
 _DEPTH = Quantity("depth", "m", Info("t", "depth of a spall", "um"))
+_DEVIATION = Quantity("groove_deviation", "m", Info("e", "deviation of the grooves, root mean square", "um"))
 _KNOWN = quantities_of(Ripple)
 
 
@@ -69,7 +71,8 @@ class RippleReport:
     """The torque of a nut over the angle, and with faults."""
 
     case: Case
-    options: RippleOptions
+    #: What the torque was computed with beside the case, assumed numbers too.
+    given: Mapping[str, Any]
     ripple: Ripple
     #: By what was written.
     faults: Mapping[str, Ripple]
@@ -84,14 +87,14 @@ class RippleReport:
     def assumed(self) -> Sequence[Message]:
         """What a catalogue does not print, and what is left out."""
         numbers = {
-            "gap": units.as_written(f"{self.options.gap:g}"),
-            "deviation": Measured(self.options.groove_deviation, Quantity("e", "m", Info("e", "", "um"))),
-            "circuits": str(self.options.circuits),
+            "gap": units.as_written(f"{self.given['gap']:g}"),
+            "deviation": Measured(self.given["groove_deviation"], _DEVIATION),
+            "circuits": str(self.given["circuits"]),
         }
         return [
             Message(
-                "room of {gap} balls in each circuit, grooves {deviation} off (root mean square), {circuits} circuits "
-                "in each half: no catalogue has them"
+                "in each circuit room for {gap} balls, grooves {deviation} off (root mean square), circuits in each "
+                "half: {circuits}; no catalogue has them"
             ).of(**numbers),
             Message("each circuit has grooves of its own; bodies are rigid, and balls have no inertia"),
             Message("seals and other losses are left out"),
@@ -147,7 +150,7 @@ def ripple_of(case: Case, options: RippleOptions) -> RippleReport:
     defects = defects_of(asked)
     if options.seeds < 1:
         raise InputError(Fault("--seeds", "must be at least one", str(options.seeds), "leave it out, or give 8"))
-    given = _given(case, options)
+    given = given_of(case, options)
 
     def run(defect: Defect | None = None, seed: int = options.seed) -> Ripple:
         return torque_ripple(case.model, case.screw, case.lubricant, **given, seed=seed, defect=defect)
@@ -158,23 +161,31 @@ def ripple_of(case: Case, options: RippleOptions) -> RippleReport:
         others = [run(seed=options.seed + i) for i in range(1, options.seeds)]
     except InputError as error:
         raise InputError(*(dataclasses.replace(f, where=_FLAGS.get(f.where, f.where)) for f in error.faults)) from None
-    return RippleReport(case, options, usual, faults, _range([usual, *others]))
+    return RippleReport(case, given, usual, faults, _range([usual, *others]))
 
 
-def _given(case: Case, options: RippleOptions) -> dict[str, Any]:
-    """What the physics is asked with; a return that the case describes is that of the chain."""
-    law = case.screw.nut.losses.get("recirculation")
-    known = law if isinstance(law, ReturnBraking) and law.return_balls else None
-    balls, factor = options.return_balls, options.wall_factor
-    if known is not None:
-        balls = known.return_balls if balls is None else balls
-        factor = known.wall_factor if factor is None else factor
+def given_of(case: Case, options: RippleOptions) -> Mapping[str, Any]:
+    """What the physics is asked with: as written, else as the case has it, else as is assumed.
+
+    A case may describe its circuits by the law of the force between balls, and its returns by that of their losses.
+    """
+    screw, force = case.screw, case.model.ball_force
+    law = force if isinstance(force, ChainBallForce) else ChainBallForce()
+    turn = ball_chain.balls_of_a_turn(case.model.laws.frame(screw).path_radius, screw.ball_diameter)
+    known: dict[str, Any] = {
+        "gap": law.gap, "groove_deviation": law.groove_deviation, "circuits": max(1, round(float(law.circuits))),
+        "wall_factor": law.wall_factor, "return_balls": math.ceil(law.return_turns * turn),
+    }  # fmt: skip
+    loss = screw.nut.losses.get("recirculation")
+    if isinstance(loss, ReturnBraking) and loss.return_balls:
+        known |= {"wall_factor": loss.wall_factor, "return_balls": loss.return_balls}
+    written = {name: getattr(options, name) for name in known}
     return {
         "axial_load": float(case.operation.axial_load),
         "screw_speed": float(case.operation.screw_speed),
-        "return_balls": balls,
-        "wall_factor": WALL_FACTOR if factor is None else factor,
-        **{name: getattr(options, name) for name in ("gap", "groove_deviation", "circuits", "relief", "turns")},
+        **known,
+        **{name: value for name, value in written.items() if value is not None},
+        **{name: getattr(options, name) for name in ("relief", "turns")},
     }
 
 

@@ -11,7 +11,10 @@ from ballscrew.questions.shared.options import Option
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class RippleOptions:
-    """What is asked of the torque over the angle; numbers in SI."""
+    """What is asked of the torque over the angle; numbers in SI.
+
+    What is left out is that of the law ``chain`` of the force between balls, where the case has it.
+    """
 
     fault: Annotated[
         Sequence[str],
@@ -21,15 +24,15 @@ class RippleOptions:
             metavar="FAULT",
         ),
     ] = ()
-    gap: Annotated[float, Option("Room in each circuit, in balls; assumed.", metavar="BALLS", above=0)] = 0.5
+    gap: Annotated[float | None, Option("Room in each circuit, in balls, else 0.55; assumed.", metavar="BALLS")] = None
     groove_deviation: Annotated[
-        float,
+        float | None,
         Option(
-            'Of nut groove against screw groove, root mean square: "1 um"; assumed.', metavar="LENGTH", unit="m",
+            'Of nut groove against screw groove, root mean square, else "1 um"; assumed.', metavar="LENGTH", unit="m",
             shown_in="um", at_least=0, hint="grooves have 0.5 um to 2 um",
         ),
-    ] = 1e-6  # fmt: skip
-    circuits: Annotated[int, Option("Circuits of each half; assumed to be one.", metavar="NUMBER")] = 1
+    ] = None  # fmt: skip
+    circuits: Annotated[int | None, Option("Circuits of each half, else one; assumed.", metavar="NUMBER")] = None
     return_balls: Annotated[
         int | None, Option("Balls in the return of each circuit, else half a turn of them.", metavar="NUMBER")
     ] = None
