@@ -16,6 +16,7 @@ from ballscrew.engine.evaluation.plan import Configuration, Plan
 from ballscrew.engine.evaluation.recordings import UnknownPartError, key_of
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 from ballscrew.physics.components import laws
+from ballscrew.physics.components.chain_force import ChainBallForce
 from ballscrew.physics.equations import film
 
 MODELS = {name: getattr(bs.FrictionModel, name)() for name in ("olaru2005", "corrected", "reference")}
@@ -151,6 +152,7 @@ def test_every_number_counts(name):
         {"model": {"friction": bs.ZhouHoeprich(0.1)}},
         {"model": {"ball_friction_coefficient": 0.05}},
         {"model": {"ball_force": laws.imposed_ball_force, "ball_to_ball_force": 0.05}},
+        {"model": {"ball_force": ChainBallForce(gap=0.0)}},
         {"model": {"ball_chain": laws.one_neighbour}},
         {"sweep": {"lead": 0.006}},
         {"sweep": {"friction.decay": 2.0}},

@@ -162,3 +162,18 @@ def test_gap_deviation_and_walls_are_uncertain():
     assert ends["wall_factor"] == pytest.approx([10 / 3, 30], rel=1e-6)
     assert "ball_force.share_of_load" not in usual
     assert "ball_to_ball_force" not in usual
+
+
+def test_slopes_at_no_gap_and_at_no_deviation_are_numbers():
+    # jammed, the gap changes nothing at first; in perfect grooves a deviation does not where there is room for it
+    for law in (ChainBallForce(gap=0.0), ChainBallForce(groove_deviation=0.0)):
+        model = dataclasses.replace(REFERENCE, ball_force=law)
+        found = bs.derivatives(
+            model, DOUBLE, OIL, by=["ball_force.gap", "ball_force.groove_deviation"], axial_load=0.0, screw_speed=OMEGA
+        )
+        assert float(found["d_screw_torque_d_ball_force_gap"]) == pytest.approx(0.0, abs=1e-12)
+        by_deviation = float(found["d_screw_torque_d_ball_force_groove_deviation"])
+        if law.gap == 0:
+            assert by_deviation * 1e-6 == pytest.approx(float(found["screw_torque"]) * 0.332, rel=0.01)
+        else:
+            assert abs(by_deviation * 1e-6) < 1e-6 * float(found["screw_torque"])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from typing import Annotated, Any, NamedTuple, Protocol
 
-from ballscrew.basis.arrays import ByValue, where
+from ballscrew.basis.arrays import ByValue, namespace, where
 from ballscrew.basis.errors import faults_of, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Ratio
 from ballscrew.physics.components.contact import Contact
@@ -21,6 +21,8 @@ TURNS_IN_RETURN, WALL_FACTOR = 0.5, 10.0
 #: Contacts through which the last loaded balls push the return: half of the last one where the end of the zone is
 #: relieved over a ball, as runs have it; up to three with longer ends.
 PUSHING_CONTACTS = 0.5
+#: Deviation of the natural speed below which grooves count as perfect: that of an atom.
+SMALLEST_DEVIATION = 1e-9
 
 
 class BallInCircuit(NamedTuple):
@@ -133,8 +135,8 @@ class ChainBallForce(ByValue):
         loaded, resting = part.loaded_balls / self.circuits, self.return_turns * balls_of_a_turn
         A = deflection.groove_centre_distance(part.screw_conformity, part.nut_conformity, d_w)
         epsilon = ball_chain.rms_speed_deviation(gamma, part.contact_angle, self.groove_deviation, A)
-        # without deviations nothing presses, whatever the gap
-        spread = ball_chain.natural_speed_range(where(epsilon > 0, epsilon, 1.0))
+        xp = namespace(epsilon)
+        spread = ball_chain.natural_speed_range(xp.maximum(epsilon, SMALLEST_DEVIATION))
         x = ball_chain.relative_gap(self.gap, loaded + resting, spread)
         share = ball_chain.chain_force_share(self._creep(ball), epsilon, balls_of_a_turn, ball_chain.pushing_share(x))
         speed = _ball_speed(ball) * ball.screw_speed

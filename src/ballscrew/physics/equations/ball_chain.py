@@ -234,16 +234,16 @@ def relative_gap(gap_in_balls: Ratio, balls: Count, natural_speed_range: Ratio) 
 def pushing_share(relative_gap: Ratio) -> Ratio:
     r"""Share of the force of a jammed circuit that is left where its balls have a gap.
 
-    .. math:: Y = \exp\left(-\left(\frac{x}{0.2}\right)^{1.5}\right)
-        + \left(1 - \exp\left(-\left(\frac{x}{0.2}\right)^{1.5}\right)\right) \frac{0.03}{1 + x^2}
+    .. math:: Y = \exp\left(-\frac{x^2}{0.1 (x + 0.1)}\right)
+        + \left(1 - \exp\left(-\frac{x^2}{0.1 (x + 0.1)}\right)\right) \frac{0.03}{1 + x^2}
 
     A fit to runs of :func:`ballscrew.moving_chain` with a 40×10, a 63×10 and a 16×5 and deviations of 0.7 and 1.5 µm,
-    means of four seeds of grooves: within a factor of two of all of them up to one. Beyond, where hardly anything is
+    means of four seeds of grooves: within a factor of 2.1 of all of them up to one. Beyond, where hardly anything is
     left, they scatter by ten either way: what is left there is that of balls which an error of their grooves unloads.
     """
     x = relative_gap
     xp = namespace(x)
-    jammed = xp.exp(-((x / 0.2) ** 1.5))
+    jammed = xp.exp(-(x**2) / (0.1 * (x + 0.1)))
     return jammed + (1 - jammed) * 0.03 / (1 + x**2)
 
 
