@@ -16,8 +16,9 @@ from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.schema.case_schema import NUT_TABLES, json_schema, validated
 from ballscrew.cases.screw_tables.nut_kinds import NUTS, kind_of
+from ballscrew.engine.evaluation.outputs import inputs_of
 from ballscrew.physics.components.nut import Bodies, Deviations
-from ballscrew.physics.components.nut_losses import LipSeals, Seals
+from ballscrew.physics.components.nut_losses import LipSeals, ReturnBraking, Seals, ShearedOil, SpinUp
 from ballscrew.physics.sizing.ratings import ratings_of
 from ballscrew.questions.run.compute import run
 
@@ -124,7 +125,8 @@ def test_bodies_deviations_and_losses_are_those_of_python():
     inputs = case_file.inputs(case)
     assert inputs["losses"]["recirculation"] == {"law": "force", "return_force": 1.0, "returns": 3}
     assert inputs["bodies"]["same_side"] is False
-    assert inputs["deviations"] == {"ball_diameter": pytest.approx(0.3e-6), "lead": pytest.approx(1e-6), "seed": 7}
+    expected = {"ball_diameter": pytest.approx(0.3e-6), "lead": pytest.approx(1e-6), "seed": 7, "groove": 0.0}
+    assert inputs["deviations"] == expected
 
 
 def test_losses_by_another_law_and_without_a_nut():
@@ -135,6 +137,30 @@ def test_losses_by_another_law_and_without_a_nut():
     spheres = case_file.build(tables(losses={"churning": {"oil_share": 1}}))
     assert "SchillerNaumann1933" in case_file.references(spheres)
     assert "SchillerNaumann1933" not in case_file.references(case)
+
+
+def test_losses_of_moving_balls_are_added_to_those_of_the_case():
+    """Each is an input by name, and the torque is that of the case and of the three laws."""
+    losses = {
+        "recirculation": {"law": "braking", "return_balls": 8, "wall_factor": 20, "returns": 3},
+        "sheared_oil": {"oil_share": 0.5, "oil_gap": "30 um"},
+        "spin_up": {"entries": 3},
+    }
+    single = {"nut": {"type": "single"}}
+    case, bare = case_file.build(tables(losses=losses, **single)), case_file.build(tables(**single))
+    found, without = run(case).friction, run(bare).friction
+    screw, speed = case.screw, float(found.screw_speed)
+    laws = [
+        ReturnBraking(return_balls=8, wall_factor=20.0, returns=3),
+        ShearedOil(oil_share=0.5, oil_gap=30e-6),
+        SpinUp(entries=3),
+    ]
+    expected = {name: law(screw, case.lubricant, speed) for name, law in zip(losses, laws, strict=True)}
+    assert min(expected.values()) > 0
+    assert {name: found.contributions[name] for name in losses} == pytest.approx(expected, rel=1e-12)
+    assert found.screw_torque - without.screw_torque == pytest.approx(sum(expected.values()), rel=1e-9)
+    assert "JeffreyOnishi1984" in case_file.references(case)
+    assert "losses.recirculation.wall_factor" in inputs_of(case.model, screw, case.lubricant)
 
 
 def test_rows_of_a_file_beside_the_case(tmp_path):

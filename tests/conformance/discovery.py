@@ -133,6 +133,7 @@ BY_UNIT = {
     "Pa": (1e9, 3e11),
     "1/Pa": (1e-8, 3e-8),
     "m/s": (0.01, 5.0),
+    "J": (1e-5, 1e-2),
     "rad/s": (1.0, 300.0),
     "Pa s": (0.01, 0.5),
     "m^2/s": (1e-6, 5e-4),
@@ -189,6 +190,7 @@ BY_NAME = {
     "low_number": (40.0, 500.0),
     "material_parameter": (1000.0, 10000.0),
     "maximum_pressure": (5e8, 3e9),
+    "oil_gap": (1e-6, 1e-3),
     "mean_pressure": (5e8, 2e9),
     "nut_conformity": (0.51, 0.56),
     # so light that some loads set a half free

@@ -333,6 +333,7 @@ def test_every_source_is_known_and_every_reason_said():
 def test_every_input_in_the_file_exists(seed_screw):
     """Each is an input of some model and a preloaded nut, so that no name is misspelt."""
     from ballscrew.cases.schema.case_schema import LAWS
+    from ballscrew.cases.screw_tables.nut_kinds import LOSSES
     from ballscrew.engine.evaluation.outputs import inputs_of
 
     model = bs.FrictionModel.reference()
@@ -345,6 +346,9 @@ def test_every_input_in_the_file_exists(seed_screw):
         for name in inputs_of(dataclasses.replace(model, **{slot: law() if isinstance(law, type) else law}), screw, oil)
     }
     names |= {f"surroundings.{name}" for name in VARIED}
+    losses = {slot: law() for slot, laws in LOSSES.items() for law in laws.values()}  # of a slot the last law
+    nut = bs.DoubleNut(1000.0, losses=losses)
+    names |= set(inputs_of(model, dataclasses.replace(seed_screw, nut=nut), oil))
     assert set(default_uncertainties()) - names == {"viscosity_of_grade", "viscosity_of_sheet"}
 
 

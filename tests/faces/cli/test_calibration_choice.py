@@ -32,6 +32,7 @@ COMMANDS = {
     "compare": ("{case}",),
     "sensitivity": ("{case}",),
     "reversal": ("{case}",),
+    "ripple": ("{case}",),
     "report": ("{case}", "--to", "report.html"),
     "service": ("--case", "{case}", "--torque", "0.4 N m", "--speed", "100 rpm"),
     "fit": ("log.csv", "--case", "{case}"),

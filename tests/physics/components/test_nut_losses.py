@@ -16,13 +16,16 @@ from ballscrew.physics.components.nut_losses import (
     JISDrag,
     LipSeals,
     Recirculation,
+    ReturnBraking,
     RexrothDrag,
     Seals,
+    ShearedOil,
+    SpinUp,
     seal_table,
 )
 
 SPEED = 20 * math.pi
-PARASITIC = [Seals, LipSeals, Churning, HarrisChurning, Recirculation]
+PARASITIC = [Seals, LipSeals, Churning, HarrisChurning, Recirculation, ReturnBraking, ShearedOil, SpinUp]
 #: One of each that loses something.
 ACTIVE = [
     Seals(0.4),
@@ -30,6 +33,9 @@ ACTIVE = [
     Churning(oil_share=0.5),
     HarrisChurning(oil_share=0.5),
     Recirculation(return_force=0.4, returns=3),
+    ReturnBraking(return_balls=8, returns=3),
+    ShearedOil(oil_share=0.5),
+    SpinUp(entries=3),
 ]
 ROW = {"preload_force": 3000.0, "nominal_diameter": 0.040, "pitch_circle_diameter": 0.04175, "lead": 0.010}
 
@@ -116,6 +122,62 @@ def test_work_of_a_return_is_force_times_way(seed_screw, seed_oil):
     assert work == pytest.approx(3 * 0.4 * math.pi * 100.0 / 2, rel=1e-4)
 
 
+def test_braking_of_the_return_is_its_force_along_the_path(seed_screw, seed_oil):
+    law = ReturnBraking(return_balls=8, returns=3)
+    force = law.force(seed_screw, seed_oil, SPEED)
+    expected = Recirculation(return_force=force, returns=3)(seed_screw, seed_oil, SPEED)
+    assert law(seed_screw, seed_oil, SPEED) == pytest.approx(expected, rel=1e-14)
+    twice = dataclasses.replace(law, return_balls=16).force(seed_screw, seed_oil, SPEED)
+    assert twice == pytest.approx(2 * force, rel=1e-14)
+
+
+def test_braking_of_the_return_is_dry_at_rest_and_viscous_in_motion(seed_screw, seed_oil):
+    law = ReturnBraking(return_balls=8, ball_density=7850.0, return_friction=0.1)
+    mass = 7850.0 * math.pi / 6 * seed_screw.ball_diameter**3
+    assert law.force(seed_screw, seed_oil, 0.0) == pytest.approx(0.1 * 8 * mass * 9.80665, rel=1e-12)
+    smooth = dataclasses.replace(law, return_friction=0.0)
+    stokes = Churning(1.0, balls=8)(seed_screw, dataclasses.replace(seed_oil, density=500.0), 1e-6)
+    assert smooth(seed_screw, seed_oil, 1e-6) == pytest.approx(10 * stokes, rel=1e-3)
+
+
+def test_sheared_oil_counts_the_gaps_it_is_given(seed_screw, seed_oil):
+    one = ShearedOil(1.0, balls=1)(seed_screw, seed_oil, SPEED)
+    assert ShearedOil(1.0)(seed_screw, seed_oil, SPEED) == pytest.approx(seed_screw.loaded_balls * one, rel=1e-14)
+    assert ShearedOil(0.5, balls=1)(seed_screw, seed_oil, SPEED) == pytest.approx(one / 2, rel=1e-14)
+    # in a rather small gap as two spheres of JeffreyOnishi1984 on both sides of it
+    rotation = bs.FrictionModel.reference()(seed_screw, seed_oil, axial_load=1e3, screw_speed=SPEED).frame
+    rotation = 2 * rotation.entrainment_speed(SPEED) / seed_screw.ball_diameter
+    size = 8 * math.pi * seed_oil.viscosity * (seed_screw.ball_diameter / 2) ** 3 * rotation
+    tiny = ShearedOil(1.0, 1e-6, balls=1)(seed_screw, seed_oil, SPEED)
+    tinier = ShearedOil(1.0, 1e-7, balls=1)(seed_screw, seed_oil, SPEED)
+    expected = 2 * size * (1 / 5 + 1 / 20) * math.log(10) * rotation / SPEED
+    assert tinier - tiny == pytest.approx(expected, rel=1e-3)
+
+
+def test_a_spacer_turns_where_its_neighbours_leave_it_without_moment(seed_screw, seed_oil):
+    # moments by own rotation and by that of a neighbour, 1/5 and 1/20: a free spacer turns by a quarter, and back
+    own, other = 1 / 5, 1 / 20
+    spacer = -other / own
+    ratio = (own + other * spacer) * 1 / (2 * (own + other))
+    parted = dataclasses.replace(seed_screw, nut=bs.SingleNut(spacer_balls=True))
+    law = ShearedOil(1.0)
+    found = law(parted, seed_oil, SPEED) / law(seed_screw, seed_oil, SPEED)
+    assert found == pytest.approx(ratio, rel=1e-14)
+
+
+def test_balls_that_enter_cost_the_cube_of_the_speed(seed_screw, seed_oil):
+    power = SPEED * SpinUp(entries=1)(seed_screw, seed_oil, SPEED)
+    assert 2 * SPEED * SpinUp(entries=1)(seed_screw, seed_oil, 2 * SPEED) == pytest.approx(8 * power, rel=1e-14)
+    # a ball that rolls has 0.7 m v^2, of which 0.2 is its rotation: spun up, it costs twice that, to the curvature
+    advance = Recirculation(return_force=1.0)(seed_screw, seed_oil, SPEED)
+    mass, speed = 7850.0 * math.pi / 6 * seed_screw.ball_diameter**3, advance * SPEED
+    rate = speed / seed_screw.ball_diameter
+    gamma = 1 - 2 * advance / math.hypot(seed_screw.pitch_circle_diameter / 2, seed_screw.lead / 2 / math.pi)
+    assert power == pytest.approx(0.4 * mass * (speed * (1 + gamma)) ** 2 * rate, rel=0.01)
+    stopped = SPEED * SpinUp(entries=1, lost_speed=1.0)(seed_screw, seed_oil, SPEED)
+    assert stopped - power == pytest.approx(mass * speed**2 * rate, rel=1e-12)
+
+
 # -- the table of seals ---------------------------------------------------------------------------
 
 
@@ -171,6 +233,12 @@ def test_outside_the_table_the_nearest_row_is_named(diameter, lead, nearest):
         (HarrisChurning, "drag_coefficient", -0.4),
         (Recirculation, "return_force", math.inf),
         (Recirculation, "returns", 0.5),
+        (ReturnBraking, "return_balls", 7.5),
+        (ReturnBraking, "wall_factor", -1.0),
+        (ShearedOil, "oil_gap", 0.0),
+        (ShearedOil, "oil_share", 1.1),
+        (SpinUp, "entries", -1),
+        (SpinUp, "lost_speed", 1.1),
     ],
 )
 def test_bad_input_is_refused(law, field, bad):

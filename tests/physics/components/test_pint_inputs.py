@@ -60,6 +60,9 @@ RESULTS = {
     "BallFriction",
     "FrictionResult",
     "BallLoads",
+    "MovingChain",
+    "NamedOrder",
+    "Ripple",
 }
 
 #: Read from files, whose values are text.
@@ -113,6 +116,9 @@ PARTS += [
         getattr(nut_losses, name)()
         for name in ("JISDrag", "RexrothDrag", "Seals", "LipSeals", "Churning", "HarrisChurning", "Recirculation")
     ),
+    nut_losses.ReturnBraking(),
+    nut_losses.ShearedOil(),
+    nut_losses.SpinUp(),
 ]
 PARTS += [law() for laws in LAWS.values() for law in laws.values() if isinstance(law, type) and fields_of(law)]
 

@@ -25,6 +25,7 @@ from ballscrew.faces.cli import (
     optimise,
     report,
     reversal,
+    ripple,
     run,
     select,
     sensitivity,
@@ -48,6 +49,7 @@ from ballscrew.questions.fit_motion.options import FitMotionOptions
 from ballscrew.questions.hand_over.options import HandOverOptions
 from ballscrew.questions.optimise.options import OptimiseOptions
 from ballscrew.questions.reversal.options import ReversalOptions
+from ballscrew.questions.ripple.options import RippleOptions
 from ballscrew.questions.select.options import ListOptions, SelectOptions
 from ballscrew.questions.sensitivity.options import SensitivityOptions
 from ballscrew.questions.service.options import ReadingOptions, ServiceOptions
@@ -68,6 +70,7 @@ COMMANDS = {
     optimise.optimise: (OptimiseOptions,),
     report.report: (ReportOptions,),
     reversal.reversal: (ReversalOptions,),
+    ripple.ripple: (RippleOptions,),
     run.run: (BandOptions,),
     select.select: (SelectOptions, ListOptions),
     sensitivity.sensitivity: (SensitivityOptions,),

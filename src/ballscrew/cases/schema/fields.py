@@ -95,6 +95,7 @@ EXAMPLES: Mapping[str, str | float] = {
     # two fields of [deviations] are called as those of [screw]: they go by their symbols
     "s_w": "0.3 um",
     "s_h": "1 um",
+    "groove": "1 um",
 }
 
 

@@ -32,7 +32,9 @@ _IN_WORDS: Mapping[str, str] = {
 LOSSES: Mapping[str, Mapping[str, type[ParasiticLaw]]] = {
     "seals": {"known": nut_losses.Seals, "lips": nut_losses.LipSeals},
     "churning": {"spheres": nut_losses.Churning, "harris": nut_losses.HarrisChurning},
-    "recirculation": {"force": nut_losses.Recirculation},
+    "recirculation": {"force": nut_losses.Recirculation, "braking": nut_losses.ReturnBraking},
+    "sheared_oil": {"gaps": nut_losses.ShearedOil},
+    "spin_up": {"entries": nut_losses.SpinUp},
     "constant": {"known": nut_losses.ConstantTorque},
 }
 #: How the ends of a shaft are held.

@@ -103,7 +103,8 @@ def default_distributions(
         if name not in inputs or name in given or name in exact or not _counts(name, model, lubricant, exact):
             continue
         part, quantity = inputs[name]
-        value = operator.attrgetter(name)(parts[part])
+        of_loss = name.startswith("losses.")
+        value = screw.nut.value_of(name) if of_loss else operator.attrgetter(name)(parts[part])
         if value is None and name == "ball_to_ball_force":
             value = model.imposed_ball_force(screw)
         if value is None:

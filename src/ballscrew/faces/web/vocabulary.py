@@ -241,6 +241,6 @@ def _known_results() -> dict[str, Quantity]:
 
 def _mechanisms() -> dict[str, Any]:
     """The parts of the torque in words, and their colours; losses of the nut come after the balls."""
-    more = ("#999999", "#8A6FB0", "#5B1A3A", "#6B5B00")
+    more = ("#999999", "#8A6FB0", "#5B1A3A", "#2F6B7A", "#B07A4A", "#6B5B00")
     parts = {name: {"words": words, "colour": MECHANISM_COLOURS[name]} for name, words in MECHANISMS.items()}
     return parts | {slot: {"words": slot, "colour": colour} for slot, colour in zip(LOSSES, more, strict=True)}

@@ -19,7 +19,7 @@ from ballscrew.basis.errors import (
     names_keywords,
     raise_if_any,
 )
-from ballscrew.basis.quantities import Count, Force, Info, Length, Torque, fields_of
+from ballscrew.basis.quantities import Angle, Count, Force, Info, Length, Torque, fields_of
 from ballscrew.basis.usual_ranges import warn_at_once
 
 #: Of a preload. The smallest screws on sale, of 4 mm, are rated at some 300 N: 5 N is the least of their 2 to 10 %.
@@ -139,12 +139,27 @@ class Deviations(NamedTuple):
         generator = np.random.default_rng(seed)
         return cls(ball_diameter * generator.standard_normal(balls), lead * generator.standard_normal(balls))
 
+    @classmethod
+    @accepts_units("deviations")
+    def once_a_turn(cls, angles: Angle, groove: Length, phase: Angle = 0.0) -> Deviations:
+        r"""Grooves whose place along the axis deviates once a turn, as that of a runout in grinding does.
+
+        .. math:: e_i = e_g \cos(\psi_i + \psi_g)
+
+        ``angles`` (rad) are those of the balls along the helix, the first at zero; ``groove`` is the amplitude, m, and
+        ``phase`` that at the first ball, rad. A ball whose deviation is positive carries less on the forward flank.
+        Returns :class:`Deviations` with that ``lead`` of each ball. Raises
+        :class:`~ballscrew.basis.errors.InputError` for a wrong unit.
+        """
+        return cls(lead=groove * np.cos(np.asarray(angles) + phase))
+
 
 @names_keywords
 @dataclasses.dataclass(frozen=True, eq=False)
 class Scatter(ByValue):
-    """Scatter of balls and lead as standard deviations; one seed gives the same balls every time.
+    """Scatter of balls and lead as standard deviations, and grooves that deviate once a turn.
 
+    One seed gives the same balls every time, and the same phase of the grooves.
     Raises :class:`~ballscrew.basis.errors.InputError` for negative numbers.
     """
 
@@ -173,13 +188,30 @@ class Scatter(ByValue):
     seed: Annotated[
         Count, Info("n_s", "seed of the random numbers", at_least=0, whole=True, hint="any whole number")
     ] = 1
+    groove: Annotated[
+        Length,
+        Info(
+            "e_g",
+            "amplitude of the grooves' place along the axis, once a turn",
+            "um",
+            at_least=0,
+            hint="ground: 1 um to 2 um",
+            usual=(0.0, 1e-4),
+        ),
+    ] = 0.0
 
     def __post_init__(self) -> None:
         raise_if_any(faults_of("deviations", self))
 
-    def of(self, balls: int) -> Deviations:
-        """The deviations of so many ``balls``."""
-        return Deviations.scattered(balls, seed=int(self.seed), ball_diameter=self.ball_diameter, lead=self.lead)
+    def of(self, balls: int, angles: Angle | None = None) -> Deviations:
+        """The deviations of so many ``balls``, at ``angles`` along the helix (rad) where the grooves deviate."""
+        seed = int(self.seed)
+        found = Deviations.scattered(balls, seed=seed, ball_diameter=self.ball_diameter, lead=self.lead)
+        if angles is None or not np.any(self.groove):
+            return found
+        # a stream of its own: the balls of a seed stay those they were
+        phase = float(np.random.default_rng((seed, 1)).uniform(0.0, 2.0 * np.pi))
+        return found._replace(lead=found.lead + Deviations.once_a_turn(angles, self.groove, phase).lead)
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -246,13 +278,16 @@ class NutParts(ByValue):
     def _nut(self) -> Nut:
         return cast("Nut", self)
 
-    def deviations_of(self, balls: Any) -> Deviations | None:
-        """The deviations of each ball of a nut of which so many ``balls`` carry load in each half."""
+    def deviations_of(self, balls: Any, angles: Angle | None = None) -> Deviations | None:
+        """The deviations of each ball of a nut of which so many ``balls`` carry load in each half.
+
+        ``angles`` are those of all of them along the helix, rad; without them no groove deviates.
+        """
         if not isinstance(self.deviations, Scatter):
             return self.deviations
         if not is_concrete(balls):
             return Deviations()
-        return self.deviations.of(self.halves * int(balls))
+        return self.deviations.of(self.halves * int(balls), angles)
 
 
 @names_keywords

@@ -17,16 +17,22 @@ from typing import Annotated, NamedTuple, Protocol
 
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, InputError, accepts_units, faults_of, raise_if_any
-from ballscrew.basis.quantities import AngularSpeed, Count, Force, Info, Length, Ratio, Speed, Torque
+from ballscrew.basis.quantities import AngularSpeed, Count, Density, Force, Info, Length, Ratio, Speed, Torque
 from ballscrew.basis.records import Message
+from ballscrew.physics.components.chain_force import GRAVITY, STEEL_DENSITY, WALL_FACTOR
 from ballscrew.physics.components.frame import helix_frame
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.equations import geometry, kinematics, nut_losses, preload, transmission
+from ballscrew.physics.equations import ball_chain, geometry, kinematics, nut_losses, preload, transmission
 
 #: Coefficients behind the no-load torques of Rexroth2006: their middle meets the tables within their digits.
 DOUBLE_NUT_DRAG = 0.0040
 OVERSIZE_BALL_DRAG = 0.0100
+
+#: Shear in the gap to a ball that turns as the oil drives it, a quarter as fast and the other way, over that between
+#: balls that turn alike. The moment on a sphere by its own turning is 1/5 and by its neighbour's 1/20 of one size
+#: (JeffreyOnishi1984): (1/5 - 1/4/20) / 2 / (1/5 + 1/20).
+FREE_SPACER = 3 / 8
 
 #: Diameters and leads this close are one, in m: a table gives whole millimetres.
 SAME_SIZE = 1e-6
@@ -323,6 +329,135 @@ class Recirculation(ByValue):
     def __call__(self, screw: BallScrew, lubricant: Lubricant, screw_speed: AngularSpeed) -> Torque:
         """Torque on the screw, N m; the same at any speed."""
         return nut_losses.path_torque(self.returns, self.return_force, _path_advance(screw))
+
+
+BallDensity = Annotated[
+    Density,
+    Info(
+        r"\rho_b",
+        "density of the balls",
+        above=0,
+        hint="steel has 7850 kg/m^3, silicon nitride 3200 kg/m^3",
+        usual=(2000.0, 20000.0),
+    ),
+]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ReturnBraking(ByValue):
+    """The return of the balls by mechanics: the loaded balls push those in the return, by their weight and through oil.
+
+    Without a number of balls in a return it is nothing. The factor of the wall is an assumption, to a factor of three.
+    """
+
+    return_balls: Annotated[
+        Count,
+        Info(
+            "N_r",
+            "balls in one return, between its last and its first loaded ball",
+            at_least=0,
+            whole=True,
+            hint="a deflector over one turn: 4 to 8; a tube over three turns: 20 to 40",
+        ),
+    ] = 0
+    wall_factor: Annotated[
+        Ratio,
+        Info(
+            "k_w",
+            "drag of a ball in the return over that of a ball far from walls",
+            at_least=0,
+            hint="of order 10; no measured value is known",
+            usual=(1.0, 100.0),
+        ),
+    ] = WALL_FACTOR
+    return_friction: Annotated[
+        Ratio, Info(r"\mu_r", "friction coefficient of balls on the wall", at_least=0, hint="0.1", usual=(0.0, 1.0))
+    ] = 0.1
+    returns: Annotated[
+        Count, Info("n_r", "number of returns", at_least=0, whole=True, hint="one for each circuit of balls")
+    ] = 1
+    ball_density: BallDensity = STEEL_DENSITY
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("losses.recirculation", self))
+
+    def __call__(self, screw: BallScrew, lubricant: Lubricant, screw_speed: AngularSpeed) -> Torque:
+        """Torque on the screw, N m."""
+        force = self.force(screw, lubricant, screw_speed)
+        return nut_losses.path_torque(self.returns, force, _path_advance(screw))
+
+    def force(self, screw: BallScrew, lubricant: Lubricant, screw_speed: AngularSpeed) -> Force:
+        """Force against the balls in one return, N."""
+        d_w, v_o = screw.ball_diameter, _orbital_speed(screw, screw_speed)
+        mass = ball_chain.ball_mass(d_w, self.ball_density)
+        of_ball = ball_chain.return_resistance(
+            self.return_friction, mass, GRAVITY, lubricant.viscosity, d_w, v_o, self.wall_factor
+        )
+        return self.return_balls * of_ball
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ShearedOil(ByValue):
+    """Oil between neighbours, whose surfaces pass each other in the gap (JeffreyOnishi1984); nothing without oil.
+
+    Without a number of balls the loaded balls of the screw it is called with count; a nut calls it with all its balls.
+    A spacer ball that turns as the oil drives it leaves three eighths of the shear in each of its gaps.
+    """
+
+    oil_share: OilShare = 0.0
+    oil_gap: Annotated[
+        Length,
+        Info(
+            "h",
+            "gap between neighbours",
+            "um",
+            above=0,
+            hint="what is left of a circuit, over its balls: 10 um to 100 um",
+            usual=(1e-7, 1e-2),
+        ),
+    ] = 5e-5
+    balls: MovingBalls = None
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("losses.sheared_oil", self, optional=("balls",)))
+
+    def __call__(self, screw: BallScrew, lubricant: Lubricant, screw_speed: AngularSpeed) -> Torque:
+        """Torque on the screw, N m."""
+        frame, d_w = helix_frame(screw), screw.ball_diameter
+        i_b = nut_losses.ball_turns(frame.path_radius, frame.curvature_ratio, d_w)
+        gaps = self.oil_share * _balls(self.balls, screw) * (FREE_SPACER if screw.nut.spacer_balls else 1)
+        return nut_losses.sheared_oil_torque(gaps, lubricant.viscosity, d_w, self.oil_gap, i_b, screw_speed)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class SpinUp(ByValue):
+    """Balls that come out of the return without spin, and are spun up by sliding contacts; nothing without entries."""
+
+    entries: Annotated[
+        Count, Info("n_e", "places where balls enter", at_least=0, whole=True, hint="one for each circuit of balls")
+    ] = 0
+    lost_speed: Annotated[
+        Ratio,
+        Info(
+            r"\sigma",
+            "share of their speed that balls lose in the return",
+            at_least=0,
+            at_most=1,
+            hint="0 without impacts, 1 for balls that are stopped",
+        ),
+    ] = 0.0
+    ball_density: BallDensity = STEEL_DENSITY
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("losses.spin_up", self))
+
+    def __call__(self, screw: BallScrew, lubricant: Lubricant, screw_speed: AngularSpeed) -> Torque:
+        """Torque on the screw, N m; the same with any ``lubricant``."""
+        frame, d_w = helix_frame(screw), screw.ball_diameter
+        surface_speed = frame.entrainment_speed(screw_speed)  # of a ball that rolls: ω_b d_w/2
+        mass = ball_chain.ball_mass(d_w, self.ball_density)
+        work = nut_losses.entry_work(mass, _orbital_speed(screw, screw_speed), surface_speed, self.lost_speed)
+        return nut_losses.entry_torque(self.entries, work, _path_advance(screw), d_w)
 
 
 def _balls(balls: Count | None, screw: BallScrew) -> Count:

@@ -30,6 +30,18 @@ def path_radius(pitch_circle_diameter: Length, lead_angle: Angle) -> Length:
     return d_m / (2 * xp.cos(phi))
 
 
+def ball_pitch_angle(ball_diameter: Length, pitch_circle_diameter: Length, lead_angle: Angle) -> Angle:
+    r"""Angle about the axis between the centres of balls that touch.
+
+    .. math:: \psi_w = \frac{2 d_w \cos\varphi}{d_m}
+
+    Along the helix, for balls much smaller than its radius: the arc in place of the chord.
+    """
+    d_w, d_m, phi = ball_diameter, pitch_circle_diameter, lead_angle
+    xp = namespace(d_w, d_m, phi)
+    return 2 * d_w * xp.cos(phi) / d_m
+
+
 def curvature_ratio(
     ball_diameter: Length, pitch_circle_diameter: Length, contact_angle: Angle, lead_angle: Angle
 ) -> Ratio:

@@ -1,11 +1,25 @@
-"""Losses of a nut beside its loaded contacts: seals, churning, return of the balls."""
+"""Losses of a nut beside its loaded contacts: seals, churning, return of the balls, oil between them, spin-up."""
 
 from __future__ import annotations
 
 from typing import Annotated
 
 from ballscrew.basis.arrays import namespace
-from ballscrew.basis.quantities import Array, Count, Density, Force, Length, Ratio, Speed, Torque, Unit, Viscosity
+from ballscrew.basis.quantities import (
+    AngularSpeed,
+    Array,
+    Count,
+    Density,
+    Energy,
+    Force,
+    Length,
+    Mass,
+    Ratio,
+    Speed,
+    Torque,
+    Unit,
+    Viscosity,
+)
 
 LineForce = Annotated[Array, Unit("N/m")]
 
@@ -85,3 +99,69 @@ def ball_drag_force_harris(
     X, C_v, rho, d_w, v_o = oil_share, drag_coefficient, density, ball_diameter, orbital_speed
     xp = namespace(X, C_v, rho, d_w, v_o)
     return xp.pi * X * C_v * rho * d_w**2 * (2 * v_o) ** 1.95 / 32
+
+
+def ball_turns(path_radius: Length, curvature_ratio: Ratio, ball_diameter: Length) -> Ratio:
+    r"""Turns of a ball, relative to its path, for each turn of the screw.
+
+    .. math:: i_b = \frac{L (1 - \gamma^2)}{d_w}
+
+    Pure rolling, nut at rest: :func:`~ballscrew.physics.equations.kinematics.ball_rotation` over the screw's speed.
+    """
+    L, gamma, d_w = path_radius, curvature_ratio, ball_diameter
+    return L * (1 - gamma**2) / d_w
+
+
+def sheared_oil_torque(
+    gaps: Ratio,
+    viscosity: Viscosity,
+    ball_diameter: Length,
+    oil_gap: Length,
+    ball_turns: Ratio,
+    screw_speed: AngularSpeed,
+) -> Torque:
+    r"""Torque on the screw of the oil in the gaps between balls that turn the same way.
+
+    .. math:: T = \frac{\pi}{2} n \eta_0 d_w^3 i_b^2 \omega \ln\left(1 + \frac{d_w}{2 h}\right)
+
+    Neighbours turn in the same sense, so that their surfaces meet in the gap with opposite speeds of
+    :math:`\omega_b d_w/2`. What one draws in the other draws out: the oil is sheared and builds up no pressure. At the
+    distance r from the line of centres the gap is :math:`h + 2r^2/d_w`, and the power
+    :math:`\int \eta_0 (\omega_b d_w)^2 / (h + 2r^2/d_w)\, 2\pi r\, dr` up to the radius of the ball is
+    :math:`\frac{\pi}{2} \eta_0 d_w^3 \omega_b^2 \ln(1 + d_w/2h)` a gap. For small gaps the moment on either ball is
+    :math:`2\pi\eta_0 R^3\omega_b \ln(R/h)` with R their radius: the singular terms of the two moments of two equal
+    spheres in JeffreyOnishi1984, 1/5 and 1/20 of :math:`8\pi\eta_0 R^3`, add up to the same. Newtonian oil that fills
+    the gap. What is left out does not grow as the gap closes: the drag on a ball that turns alone in
+    oil, :math:`8\pi\eta_0 R^3\omega_b`, is of the same size as a term of the logarithm.
+    """
+    n, eta_0, d_w, h, i_b, omega = gaps, viscosity, ball_diameter, oil_gap, ball_turns, screw_speed
+    xp = namespace(n, eta_0, d_w, h, i_b, omega)
+    return xp.pi / 2 * n * eta_0 * d_w**3 * i_b**2 * omega * xp.log(1 + d_w / (2 * h))
+
+
+def entry_work(ball_mass: Mass, orbital_speed: Speed, surface_speed: Speed, lost_speed: Ratio) -> Energy:
+    r"""Work that the screw does on a ball that comes out of the return without spin, and slower than the others.
+
+    .. math:: E = m \left(\frac{2}{5} u_b^2 + \sigma v_o^2\right)
+
+    Sliding contacts spin the ball up to the speed of its surface, :math:`u_b = \omega_b d_w/2`. Screw and nut go on at
+    their speeds meanwhile: what they rub away is as much as the ball gains, so that the work is twice its energy
+    of rotation, :math:`\frac{1}{2}\cdot\frac{2}{5} m u_b^2`, half heat now and half in the return. The share
+    :math:`\sigma` of its speed along the path that the ball has lost, at an edge or in a bend, is made up by
+    the push of the balls behind it, which go on at their speed: momentum times speed. 0.4 to 1.4 of :math:`m v_o^2`;
+    the kinetic energy of a ball that rolls is 0.7 of it.
+    """
+    m, v_o, u_b, sigma = ball_mass, orbital_speed, surface_speed, lost_speed
+    return m * (2 * u_b**2 / 5 + sigma * v_o**2)
+
+
+def entry_torque(entries: Count, entry_work: Energy, path_advance: Length, ball_diameter: Length) -> Torque:
+    r"""Torque on the screw of the work on each ball that enters the loaded turns.
+
+    .. math:: T = \frac{n_r E s_o}{d_w}
+
+    A ball enters each circuit whenever the chain has gone on by its diameter, :math:`s_o/d_w` balls a radian. Gaps
+    between the balls make it as many fewer as there is more room than balls.
+    """
+    n_r, E, s_o, d_w = entries, entry_work, path_advance, ball_diameter
+    return n_r * E * s_o / d_w

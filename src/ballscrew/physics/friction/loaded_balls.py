@@ -15,11 +15,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ballscrew.basis.arrays import namespace, where
+from ballscrew.basis.errors import Fault, InputError, is_concrete
 from ballscrew.basis.quantities import Angle, Count, Force, Mask, Pressure, Ratio
 from ballscrew.physics.components.contact import Contact
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.operating_state import OperatingState, settled
 from ballscrew.physics.components.screw import SINGLE_NUT, BallScrew
+from ballscrew.physics.equations import geometry
 from ballscrew.physics.friction.balls import (
     BallFriction,
     BallModel,
@@ -140,8 +142,27 @@ def loads_of(screw: BallScrew, axial_load: Force, *, compiled: bool = False) -> 
     """
     nut = screw.nut
     bodies = None if nut.bodies is None else nut.bodies.sized(screw)
-    deviations = nut.deviations_of(screw.carrying_balls)
+    angles = ball_angles(screw) if np.any(getattr(nut.deviations, "groove", 0.0)) else None
+    deviations = nut.deviations_of(screw.carrying_balls, angles)
     return ball_loads(screw, nut, settled(axial_load), bodies=bodies, deviations=deviations, compiled=compiled)
+
+
+def ball_angles(screw: BallScrew) -> Angle:
+    """Angles of the balls that carry along the helix, rad: one half after the other, a turn for each lead between them.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for several screws at once, as an array of ball diameters is.
+    """
+    step = geometry.ball_pitch_angle(screw.ball_diameter, screw.pitch_circle_diameter, screw.lead_angle)
+    between = 2 * np.pi * getattr(screw.nut, "spacing", 0.0) / screw.lead if np.any(screw.lead) else 0.0
+    numbers = (screw.carrying_balls, screw.starts, step, between)
+    if not all(map(is_concrete, numbers)):
+        remedy = "solve screws of different sizes one after the other, or leave deviations.groove out"
+        raise InputError(Fault("deviations.groove", "must be of one screw", "an array of screws", remedy))
+    balls, starts = int(screw.carrying_balls), int(screw.starts)
+    of_half = np.arange(balls)
+    step *= 2 if screw.nut.spacer_balls else 1
+    along = of_half // starts * step + of_half % starts * (2 * np.pi / starts)
+    return np.concatenate([along + half * (along[-1] + between) for half in range(screw.nut.halves)])
 
 
 def row_of_balls(model: BallModel, screw: BallScrew, lubricant: Lubricant, state: OperatingState) -> LoadedBalls:

@@ -119,7 +119,7 @@ def moving_chain(
         "seed": seed, "circuits": circuits, "wall_factor": wall_factor, "relief": relief, "step": step,
         "circulations": circulations,
     }  # fmt: skip
-    raise_if_any(_faults(model, screw, numbers, return_balls))
+    raise_if_any(chain_faults(model, screw, numbers, return_balls))
     zone = loaded_zone(
         model,
         screw,
@@ -284,7 +284,8 @@ def _add(
     sums.pushed += time * float(force @ leaves)
 
 
-def _faults(model: FrictionModel, screw: BallScrew, numbers: dict[str, Any], return_balls: Any) -> list[Fault]:
+def chain_faults(model: FrictionModel, screw: BallScrew, numbers: dict[str, Any], return_balls: Any) -> list[Fault]:
+    """Faults of the numbers that a chain is asked for with, and of a model and a nut that have none."""
     faults = [
         Fault(f"chain.{name}", "must be one number", repr(value), "compute one case after the other")
         for name, value in numbers.items()

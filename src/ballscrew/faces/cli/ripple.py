@@ -1,0 +1,56 @@
+"""``ballscrew ripple``: the friction torque over the angle of the screw, with its orders."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName
+from ballscrew.faces.cli.flags import flags_of
+from ballscrew.questions.ripple.options import RippleOptions
+
+
+@flags_of(RippleOptions)
+def ripple(
+    case: CaseFile,
+    *,
+    written: Mapping[str, Any],
+    model: ModelName = None,
+    calibration: CalibrationName = None,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set nut.preload="4 kN".'),
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+    to: Annotated[
+        Path | None,
+        typer.Option("--to", metavar="FILE", help="Draw torque and orders: .png, .svg or .pdf."),
+    ] = None,
+    allow_code: AllowCode = False,
+) -> None:
+    """Friction torque over the angle of the screw: peak to peak, orders with their causes, and what faults change.
+
+    The balls of each circuit are followed through grooves that deviate. Torque is a poor sensor of spalls and a good
+    one of lost preload and of circuits without room: --fault all has the figures for this nut.
+    """
+    from ballscrew.basis.output.json_text import as_json as json_text
+    from ballscrew.cases.case_files import case_file
+    from ballscrew.questions.ripple import compute, text
+    from ballscrew.questions.ripple import document as documents
+    from ballscrew.questions.shared import chart_files as files
+    from ballscrew.questions.shared.option_values import read
+
+    options = read(RippleOptions, written)
+    loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
+    if to is not None:
+        files.check_picture(to)
+    report = compute.ripple_of(loaded, options)
+    typer.echo(json_text(documents.document(report)) if as_json else text.text(report))
+    if to is not None:
+        from ballscrew.questions.ripple import figure as figures  # matplotlib is slow to import
+
+        files.draw(lambda: figures.picture(report), to)
+        typer.echo(f"{to}: {len(report.ripple.angle)} angles", err=as_json)

@@ -1,0 +1,267 @@
+"""The torque of a case's nut over the angle of its screw: as it is, with faults, and for several nuts."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import re
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ballscrew.basis import units
+from ballscrew.basis.arrays import lazy
+from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
+from ballscrew.basis.quantities import Info, Quantity, quantities_of
+from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.cases.case_files.case import Case
+from ballscrew.physics.components.chain_force import ChainBallForce
+from ballscrew.physics.components.nut_losses import ReturnBraking
+from ballscrew.physics.equations import ball_chain
+from ballscrew.physics.moving_balls.ripple import (
+    Defect,
+    FullCircuit,
+    MissingBall,
+    NutGroove,
+    PreloadLeft,
+    Ripple,
+    Spall,
+    torque_ripple,
+)
+from ballscrew.questions.ripple.options import RippleOptions
+from ballscrew.questions.shared.options import options_of
+
+#: Faults that "all" stands for; a nut without preload has none to lose.
+ALL = ("missing-ball", "full", "spall=2 mm x 2 um", "preload=0.35", "groove=3")
+#: The same by name.
+FAULTS = ("missing-ball", "full", "spall", "preload", "groove")
+#: Changes by which torque shows a fault: of the mean, and of its range over the mean, either way. One nut of a kind
+#: differs from the next by a third of its range.
+SHOWS_MEAN, SHOWS_RANGE = 0.1, 0.5
+#: Quantiles of a band over nuts.
+LOW, HIGH = 0.1, 0.9
+_FLAGS: Mapping[str, str] = {
+    **{
+        f"{part}.{name}": option.flag
+        for part in ("chain", "ripple")
+        for name, option in options_of(RippleOptions).items()
+    },
+    "ripple.defect": "--fault",
+    "chain.axial_load": "operation.axial_load",
+    "chain.screw_speed": "operation.screw_speed",
+}
+_WIDTH = Quantity("width", "m", Info("w", "width of a spall", "mm"))
+_DEPTH = Quantity("depth", "m", Info("t", "depth of a spall", "um"))
+_DEVIATION = Quantity("groove_deviation", "m", Info("e", "deviation of the grooves, root mean square", "um"))
+_KNOWN = quantities_of(Ripple)
+
+
+class Range(NamedTuple):
+    """The peak to peak of several nuts, N m: the median, and what eight in ten lie between."""
+
+    nuts: int
+    low: float
+    median: float
+    high: float
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class RippleReport:
+    """The torque of a nut over the angle, and with faults."""
+
+    case: Case
+    #: What the torque was computed with beside the case, assumed numbers too.
+    given: Mapping[str, Any]
+    ripple: Ripple
+    #: By what was written.
+    faults: Mapping[str, Ripple]
+    range: Range | None
+
+    @lazy
+    def verdicts(self) -> Sequence[Record]:
+        """The size of the ripple and its greatest order, and whether torque shows each fault."""
+        return [self._size(), *(self._fault(name, found) for name, found in self.faults.items())]
+
+    @lazy
+    def assumed(self) -> Sequence[Message]:
+        """What a catalogue does not print, and what is left out."""
+        numbers = {
+            "gap": units.as_written(f"{self.given['gap']:g}"),
+            "deviation": Measured(self.given["groove_deviation"], _DEVIATION),
+            "circuits": str(self.given["circuits"]),
+        }
+        return [
+            Message(
+                "in each circuit room for {gap} balls, grooves {deviation} off (root mean square), circuits in each "
+                "half: {circuits}; no catalogue has them"
+            ).of(**numbers),
+            Message("each circuit has grooves of its own; bodies are rigid, and balls have no inertia"),
+            Message("seals and other losses are left out"),
+        ]
+
+    def _size(self) -> Record:
+        found = self.ripple
+        most = max(found.orders, key=lambda one: one.amplitude)
+        message = Message(
+            "the torque goes up and down by {range}, {share} of its mean; its greatest order is {order} per turn "
+            "({name}), {amplitude}"
+        )
+        message = message.of(
+            range=_torque(found.peak_to_peak), share=units.percent(relative(found)),
+            order=units.as_written(f"{most.order:.3g}"), name=Message(most.name), amplitude=_torque(most.amplitude),
+        )  # fmt: skip
+        return units.record(message, id="ripple.size", subject="peak_to_peak", value=found.peak_to_peak, unit="N m")
+
+    def _fault(self, name: str, found: Ripple) -> Record:
+        shown = shows(self.ripple, found)
+        words = (
+            "{fault}: torque shows it, its mean is {mean} and its range over the mean {range} of what they were"
+            if shown
+            else "{fault}: torque is a poor sensor of it, its mean is {mean} and its range over the mean {range} of "
+            "what they were"
+        )
+        message = Message(words).of(
+            fault=name,
+            mean=units.percent(found.mean / self.ripple.mean),
+            range=units.percent(relative(found) / relative(self.ripple)),
+        )
+        return units.record(message, id=f"ripple.{name.partition('=')[0]}", subject="torque", holds=shown)
+
+
+def relative(found: Ripple) -> float:
+    """The range of a torque over its mean."""
+    return found.peak_to_peak / found.mean if found.mean else math.nan
+
+
+def shows(usual: Ripple, found: Ripple) -> bool:
+    """Whether the torque of a nut with a fault differs from that without it by more than nuts of one kind do."""
+    mean, change = found.mean / usual.mean, relative(found) / relative(usual)
+    return abs(mean - 1) > SHOWS_MEAN or abs(change - 1) > SHOWS_RANGE
+
+
+def ripple_of(case: Case, options: RippleOptions) -> RippleReport:
+    """The torque of a case's nut over the angle, with the faults that are asked for.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` as
+    :func:`~ballscrew.physics.moving_balls.ripple.torque_ripple` does, and for an unknown fault.
+    """
+    asked = [name for one in options.fault for name in (_all_of(case) if one == "all" else [one])]
+    defects = defects_of(asked)
+    if options.seeds < 1:
+        raise InputError(Fault("--seeds", "must be at least one", str(options.seeds), "leave it out, or give 8"))
+    given = given_of(case, options)
+
+    def run(defect: Defect | None = None, seed: int = options.seed) -> Ripple:
+        return torque_ripple(case.model, case.screw, case.lubricant, **given, seed=seed, defect=defect)
+
+    try:
+        usual = run()
+        faults = {name: run(defect) for name, defect in defects.items()}
+        others = [run(seed=options.seed + i) for i in range(1, options.seeds)]
+    except InputError as error:
+        raise InputError(*(dataclasses.replace(f, where=_FLAGS.get(f.where, f.where)) for f in error.faults)) from None
+    return RippleReport(case, given, usual, faults, _range([usual, *others]))
+
+
+def given_of(case: Case, options: RippleOptions) -> Mapping[str, Any]:
+    """What the physics is asked with: as written, else as the case has it, else as is assumed.
+
+    A case may describe its circuits by the law of the force between balls, and its returns by that of their losses.
+    """
+    screw, force = case.screw, case.model.ball_force
+    law = force if isinstance(force, ChainBallForce) else ChainBallForce()
+    turn = ball_chain.balls_of_a_turn(case.model.laws.frame(screw).path_radius, screw.ball_diameter)
+    known: dict[str, Any] = {
+        "gap": law.gap, "groove_deviation": law.groove_deviation, "circuits": max(1, round(float(law.circuits))),
+        "wall_factor": law.wall_factor, "return_balls": math.ceil(law.return_turns * turn),
+    }  # fmt: skip
+    loss = screw.nut.losses.get("recirculation")
+    if isinstance(loss, ReturnBraking) and loss.return_balls:
+        known |= {"wall_factor": loss.wall_factor, "return_balls": loss.return_balls}
+    written = {name: getattr(options, name) for name in known}
+    return {
+        "axial_load": float(case.operation.axial_load),
+        "screw_speed": float(case.operation.screw_speed),
+        **known,
+        **{name: value for name, value in written.items() if value is not None},
+        **{name: getattr(options, name) for name in ("relief", "turns")},
+    }
+
+
+def _all_of(case: Case) -> list[str]:
+    preloaded = getattr(case.screw.nut, "preload", None) is not None
+    return [name for name in ALL if preloaded or not name.startswith("preload")]
+
+
+def _range(found: Sequence[Ripple]) -> Range | None:
+    if len(found) == 1:
+        return None
+    low, median, high = np.quantile([one.peak_to_peak for one in found], (LOW, 0.5, HIGH))
+    return Range(len(found), float(low), float(median), float(high))
+
+
+def _torque(value: float) -> Measured:
+    return Measured(value, _KNOWN["peak_to_peak"], 3)
+
+
+# -- faults as people write them ------------------------------------------------------------------
+
+
+def defects_of(written: Sequence[str]) -> Mapping[str, Defect]:
+    """The faults by what was written. Raises :class:`~ballscrew.basis.errors.InputError` for unknown ones."""
+    faults: list[Fault] = []
+    found: dict[str, Defect] = {}
+    for one in written:
+        name, _, value = (part.strip() for part in one.partition("="))
+        reader = _READERS.get(name)
+        if reader is None:
+            faults.append(Fault("--fault", "unknown fault", one, nearest(name, FAULTS)))
+            continue
+        made = reader(one, value)
+        if isinstance(made, Fault):
+            faults.append(made)
+        else:
+            found[one] = made
+    raise_if_any(faults)
+    return found
+
+
+def _plain(make: Callable[[], Defect]) -> Callable[[str, str], Defect | Fault]:
+    def read(one: str, value: str) -> Defect | Fault:
+        return Fault("--fault", "takes no number", one, "leave it out") if value else make()
+
+    return read
+
+
+def _number(make: Callable[[float], Defect], remedy: str) -> Callable[[str, str], Defect | Fault]:
+    def read(one: str, value: str) -> Defect | Fault:
+        percent = value.endswith("%")
+        try:
+            number = float(value.removesuffix("%")) * (0.01 if percent else 1.0)
+        except ValueError:
+            return Fault("--fault", "needs a number", one, remedy)
+        return make(number)
+
+    return read
+
+
+def _spall(one: str, value: str) -> Defect | Fault:
+    sizes = re.split(r"\s*[x×]\s*", value)
+    if len(sizes) != 2:
+        return Fault("--fault", "needs a width and a depth", one, 'write spall="2 mm x 2 um"')
+    width, depth = (
+        units.parse("--fault", size, quantity) for size, quantity in zip(sizes, (_WIDTH, _DEPTH), strict=True)
+    )
+    if isinstance(width, Fault):
+        return width
+    return depth if isinstance(depth, Fault) else Spall(float(width), float(depth))
+
+
+_READERS: Mapping[str, Callable[[str, str], Defect | Fault]] = {
+    "missing-ball": _plain(MissingBall),
+    "full": _plain(FullCircuit),
+    "spall": _spall,
+    "preload": _number(PreloadLeft, "write preload=0.35"),
+    "groove": _number(NutGroove, "write groove=3"),
+}
