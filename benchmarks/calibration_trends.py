@@ -15,6 +15,7 @@ import numpy as np
 from ballscrew.evidence.validation.entries import Conditions, Point, Values, trends
 from ballscrew.evidence.validation.rows import screw_of
 from ballscrew.evidence.validation.sets import SETS
+from ballscrew.physics.components.chain_force import ChainBallForce
 from ballscrew.physics.components.conditions import ContactConditions
 from ballscrew.physics.components.film_laws import Inlet, flooded_inlet
 from ballscrew.physics.components.laws import ProportionalBallForce, imposed_ball_force, two_neighbours
@@ -26,6 +27,7 @@ from ballscrew.physics.components.mixed_friction import (
     RunInSharing,
     arana_traction,
 )
+from ballscrew.physics.components.nut_losses import ReturnBraking, ShearedOil, SpinUp
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.calibrations import calibrated, calibrations
 from ballscrew.physics.friction.model import FrictionModel
@@ -144,28 +146,49 @@ def trends_table() -> str:
     return _markdown(lines)
 
 
-class _OfNutsSetAtRest:
-    """A model asked for nuts whose preload was set at rest, where they have two contacts a ball."""
+class _OfNuts:
+    """A model that is asked for each nut as ``changed`` makes it."""
 
-    def __init__(self, model: FrictionModel) -> None:
-        self._model = model
+    def __init__(self, model: FrictionModel, changed: Callable[[BallScrew], BallScrew]) -> None:
+        self._model, self._changed = model, changed
 
     def __call__(self, screw: BallScrew, oil: Lubricant, **operation: Any) -> FrictionResult:
-        nut: Any = screw.nut
-        braced = dataclasses.replace(nut, set_at_rest=True) if nut.halves == 2 else nut
-        return self._model(dataclasses.replace(screw, nut=braced), oil, **operation)
+        return self._model(self._changed(screw), oil, **operation)
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._model, name)
 
 
-def set_at_rest(model: FrictionModel) -> FrictionModel:
-    """The model, asked for nuts whose preload was set at rest."""
-    return cast("FrictionModel", _OfNutsSetAtRest(model))
+def of_nuts(model: FrictionModel, changed: Callable[[BallScrew], BallScrew]) -> FrictionModel:
+    """The model, asked for nuts that are changed before."""
+    return cast("FrictionModel", _OfNuts(model, changed))
 
 
-#: A fill with gaps: a share of the load that rubbing hardly counts with.
-_WITH_GAPS = dataclasses.replace(REFERENCE, ball_force=ProportionalBallForce(0.0005))
+def set_at_rest(screw: BallScrew) -> BallScrew:
+    """The screw with a preload that was set at rest, where its nut has two contacts a ball."""
+    nut: Any = screw.nut
+    return dataclasses.replace(screw, nut=dataclasses.replace(nut, set_at_rest=True)) if nut.halves == 2 else screw
+
+
+#: Turns of a circuit and of its return, assumed for all nuts.
+TURNS_OF_A_CIRCUIT, TURNS_IN_RETURN = 2.5, 0.5
+
+
+def with_moving_balls(screw: BallScrew) -> BallScrew:
+    """The screw with a preload set at rest, returns to push, sheared oil and balls to spin up: all of it assumed."""
+    balls_of_a_turn = math.pi * float(screw.pitch_circle_diameter / screw.ball_diameter)
+    circuits = screw.nut.halves * max(1, round(float(screw.loaded_balls) / balls_of_a_turn / TURNS_OF_A_CIRCUIT))
+    losses = {
+        "recirculation": ReturnBraking(return_balls=round(TURNS_IN_RETURN * balls_of_a_turn), returns=circuits),
+        "sheared_oil": ShearedOil(oil_share=1.0),
+        "spin_up": SpinUp(entries=circuits, lost_speed=0.0),
+    }
+    nut: Any = dataclasses.replace(screw.nut, losses={**screw.nut.losses, **losses})
+    return set_at_rest(dataclasses.replace(screw, nut=nut))
+
+
+_CHAIN = dataclasses.replace(REFERENCE, ball_force=ChainBallForce())
+_JAMMED = dataclasses.replace(REFERENCE, ball_force=ChainBallForce(gap=0.0))
 #: One assumption of the reference model changed at a time, by words.
 CHANGES: Mapping[str, FrictionModel] = {
     "as it is": REFERENCE,
@@ -178,9 +201,14 @@ CHANGES: Mapping[str, FrictionModel] = {
     ),
     "boundary friction 0.06, of fresh surfaces": dataclasses.replace(REFERENCE, friction=RunInSharing(0.06)),
     "a full bath of oil": dataclasses.replace(REFERENCE, inlet=flooded_inlet),
-    "force between balls 0.0005 Q, a fill with gaps": _WITH_GAPS,
-    "preload set at rest, balls off their line": set_at_rest(REFERENCE),
-    "both: 0.0005 Q, and set at rest": set_at_rest(_WITH_GAPS),
+    "force between balls 0.0005 Q, a fill with gaps": dataclasses.replace(
+        REFERENCE, ball_force=ProportionalBallForce(0.0005)
+    ),
+    "law of the chain, a gap of half a ball": _CHAIN,
+    "law of the chain, no gap": _JAMMED,
+    "preload set at rest, balls off their line": of_nuts(REFERENCE, set_at_rest),
+    "set at rest, law of the chain": of_nuts(_CHAIN, set_at_rest),
+    "the same with returns, sheared oil and spin-up": of_nuts(_CHAIN, with_moving_balls),
     "calibration rexroth-2006": calibrated(REFERENCE, calibrations()["rexroth-2006"]),
     "calibration hiwin": calibrated(REFERENCE, calibrations()["hiwin"]),
     "calibration jis": calibrated(REFERENCE, calibrations()["jis"]),
