@@ -47,8 +47,8 @@ def test_balls_of_a_perfect_nut_do_not_press(gap):
 
 @pytest.mark.parametrize("amplitude", [1e-6, 2e-6])
 def test_without_a_gap_the_share_is_the_integral_of_the_creep(amplitude):
-    # one harmonic a turn, along the axis: c epsilon_1 z_1 / 2 pi within 15 %, as the ends of the zone are free, and a peak
-    # of twice that; over three turns the runs have 0.89 and 0.86 of the one, and 1.88 and 1.84 in place of two
+    # one harmonic a turn, along the axis: c epsilon_1 z_1 / 2 pi within 15 %, as the ends of the zone are free, and a
+    # peak of twice that; over three turns the runs have 0.89 and 0.86 of the one, and 1.88 and 1.84 in place of two
     zone = loaded_zone(MODEL, screw(3.0), OIL, axial_load=0.0, screw_speed=OMEGA, groove_deviation=0.0, seed=1)
     harmonics = np.zeros((2, 2, 1))
     harmonics[0, 0, 0] = amplitude
