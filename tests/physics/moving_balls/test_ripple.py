@@ -261,3 +261,9 @@ def test_a_nut_without_preload_loses_none():
         ripple(single, axial_load=800.0, defect=PreloadLeft(0.5))
     with pytest.raises(InputError, match=r"ripple.turns: must be positive"):
         ripple(turns=0.0)
+    with pytest.raises(InputError, match=r"ripple.seed: must be a whole number"):
+        ripple(seed=-1)
+    with pytest.raises(InputError, match=r"ripple.circuits: leaves too few balls to each \(8\)"):
+        ripple(circuits=8)
+    with pytest.raises(InputError, match=r"ripple.relief: leaves no ball its whole load \(11\)"):
+        ripple(relief=11.0)

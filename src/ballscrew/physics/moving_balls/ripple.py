@@ -46,6 +46,8 @@ Field = NDArray[np.float64]
 TURNS, CIRCULATIONS = 12.0, 2.0
 #: Loads of a ball, over the nominal one, at which the model is asked for its friction.
 LOADS = np.concatenate([[0.0], np.geomspace(1e-3, 8.0, 40)])
+#: Loaded balls of a circuit, at least.
+LEAST_BALLS = 3
 #: Gap of a circuit that counts as full, in balls.
 FULL = 0.003
 #: Harmonics of the ball pass that have a name.
@@ -192,7 +194,8 @@ def torque_ripple(
         "seed": seed, "circuits": circuits, "wall_factor": wall_factor, "relief": relief, "step": step,
         "circulations": CIRCULATIONS + SETTLING,
     }  # fmt: skip
-    raise_if_any([*chain_faults(model, screw, numbers, return_balls), *_faults(screw, defect, turns)])
+    raise_if_any([*chain_faults(model, screw, numbers, return_balls), *_faults(screw, defect, seed, turns)])
+    raise_if_any(_short(screw, circuits, relief))
     whole = screw
     if isinstance(defect, PreloadLeft):
         whole = dataclasses.replace(screw, nut=screw.nut.changed("preload", defect.share * _preload(screw)))
@@ -425,8 +428,20 @@ def _preload(screw: BallScrew) -> Any:
     return math.nan if preload is None else preload
 
 
-def _faults(screw: BallScrew, defect: Defect | None, turns: Any) -> list[Fault]:
+def _short(screw: BallScrew, circuits: Count, relief: Ratio) -> list[Fault]:
+    """Faults of circuits in which no ball would have its whole load."""
+    balls = float(screw.loaded_balls / circuits)
+    if balls < LEAST_BALLS:
+        return [Fault("ripple.circuits", "leaves too few balls to each", f"{circuits:g}", "give those of one half")]
+    if 2 * relief > balls:
+        return [Fault("ripple.relief", "leaves no ball its whole load", f"{relief:g}", "usual: 0.5 to 4 balls")]
+    return []
+
+
+def _faults(screw: BallScrew, defect: Defect | None, seed: Any, turns: Any) -> list[Fault]:
     faults: list[Fault] = []
+    if not is_concrete(seed) or not seed >= 0 or seed % 1:
+        faults.append(Fault("ripple.seed", "must be a whole number", f"{seed}", "give 0 or more"))
     if not is_concrete(turns) or not turns > 0:
         faults.append(Fault("ripple.turns", "must be positive", f"{turns}", "usual: 12"))
     if isinstance(defect, PreloadLeft):
