@@ -52,7 +52,9 @@ class MovingChain:
     contacts: Annotated[Ratio, Info("p", "share of the loaded balls that press on the next one")]
     power_in: Annotated[Power, Info("P_i", "power of the races on the balls of the circuit, against one another")]
     power_dissipated: Annotated[Power, Info("P_d", "power that creep and the return take")]
-    exit_push: Annotated[Force, Info("F_e", "force with which the last driven ball pushes the return, mean")]
+    exit_push: Annotated[
+        Force, Info("F_e", "force with which the last ball of the loaded zone pushes the return, mean")
+    ]
     return_resistance: Annotated[Force, Info("f", "force that a ball needs along the return")]
     #: Angle of the screw at each moment, rad, in the direction in which it turns; shape [moments].
     angle: Field
@@ -208,7 +210,7 @@ def chain_run(
             times = np.where(meets, np.maximum(gaps, 0.0) / np.where(meets, closing, 1.0), math.inf)
             time = min(left, float(np.min(times)))
             if moment >= first:
-                _add(sums, circuit, time, balls, speed, force, drive, ahead)
+                _add(sums, circuit, time, here, balls, speed, force, drive)
             places = places + time * speed
             if time > 0:  # a pair that parts in no time touches until it has parted, so that no two take turns for ever
                 touches = touches & (closing >= 0)
@@ -261,17 +263,16 @@ def _add(
     sums: _Sums,
     circuit: Circuit,
     time: float,
+    here: Field,
     balls: BallsInZone,
     speed: Field,
     force: Field,
     drive: Field,
-    ahead: NDArray[np.int_],
 ) -> None:
     """Add a step to the integrals."""
-    driven = balls.load > 0
-    both = np.empty_like(force)
-    both[ahead] = (force + force[ahead]) / 2  # of the contacts behind and in front of a ball
-    leaves = driven & ~driven[ahead]
+    driven, inside = balls.load > 0, here <= circuit.zone.length
+    both = (force + np.roll(force, 1)) / 2  # of the contacts in front of a ball and behind it
+    leaves = inside & ~np.roll(inside, -1)
     sums.angle += time
     sums.pressed += time * float(both @ driven)
     sums.load += time * float(np.sum(balls.load))
@@ -299,6 +300,8 @@ def chain_faults(model: FrictionModel, screw: BallScrew, numbers: dict[str, Any]
     for name in ("groove_deviation", "wall_factor"):
         if not numbers[name] >= 0:
             faults.append(Fault(f"chain.{name}", "must not be negative", f"{numbers[name]:g}", "zero is none"))
+    if not numbers["seed"] >= 0 or numbers["seed"] % 1:
+        faults.append(Fault("chain.seed", "must be a whole number", f"{numbers['seed']:g}", "give 0 or more"))
     if not numbers["circuits"] >= 1 or numbers["circuits"] % 1:
         faults.append(Fault("chain.circuits", "must be a whole number", f"{numbers['circuits']:g}", "give 1 or more"))
     if not numbers["circulations"] > SETTLING:
