@@ -11,6 +11,8 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import math
+from collections.abc import Sequence
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -28,6 +30,9 @@ MODEL = bs.FrictionModel.reference()
 PRELOAD = 0.05
 GAPS, DEVIATIONS = (0.05, 1.05), (0.5e-6, 2e-6)
 QUANTILES = (0.1, 0.5, 0.9)
+PAGE = Path(__file__).parents[1] / "docs" / "moving_chain.inc"
+#: Columns that are of the machine.
+TIMES = slice(2, 4)
 
 
 class Draw(NamedTuple):
@@ -61,7 +66,7 @@ def by_law(screw: bs.BallScrew, speed: float, circuits: int, draw: Draw) -> floa
     return float(found.kinds[0].friction.ball_to_ball_force / found.kinds[0].load)
 
 
-def row(name: str, speed: float, circuits: int, drawn: list[Draw], plain: bool) -> str:
+def row(name: str, speed: float, circuits: int, drawn: list[Draw], plain: bool) -> list[str]:
     """One line of the table."""
     listed = bs.catalogue()[name]
     screw = listed.screw(nut=bs.DoubleNut(preload=PRELOAD * listed.dynamic_load_rating))
@@ -82,7 +87,7 @@ def row(name: str, speed: float, circuits: int, drawn: list[Draw], plain: bool) 
     push = float(np.median([run.exit_push for run in runs]))
     # both halves have as many circuits
     brake = 2 * circuits * ball_chain.return_torque(push, frame.path_radius, frame.curvature_ratio)
-    cells = [
+    return [
         name.removeprefix("rexroth-").removesuffix("-double"),
         f"{runs[0].places.shape[1]}",
         f"{np.median(times):.2f}",
@@ -92,6 +97,9 @@ def row(name: str, speed: float, circuits: int, drawn: list[Draw], plain: bool) 
         f"{push:.2g}",
         f"{100 * brake / float(torque):.1f}",
     ]
+
+
+def _line(cells: Sequence[str]) -> str:
     return f"| {' | '.join(cells)} |"
 
 
@@ -102,17 +110,24 @@ def main() -> None:
     parser.add_argument("--circuits", type=int, default=2, help="circuits of each half of a nut")
     parser.add_argument("--rpm", type=float, default=100.0, help="speed of the screw")
     parser.add_argument("--plain", action="store_true", help="time a run without the compiler, too")
+    parser.add_argument("--write", action="store_true", help="write the table without the times into docs, too")
     options = parser.parse_args()
     speed, drawn = options.rpm * 2 * math.pi / 60, draws(options.draws)
     compiled = "compiled" if available() else "not compiled"
-    print(
-        f"| size | balls a circuit | s a steady state ({compiled}) | s by NumPy | F_B/Q: 10 / 50 / 90 % "
-        "| law chain, median | push of the return, N | its torque / torque of the reference, % |"
-    )
-    print("|---|---|---|---|---|---|---|---|")
+    heading = [
+        "size", "balls a circuit", f"s a steady state ({compiled})", "s by NumPy", "F_B/Q: 10 / 50 / 90 %",
+        "law chain, median", "push of the return, N", "its torque / torque of the reference, %",
+    ]  # fmt: skip
+    rows = [heading, ["---"] * len(heading)]
+    print("\n".join(map(_line, rows)))
     for name, listed in bs.catalogue().items():
         if listed.nut == "double":
-            print(row(name, speed, options.circuits, drawn, options.plain), flush=True)
+            rows.append(row(name, speed, options.circuits, drawn, options.plain))
+            print(_line(rows[-1]), flush=True)
+    if options.write:
+        for cells in rows:
+            del cells[TIMES]
+        PAGE.write_text("".join(f"{_line(cells)}\n" for cells in rows), encoding="utf-8")
 
 
 if __name__ == "__main__":

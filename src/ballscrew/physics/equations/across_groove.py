@@ -69,7 +69,7 @@ def off_line_spin(
 ) -> AngularSpeed:
     r"""Spin that both contacts of a ball off the line of its grooves share.
 
-    .. math:: \Omega_P' = \Omega_P \cos\beta - \left(\Omega_s + \Omega_n\right) \sin\beta
+    .. math:: \Omega_l = \Omega_P \cos\beta - \left(\Omega_s + \Omega_n\right) \sin\beta
 
     The rotations are those of the ball's rolling against screw and nut: as both normals lean towards the side to which
     friction drags the ball, the rolling has a component about each. The angle counts as positive where the screw pushes

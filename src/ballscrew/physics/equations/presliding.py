@@ -79,7 +79,7 @@ def lateral_stiffness(
 ) -> RotationalStiffness:
     r"""Stiffness of a ball against rotation of the screw, by what holds it across its path.
 
-    .. math:: k_\varphi = \frac{k_t}{1 + k_t c_\eta} \left(\frac{d_w}{2} \sin\varphi\right)^2
+    .. math:: k_L = \frac{k_t}{1 + k_t c_\eta} \left(\frac{d_w}{2} \sin\varphi\right)^2
 
     For each radian of the screw a ball that rolls is taken :math:`(d_w / 2) \sin\varphi` across its path. Its sticking
     contacts, both in series, give way, and long before that the ball rolls off the line of its grooves

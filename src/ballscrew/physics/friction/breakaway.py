@@ -73,7 +73,7 @@ class Breakaway:
     @lazy
     def spin_stiffness(
         self,
-    ) -> Annotated[RotationalStiffness, Info(r"k_s", "torsional stiffness of the sticking contacts by their spin")]:
+    ) -> Annotated[RotationalStiffness, Info("k_P", "torsional stiffness of the sticking contacts by their spin")]:
         """Stiffness by the spin of the contacts, :func:`~ballscrew.physics.equations.presliding.spin_stiffness`."""
         return self._sum_of(_spin_stiffness)
 
@@ -81,7 +81,7 @@ class Breakaway:
     def lateral_stiffness(
         self,
     ) -> Annotated[
-        RotationalStiffness, Info(r"k_\varphi", "torsional stiffness of the balls by what holds them across their path")
+        RotationalStiffness, Info("k_L", "torsional stiffness of the balls by what holds them across their path")
     ]:
         """Stiffness by what holds the balls across their path: their contacts, and on two of them the grooves, in
         series.

@@ -33,7 +33,7 @@ ROUNDS = 6
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
 class OffLineBalls:
-    """The balls of one kind where they lie in steady motion; elementwise."""
+    """The balls of one kind where they lie in steady motion, with their ``friction`` there; elementwise."""
 
     lateral_friction_angle: Annotated[
         Angle, Info(r"\beta", "lean of each normal; above zero where the load is lifted", "deg")
