@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Annotated, Any
 
 import numpy as np
@@ -16,7 +16,7 @@ from ballscrew.physics.components.frame import Frame
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.mixed_friction import LoadSharing
 from ballscrew.physics.components.screw import BallScrew, Raceway
-from ballscrew.physics.equations import across_groove, presliding
+from ballscrew.physics.equations import across_groove, kinematics, presliding
 from ballscrew.physics.friction import directions
 from ballscrew.physics.friction.across_groove import arms_of
 from ballscrew.physics.friction.loaded_balls import LoadedPair
@@ -90,14 +90,13 @@ class Breakaway:
         """
         return self._sum_of(_lateral_stiffness)
 
-    def _sum_of(self, stiffness: Callable[[BallScrew, Frame, LoadedPair, bool], RotationalStiffness]) -> Any:
+    def _sum_of(self, stiffness: Callable[[BallScrew, Frame, LoadedPair, Force], RotationalStiffness]) -> Any:
         """The stiffness of all flank pairs of all balls; a pair that has lifted off holds nothing."""
         screw, frame = self.at_rest.ball_screw, self.at_rest.frame
         found: list[Any] = []
         for kind in self.at_rest.kinds:
             for pair in kind.pairs:
-                on_two = pair.load >= kind.load
-                found.append(kind.total(where(pair.load > 0, stiffness(screw, frame, pair, on_two), 0.0)))
+                found.append(kind.total(where(pair.load > 0, stiffness(screw, frame, pair, kind.load), 0.0)))
         return sum(found)
 
     @lazy
@@ -150,28 +149,36 @@ def breakaway(
     )
 
 
-def _spin_stiffness(screw: BallScrew, frame: Frame, pair: LoadedPair, on_two: Mask) -> RotationalStiffness:  # noqa: ARG001
-    """Stiffness of one flank pair of a ball by the spin of its two contacts in series."""
-    _, torsional = _of_pair(screw, pair)
-    return presliding.spin_stiffness(torsional, frame.rolling_plane_sine)
+def _spin_stiffness(screw: BallScrew, frame: Frame, pair: LoadedPair, of_ball: Force) -> RotationalStiffness:
+    """Stiffness of one flank pair of a ball by the spin of its two contacts.
+
+    On two contacts the ball turns so that both share the spin: they are in series. Between two flank pairs it turns
+    about the binormal, and spins each contact by what of that does not roll, as in
+    :mod:`~ballscrew.physics.friction.four_contact_balls`.
+    """
+    on_screw, on_nut = (torsional for _, torsional in _of_sides(screw, pair))
+    s_alpha, xp = frame.rolling_plane_sine, namespace(pair.angle)
+    about_binormal = kinematics.ball_rotation(frame.entrainment_speed(1.0), screw.ball_diameter) * xp.tan(pair.angle)
+    leaning = namespace(pair.load, of_ball).maximum(2 * pair.load - of_ball, 0.0) / where(of_ball > 0, of_ball, 1.0)
+    at_nut = (1 - leaning) * about_binormal - leaning * s_alpha / 2
+    held = presliding.spin_stiffness(on_screw, at_nut + s_alpha) + presliding.spin_stiffness(on_nut, at_nut)
+    return where(pair.load < of_ball, held, presliding.spin_stiffness(_series(on_screw, on_nut), s_alpha))
 
 
-def _lateral_stiffness(screw: BallScrew, frame: Frame, pair: LoadedPair, on_two: Mask) -> RotationalStiffness:
+def _lateral_stiffness(screw: BallScrew, frame: Frame, pair: LoadedPair, of_ball: Force) -> RotationalStiffness:
     """Stiffness of one flank pair of a ball across its path; a ball that another pair braces cannot leave its line."""
-    tangential, _ = _of_pair(screw, pair)
-    arms = arms_of(screw, pair.screw, pair.nut)
-    leans = (pair.load > 0) & on_two
-    compliance = across_groove.groove_compliance(where(leans, pair.load, 1.0), *arms)
+    tangential = _series(*(across for across, _ in _of_sides(screw, pair)))
+    leans = (pair.load > 0) & (pair.load >= of_ball)
+    compliance = across_groove.groove_compliance(where(leans, pair.load, 1.0), *arms_of(screw, pair.screw, pair.nut))
     return presliding.lateral_stiffness(
         tangential, where(leans, compliance, 0.0), screw.ball_diameter, frame.lead_angle
     )
 
 
-def _of_pair(screw: BallScrew, pair: LoadedPair) -> tuple[Stiffness, RotationalStiffness]:
-    """Tangential and torsional stiffness of the two contacts of a flank pair in series."""
-    sides = ((pair.screw, screw.screw_raceway), (pair.nut, screw.nut_raceway))
-    tangential, torsional = zip(*(_of_contact(screw, contact, race) for contact, race in sides), strict=True)
-    return _series(*tangential), _series(*torsional)
+def _of_sides(screw: BallScrew, pair: LoadedPair) -> Iterator[tuple[Stiffness, RotationalStiffness]]:
+    """Tangential and torsional stiffness of the contacts of a flank pair with screw and nut."""
+    for contact, race in ((pair.screw, screw.screw_raceway), (pair.nut, screw.nut_raceway)):
+        yield _of_contact(screw, contact, race)
 
 
 def _of_contact(screw: BallScrew, contact: Contact, race: Raceway) -> tuple[Stiffness, RotationalStiffness]:
