@@ -10,7 +10,7 @@ import ballscrew as bs
 from ballscrew.evidence.papers.olaru2005 import SCREW
 from ballscrew.physics.components.frame import helix_frame
 from ballscrew.physics.equations import across_groove, deflection
-from ballscrew.physics.friction.across_groove import preload_off_line
+from ballscrew.physics.friction.across_groove import friction_across, preload_off_line
 from ballscrew.physics.moving_balls.across_groove import off_line_balls
 from ballscrew.physics.moving_balls.brush import BallContacts, Brush
 from oracles.ball_in_grooves import HalfNut
@@ -131,7 +131,7 @@ def test_a_preload_set_at_rest_is_a_larger_one_in_motion():
 
 
 def test_a_set_preload_is_swept_as_it_is_evaluated():
-    """On every way through the engine."""
+    """Recorded between rigid bodies, by the model itself between elastic ones."""
     screw, _ = SCREWS["20x5"]
     for bodies in (None, bs.Bodies()):
         set_at_rest = dataclasses.replace(screw, nut=bs.DoubleNut(preload=500.0, bodies=bodies, set_at_rest=True))
@@ -160,14 +160,61 @@ def test_four_contacts_keep_the_ball_on_its_line():
     assert oversize.lateral_stiffness > 50 * double.lateral_stiffness
 
 
-def test_without_a_lead_the_ball_stays_on_its_line():
+def test_without_lateral_slip_the_ball_stays_near_its_line():
+    """What is left is the thrust of the spin, which elastic contacts have: a seventh of what the helix does."""
     screw, load = SCREWS["40x10"]
     _, found = half(screw, load)
     ball = found.kinds[0].friction
     contacts = BallContacts.of(screw, found.frame, ball.screw, ball.nut)
-    brush = Brush(dataclasses.replace(contacts, lateral=0.0))
-    spun = [brush.turn(contacts.cell / contacts.rolled) for _ in range(100)][-1]
-    assert abs(spun.torque.helix) == 0.0
+    without, with_it = Brush(dataclasses.replace(contacts, lateral=0.0)), Brush(contacts)
+    for _ in range(900):
+        thrust, dragged = (brush.turn(contacts.cell / contacts.rolled) for brush in (without, with_it))
+    assert 0 < abs(without.distance) < abs(with_it.distance) / 5
+    assert abs(thrust.lateral_force) < abs(dragged.lateral_force) / 5
+
+
+@pytest.mark.parametrize(("preload", "rpm"), [(900.0, 100), (100.0, 100), (900.0, 1), (50.0, 1000)])
+def test_friction_and_load_settle(preload, rpm):
+    """The preload in motion is that of balls whose friction is that of the preload in motion."""
+    screw, _ = SCREWS["40x10"]
+    nut = bs.DoubleNut(preload=preload, set_at_rest=True)
+    at_rest, speed = dataclasses.replace(screw, nut=nut), 2 * math.pi * rpm / 60
+    found = REFERENCE(at_rest, OIL, axial_load=0.0, screw_speed=speed)
+    share = np.mean([friction_across(kind) for kind in found.kinds])
+    settled = preload_off_line(dataclasses.replace(screw, nut=bs.DoubleNut(preload=preload)), math.atan(share))
+    assert found.ball_screw.nut.preload == pytest.approx(float(settled), rel=2e-3)
+
+
+def test_at_rest_the_preload_is_as_it_was_set():
+    screw, _ = SCREWS["40x10"]
+    set_at_rest, given = (
+        dataclasses.replace(screw, nut=bs.DoubleNut(preload=900.0, set_at_rest=rest)) for rest in (True, False)
+    )
+    speeds = np.array([0.0, SPEED])
+    one, other = (
+        REFERENCE(each, OIL, axial_load=0.0, screw_speed=speeds).screw_torque for each in (set_at_rest, given)
+    )
+    assert one[0] == other[0]
+    assert one[1] > 1.2 * other[1]
+    stiff, as_given = (bs.breakaway(REFERENCE, each, OIL, axial_load=100.0) for each in (set_at_rest, given))
+    assert stiff.torque == as_given.torque
+    nothing = bs.DoubleNut(preload=0.0, bodies=bs.Bodies(), set_at_rest=True)
+    idle = REFERENCE(dataclasses.replace(screw, nut=nothing), OIL, axial_load=100.0, screw_speed=SPEED)
+    assert idle.ball_screw.nut.preload == 0
+    with pytest.raises(bs.InputError, match=r"nut\.set_at_rest: must be true or false"):
+        bs.DoubleNut(preload=900.0, set_at_rest="no")
+
+
+def test_the_chain_and_the_ripple_are_of_the_nut_in_motion():
+    screw, _ = SCREWS["40x10"]
+    circuit = {"axial_load": 100.0, "screw_speed": SPEED, "gap": 0.5, "groove_deviation": 1e-6, "seed": 1}
+    one, other = (
+        bs.moving_chain(
+            REFERENCE, dataclasses.replace(screw, nut=bs.DoubleNut(preload=900.0, set_at_rest=rest)), OIL, **circuit
+        )
+        for rest in (True, False)
+    )
+    assert np.max(one.loads) > 1.2 * np.max(other.loads)
 
 
 def test_the_stiffness_from_rest_is_that_of_the_leaning_normals():

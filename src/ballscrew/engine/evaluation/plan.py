@@ -221,6 +221,7 @@ class Configuration(ByValue):
         """The kind of the nut, its own numbers, and those of its parts."""
         parts = named_parts(self.model, self.screw, self.lubricant)
         found: dict[str, Any] = {} if self.nut.is_row else {"nut_kind": type(self.nut).__name__}
+        found |= {f"nut_{name}": "true" for name in ("spacer_balls", "set_at_rest") if getattr(self.nut, name)}
         for section in self.nut.parts:
             for name in fields_of(parts[section]):
                 if not {name, f"{section}.{name}"} & set(varied):

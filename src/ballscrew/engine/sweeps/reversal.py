@@ -24,7 +24,7 @@ QUANTITIES: Mapping[str, Quantity] = quantities_of(moving_balls.Reversal)
 PARTS: Mapping[str, str] = {
     "rolling": "rolling resistance, at once",
     "spin_and_curvature": "spin and curvature slip, within the contacts",
-    "helix": "helix slip, as the balls roll across their grooves",
+    "helix": "helix slip, as balls on two contacts roll across their grooves",
     "ball_to_ball": "ball to ball and return, as the gaps close",
     moving_balls.LOSSES: "losses of the nut, at once",
 }
@@ -59,8 +59,8 @@ def reversal(
     their grooves; names, units and sources are those of a sweep.
 
     A hypothesis: that the helix part comes back over degrees of the screw follows from the contacts, and is not
-    measured. Raises :class:`~ballscrew.basis.errors.InputError` for arrays, a speed of zero, a travel or a gap that is
-    not above zero, and for a model without slip across the path.
+    measured. Raises :class:`~ballscrew.basis.errors.InputError` for arrays, a speed of zero, a travel that is
+    not above zero, a gap below zero, balls without load, and for a model without slip across the path.
     """
     found = moving_balls.reversal(
         model, screw, lubricant, axial_load=axial_load, screw_speed=screw_speed, travel=travel, from_rest=from_rest,

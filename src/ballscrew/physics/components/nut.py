@@ -354,6 +354,13 @@ class OversizeBallNut(NutParts):
         return dataclasses.replace(self, **{field: value, **({other: None} if other else {})})
 
 
+def _flag_faults(nut: Any) -> list[Fault]:
+    """Fault of a truth value that is none: a text or an array would count as true."""
+    if isinstance(nut.set_at_rest, bool):
+        return []
+    return [Fault("nut.set_at_rest", "must be true or false", repr(nut.set_at_rest), "without quotes")]
+
+
 @names_keywords
 @dataclasses.dataclass(frozen=True, eq=False)
 class DoubleNut(NutParts):
@@ -371,7 +378,7 @@ class DoubleNut(NutParts):
     halves = 2
 
     def __post_init__(self) -> None:
-        raise_if_any(faults_of("nut", self))
+        raise_if_any([*faults_of("nut", self), *_flag_faults(self)])
         warn_at_once("nut", self)
 
 
@@ -392,7 +399,7 @@ class OffsetLeadNut(NutParts):
     halves = 2
 
     def __post_init__(self) -> None:
-        raise_if_any(faults_of("nut", self))
+        raise_if_any([*faults_of("nut", self), *_flag_faults(self)])
         warn_at_once("nut", self)
 
 

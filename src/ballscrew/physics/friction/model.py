@@ -227,7 +227,8 @@ class FrictionModel(ByValue):
         nearer to zero than 1e-100 counts as no load, and as rest under friction of the same direction. With a
         ``temperature`` (K) the lubricant, which must have been made from a data sheet or a grade, is taken there.
         ``loads`` are those of the balls under this axial load, where they are known
-        (:func:`~ballscrew.physics.solvers.load_distribution.ball_loads`). Array values are never refused: where they
+        (:func:`~ballscrew.physics.solvers.load_distribution.ball_loads`): of a nut whose preload was set at rest, in
+        motion. Array values are never refused: where they
         make no sense the result says so in its validity. Raises :class:`~ballscrew.basis.errors.InputError` where plain
         numbers overflow, for a temperature of an oil without either, and for a nut whose balls have four contacts with
         a slip law that knows two.
@@ -236,7 +237,7 @@ class FrictionModel(ByValue):
         raise_if_any([*_misfits(state), *self._misfits_of_nut(screw)])
         oil = lubricant if temperature is None else lubricant.at(state.temperature)
         with overflow_as_input_error(), np.errstate(all="ignore"):
-            if screw.nut.set_at_rest and loads is None:
+            if loads is None:
                 screw = in_motion(self, screw, oil, state.settled)
             known = loads_of(screw, state.axial_load) if loads is None and not screw.nut.is_row else loads
             return self.under(known, screw, oil, state)

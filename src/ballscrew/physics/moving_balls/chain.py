@@ -25,9 +25,11 @@ from ballscrew.basis.quantities import AngularSpeed, Count, Force, Info, Length,
 from ballscrew.compiler.kernels.kernel import available
 from ballscrew.physics.components.chain_force import GRAVITY, STEEL_DENSITY, TURNS_IN_RETURN, WALL_FACTOR
 from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.equations import ball_chain
+from ballscrew.physics.friction.across_groove import in_motion
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.moving_balls.chain_step import Driven, compiled_pushed_balls, pushed_balls
 from ballscrew.physics.moving_balls.loaded_zone import BallsInZone, LoadedZone, loaded_zone
@@ -120,6 +122,7 @@ def moving_chain(
         "circulations": circulations,
     }  # fmt: skip
     raise_if_any(chain_faults(model, screw, numbers, return_balls))
+    screw = in_motion(model, screw, lubricant, OperatingState(axial_load, screw_speed, None))
     zone = loaded_zone(
         model,
         screw,

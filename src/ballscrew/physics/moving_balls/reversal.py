@@ -30,6 +30,7 @@ from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.moving_balls.across_groove import of_balls_alike
 from ballscrew.physics.moving_balls.brush import CELLS, BallContacts, Brush, Step
+from ballscrew.physics.solvers.load_distribution import preload_of
 
 Field = NDArray[np.float64]
 
@@ -133,10 +134,13 @@ def reversal(
     Balls that differ are taken as alike. On four contacts the other flanks keep a ball on its line: helix slip, too,
     winds up within the contacts, and their curve is that of each pair of flanks by itself.
 
-    Raises :class:`~ballscrew.basis.errors.InputError` for arrays, a speed of zero, a travel or a gap that is not above
-    zero, and for a model without slip across the path.
+    Raises :class:`~ballscrew.basis.errors.InputError` for arrays, a speed of zero, a travel that is not above zero, a
+    gap below zero, balls without load, and for a model without slip across the path.
     """
     raise_if_any(_faults(model, {"axial_load": axial_load, "screw_speed": screw_speed}, travel, gap))
+    if axial_load == 0 and screw.nut.halves == 1 and not preload_of(screw, screw.nut):
+        remedy = "give the load under which the screw turns round"
+        raise_if_any([Fault("operation.axial_load", "leaves the balls without load", str(axial_load), remedy)])
     operation: dict[str, Any] = {"axial_load": float(axial_load), "screw_speed": float(screw_speed)}
     steady = model(screw, lubricant, **operation)
     lifts = operation["axial_load"] * operation["screw_speed"] >= 0
@@ -223,16 +227,19 @@ def _curve(ball: _Ball, end: Angle, whole: Angle, from_rest: bool) -> _Curve:
             last = _along(way, step)
         first = last
     steps = [cell / parts for parts in FINE_CELLS for _ in range(parts)]
-    steps += [cell] * max(math.ceil(end / cell) - len(FINE_CELLS), 0)
+    turned = min(end, whole)  # behind it nothing changes any more
+    steps += [cell] * max(math.ceil(turned / cell) - len(FINE_CELLS), 0)
     rows = [(0.0, *first)]
     for size in steps:
         rows.append((rows[-1][0] + size, *_along(way, brush.turn(way * size))))
-        if rows[-1][0] >= end:
+        if rows[-1][0] >= turned:
             break
-    if from_rest:
+    last = rows[-1][1:] if from_rest else last
+    if rows[-1][0] < end:
+        rows.append((end, *rows[-1][1:]))
+    elif from_rest:
         for _ in range(max(settled - len(rows), 0)):
             last = _along(way, brush.turn(way * cell))
-        last = last if settled > len(rows) else rows[-1][1:]
     return _Curve(*np.array(rows).T, steady=abs(last[0] + last[1]))
 
 
@@ -268,9 +275,9 @@ def _faults(model: FrictionModel, operation: Mapping[str, Any], travel: Length |
     if operation["screw_speed"] == 0:
         remedy = "give the speed after the reversal, a slow one"
         found.append(Fault("operation.screw_speed", "must not be zero", "", remedy))
-    if travel is not None and not travel > 0:
+    if travel is not None and not 0 < travel < math.inf:
         found.append(Fault("reversal.travel", "must be above zero", str(travel), "give how far to follow: 1 mm"))
-    if not gap >= 0:
+    if not 0 <= gap < math.inf:
         remedy = "give the gap of a circuit in balls: 0.5"
         found.append(Fault("reversal.gap", "must not be negative", str(gap), remedy))
     if not traits_of(model.slip).lateral_slip or traits_of(model.slip).curvature_alone:

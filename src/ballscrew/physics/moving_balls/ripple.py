@@ -23,9 +23,11 @@ from ballscrew.basis.errors import Fault, accepts_units, is_concrete, raise_if_a
 from ballscrew.basis.quantities import Angle, AngularSpeed, Count, Force, Info, Length, Ratio, Torque
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import OversizeBallNut
+from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import SINGLE_NUT, BallScrew
 from ballscrew.physics.equations import nut_losses
 from ballscrew.physics.equations import ripple as equations
+from ballscrew.physics.friction.across_groove import in_motion
 from ballscrew.physics.friction.loaded_balls import loads_of
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.moving_balls.chain import (
@@ -201,6 +203,8 @@ def torque_ripple(
         whole = dataclasses.replace(screw, nut=screw.nut.changed("preload", defect.share * _preload(screw)))
     if isinstance(defect, FullCircuit):
         gap = FULL
+    state = OperatingState(axial_load, screw_speed, None)
+    screw, whole = (in_motion(model, each, lubricant, state) for each in (screw, whole))
     found: list[_Circuit] = []
     for half, (carrier, load) in enumerate(_halves(whole, axial_load)):
         for number in range(int(circuits)):
@@ -451,9 +455,9 @@ def _faults(screw: BallScrew, defect: Defect | None, seed: Any, turns: Any) -> l
         if math.isnan(_preload(screw)):
             remedy = "take a nut with a preload"
             faults.append(Fault("ripple.defect", "is for a nut whose preload is given", "", remedy))
-    if isinstance(defect, Spall) and not (defect.width > 0 and defect.depth >= 0):
+    if isinstance(defect, Spall) and not (0 < defect.width < math.inf and 0 <= defect.depth < math.inf):
         given = f"{defect.width:g} m x {defect.depth:g} m"
         faults.append(Fault("ripple.defect", "must have a width and a depth", given, "usual: 2 mm x 2 um"))
-    if isinstance(defect, NutGroove) and not defect.factor >= 0:
+    if isinstance(defect, NutGroove) and not 0 <= defect.factor < math.inf:
         faults.append(Fault("ripple.defect", "must not be negative", f"{defect.factor:g}", "usual: 3"))
     return faults

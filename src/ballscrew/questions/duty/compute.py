@@ -42,6 +42,9 @@ from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.nut_tables import dynamic_rating
 from ballscrew.physics.components.nut import OversizeBallNut
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.friction.across_groove import in_motion
 from ballscrew.physics.friction.element import FrictionElement
 from ballscrew.physics.friction.loaded_balls import loads_of
 from ballscrew.physics.friction.result import MECHANISMS
@@ -285,7 +288,7 @@ class DutyReport:
     def balls_under_largest_load(self) -> BallLoads:
         """The loads of the balls under the largest load of the cycle, with its sign."""
         load = self.duty.axial_load
-        return loads_of(self.case.screw, float(load[np.argmax(np.abs(load))]))
+        return loads_of(_in_motion(self.case, self.duty), float(load[np.argmax(np.abs(load))]))
 
     def _of_extremes(self, pressure: Pressure | None) -> Sequence[Check]:
         case, duty = self.case, self.duty
@@ -510,10 +513,19 @@ def _report(case: Case, cycle: Callable[..., axis_duty.Duty], *, recorded: bool)
         driver, case.screw, case.lubricant, axis=case.axis, motion=case.motion, also=beside(case), recorded=recorded
     )
     rating, source = _rating(case)
-    preload = float(preload_of(case.screw, case.screw.nut))
-    life = CycleLife(found, case.screw.nut, preload, rating)
+    screw = _in_motion(case, found)
+    life = CycleLife(found, screw.nut, float(preload_of(screw, screw.nut)), rating)
     rule = VendorRule(found, RULE_EFFICIENCY if case.efficiency is None else case.efficiency)
     return DutyReport(case, case.axis, case.motion, found, life, source, rule)
+
+
+def _in_motion(case: Case, found: axis_duty.Duty) -> BallScrew:
+    """The screw with the preload that it has at the mean speed of the cycle, where it was set at rest."""
+    speed = np.abs(found.screw_speed)
+    if case.efficiency is not None or not case.screw.nut.set_at_rest or not np.any(speed > 0):
+        return case.screw
+    mean = float(np.mean(speed[speed > 0]))
+    return in_motion(case.model, case.screw, case.lubricant, OperatingState(0.0, mean, None))
 
 
 @overflow_as_input_error()

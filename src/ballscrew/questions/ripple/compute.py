@@ -241,7 +241,7 @@ def _number(make: Callable[[float], Defect], remedy: str) -> Callable[[str, str]
             number = float(value.removesuffix("%")) * (0.01 if percent else 1.0)
         except ValueError:
             return Fault("--fault", "needs a number", one, remedy)
-        return make(number)
+        return make(number) if math.isfinite(number) else Fault("--fault", "needs a number", one, remedy)
 
     return read
 

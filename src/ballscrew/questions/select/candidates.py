@@ -18,7 +18,9 @@ from ballscrew.basis.records import Message, Record
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.screw_tables.catalogue import assumed, case_text
+from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction import starvation
+from ballscrew.physics.friction.across_groove import in_motion
 from ballscrew.physics.friction.loaded_balls import loads_of
 from ballscrew.physics.friction.starvation import BothTorques
 from ballscrew.physics.sizing.catalogue import CatalogueRow
@@ -256,9 +258,9 @@ def _nut_length(variant: Variant) -> Length:
 
 def _nut(table: Mapping[str, Any], variant: Variant) -> dict[str, Any]:
     """The section of the nut, without what other kinds of nuts have."""
-    of_others = {name for kind in NUTS.values() for name in fields_of(kind)}
+    of_others = {name for kind in NUTS.values() for name in (*fields_of(kind), "set_at_rest")}
     if variant.nut in NUTS:
-        of_others -= set(fields_of(NUTS[variant.nut]))
+        of_others -= {*fields_of(NUTS[variant.nut]), *(field.name for field in dataclasses.fields(NUTS[variant.nut]))}
     kept = {name: value for name, value in table.items() if name not in of_others}
     return {"type": variant.nut, **kept, **({"preload": variant.preload} if variant.preload else {})}
 
@@ -280,7 +282,10 @@ def by_loads(need: Need, variant: Variant, case: Case) -> Candidate:
         time, load = float(duties.CycleNumbers(report).life_time), report.largest_load
     else:
         load = float(case.operation.axial_load)
-        balls = loads_of(case.screw, load)
+        state = OperatingState(0.0, float(case.operation.screw_speed), None)
+        screw = in_motion(case.model, case.screw, case.lubricant, state)
+        preload = float(preload_of(screw, screw.nut))
+        balls = loads_of(screw, load)
         own = checks_by_loads(case, preload, float(balls.remaining_preload))
         time = _life_of(own)
     numbers = {
