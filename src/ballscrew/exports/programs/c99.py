@@ -7,14 +7,18 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from ballscrew.basis.records import Record
 from ballscrew.exports.export import Export
-from ballscrew.exports.programs import c_source, c_two_levels
+from ballscrew.exports.presliding import OPTIONS, options_of_case, presliding
+from ballscrew.exports.programs import c_presliding, c_source, c_two_levels
 from ballscrew.exports.programs.c_source import Body, number
 from ballscrew.exports.programs.interpreter import errors_of_program
 from ballscrew.exports.programs.two_levels import two_levels
 from ballscrew.exports.readme import readme
 from ballscrew.exports.subject import HandOver
 from ballscrew.physics.friction.validity import NUT_REASONS
+
+__all__ = ["OPTIONS", "export", "options_of_case"]
 
 #: Points of the test vector, and of that of a nut with elastic bodies, each of which takes Python milliseconds.
 TEST_POINTS, TEST_POINTS_OF_ELASTIC_BODIES = 100, 20
@@ -156,8 +160,12 @@ be included in C++.
 
 
 def export(handed: HandOver) -> Export:
-    """The model as C99: source, header, example with a test vector, and a text."""
-    limits = handed.formula_range
+    """The model as C99: source, header, example with a test vector, and a text; with the friction after a reversal,
+    where it is asked for.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` as :func:`~ballscrew.exports.presliding.presliding` does.
+    """
+    limits, returning = handed.formula_range, presliding(handed)
     files = {
         "ballscrew.c": source(handed, body := body_of(handed)),
         "ballscrew.h": header(handed),
@@ -166,9 +174,14 @@ def export(handed: HandOver) -> Export:
     }
     errors = errors_of_program(handed)
     notes = _NOTES.format(stack=-(-body.room * 8 // 1000)) + _example_at_fault(handed)
+    warnings: list[Record] = []
+    if returning is not None:
+        files |= c_presliding.files(returning)
+        notes += f"{c_presliding.NOTES}\n{returning.notes}"
+        warnings.append(returning.warning)
     files["README.txt"] = readme(handed, "C99 source", notes, errors)
     content = {name: text.encode() for name, text in files.items()}
-    return Export.of(handed, "c", content, valid_range=limits, worst_error=errors)
+    return Export.of(handed, "c", content, valid_range=limits, worst_error=errors, warnings=warnings)
 
 
 def title(handed: HandOver) -> str:

@@ -319,6 +319,25 @@ def gms_torque(elements: Sequence[SlipElement], screw_angles: Array, *, initial_
     return found
 
 
+def work_share(elements: Sequence[SlipElement], stroke: Angle, *, at_once: Torque = 0.0) -> Ratio:
+    r"""Friction work of a stroke to and fro over that of steady friction on the same way, 0 to 1.
+
+    .. math:: \frac{W}{W_{ss}} = \frac{M_v + \sum_i M_i \max(1 - 2 M_i / (k_i \theta), 0)}{M_v + \sum_i M_i}
+
+    ``stroke`` is the angle :math:`\theta` of the screw from one turning point to the other (rad), and ``at_once`` the
+    torque :math:`M_v` that follows the direction at once (N m). Once the loop closes, each of the ``elements`` slides
+    on what is left of the way after it has swung from one end to the other, :math:`2 M_i / k_i`: the area within the
+    loop of :func:`gms_torque`.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for a stroke that is not above zero.
+    """
+    if not float(stroke) > 0:
+        raise_if_any([Fault("work_share.stroke", "must be above zero", f"{stroke}", "give the angle of the screw")])
+    k, M_s = (np.array([getattr(one, name) for one in elements], dtype=float) for name in ("stiffness", "slip_torque"))
+    lost = float(np.sum(M_s * np.maximum(1 - 2 * M_s / (k * stroke), 0)))
+    return (at_once + lost) / (at_once + float(M_s.sum()))
+
+
 def _steps(values: Vector) -> Vector:
     """Half the distance of the neighbours of each value: the weights of a sum over them."""
     return np.diff(values, prepend=values[:1]) / 2 + np.diff(values, append=values[-1:]) / 2

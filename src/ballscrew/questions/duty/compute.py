@@ -51,6 +51,7 @@ from ballscrew.physics.friction.result import MECHANISMS
 from ballscrew.physics.sizing.checks import NOT_CHECKED, NOT_JUDGED, UNJUDGED, Check, checks
 from ballscrew.physics.sizing.dn_limits import speed_limit_of
 from ballscrew.physics.solvers.load_distribution import BallLoads, preload_of
+from ballscrew.questions.duty.short_reversal import ShortReversal, short_reversal
 from ballscrew.questions.shared.declared import Answer
 
 DAY = 86400.0
@@ -261,6 +262,14 @@ class DutyReport:
                 )
             )
         return found
+
+    @lazy
+    def short_reversal(self) -> ShortReversal | None:
+        """The shortest stroke, where the friction of the screw does not come back within it after a reversal.
+
+        Not of a recorded motion, whose noise turns round by itself.
+        """
+        return None if isinstance(self.motion, Trajectory) else short_reversal(self.case, self.duty)
 
     @lazy
     def largest_load(self) -> Force:

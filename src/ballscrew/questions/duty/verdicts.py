@@ -20,6 +20,7 @@ from ballscrew.physics.friction.plausibility import implausible
 from ballscrew.physics.friction.validity import CONDITIONS, NUT_CONDITIONS
 from ballscrew.physics.sizing.checks import Check, all_hold, verdict_of
 from ballscrew.questions.duty.compute import NUMBERS, OF_BATH, DutyReport
+from ballscrew.questions.duty.short_reversal import BACK, TRAVEL
 
 _LENGTH, _SPEED = fields_of(Trapezoid)["stroke"], fields_of(Trapezoid)["speed"]
 _TORQUE, _TURNING = NUMBERS["torque_rms"], NUMBERS["mean_speed"]
@@ -146,6 +147,7 @@ def warnings(report: DutyReport) -> list[Record]:
         *_open_cycle(report),
         *_jumps(report),
         *_short_stroke(report),
+        *_short_reversal(report),
         *_too_fast(report),
         *_beyond_motor(report),
         *_validity(report),
@@ -231,6 +233,29 @@ def _short_stroke(report: DutyReport) -> list[Record]:
         {"stroke": Measured(stroke, _LENGTH), "turns": Measured(needed, _LENGTH)},
     )
     return [_warning("short_stroke", "motion.stroke", message, stroke, needed, _LENGTH)]
+
+
+def _short_reversal(report: DutyReport) -> list[Record]:
+    """A stroke within which the friction that turned round does not come back: it loses less than is counted."""
+    found = report.short_reversal
+    if found is None:
+        return []
+    values = {
+        "stroke": units.measured(found.stroke, TRAVEL, 3), "share": units.percent(BACK),
+        "travel": units.measured(found.back, TRAVEL, 3), "work": units.percent(found.work_share),
+    }  # fmt: skip
+    message = Message(
+        "friction changes its sign at once here, but after a reversal {share} of that of the screw are back within "
+        "{travel}, and the shortest stroke is {stroke}: to and fro over it the screw loses {work} of the work counted, "
+        "by a hypothesis (ballscrew reversal)",
+        values,
+    )
+    return [
+        units.record(
+            message, id="duty.short_reversal", subject="stroke", severity="info", value=found.stroke, limit=found.back,
+            unit=TRAVEL.unit,
+        )
+    ]  # fmt: skip
 
 
 def _too_fast(report: DutyReport) -> list[Record]:
