@@ -287,6 +287,33 @@ def test_axis(server, tmp_path):
     assert len(of_places["results"]["position"]) == 2
 
 
+def test_reversal(server, tmp_path):
+    """Over a travel, and from rest; what nobody can wait for is refused before it is computed."""
+    tables = tables_of(next(path for path in EXAMPLES if path.stem == "service"), ["operation.screw_speed=6 rpm"])
+    case = written(tables, tmp_path)
+    body = {"case": tables, "from_rest": True, "travel": "50 um", "inertia": "2e-3 kg m^2", "gap": 0.25}
+    words = ("--from-rest", "--travel", "50 um", "--inertia", "2e-3 kg m^2", "--gap", "0.25")
+    found = server.post("reversal", body).json()
+    assert_same(found, document("reversal", case, "--json", *words))
+    assert found["results"]["from_rest"] is True
+    assert max(found["results"]["travel"]) == pytest.approx(50e-6)
+    assert [one["id"] for one in found["warnings"]] == ["reversal.hypothesis", "reversal.first_range"]
+    for more, line in (
+        ({"travel": "-1 mm"}, "--travel: must be positive (-1 mm)"),
+        ({"travel": "1 km"}, "--travel: takes too many steps of the contacts"),
+        ({"gap": 1e9}, "--gap: takes too many steps of the contacts"),
+    ):
+        refusal = server.post("reversal", {"case": tables, **more})
+        assert refusal.status_code == 422
+        assert refusal.json()["lines"][0].startswith(line)
+    still = {**tables, "operation": {**tables["operation"], "screw_speed": "0 rpm"}}
+    refusal = server.post("reversal", {"case": still})
+    assert refusal.json()["lines"] == refused("reversal", case, "--set", "operation.screw_speed=0 rpm")
+    rolling = {**tables, "model": {"name": "olaru2005"}}
+    refusal = server.post("reversal", {"case": rolling})
+    assert refusal.json()["lines"] == refused("reversal", case, "--set", "model.name=olaru2005")
+
+
 def test_catalogue(server):
     assert server.get("catalogue").json() == json.loads(printed("catalogue", "list", "--json"))
     found = server.get("catalogue", params={"words": "Double 40x"}).json()

@@ -35,7 +35,7 @@ from ballscrew.faces.cli import (
 )
 from ballscrew.faces.cli.flags import flags_of, with_flags
 from ballscrew.faces.report.options import ReportOptions
-from ballscrew.faces.web.bodies import AxisBody, BandBody, NeedBody, ReportBody, SweepBody, WarmUpBody
+from ballscrew.faces.web.bodies import AxisBody, BandBody, NeedBody, ReportBody, ReversalBody, SweepBody, WarmUpBody
 from ballscrew.faces.web.log_bodies import FitBody, HandOverBody, ServiceBody
 from ballscrew.faces.web.vocabulary import OPTIONS, vocabulary
 from ballscrew.questions.axis.options import AxisOptions
@@ -85,6 +85,7 @@ BODIES = {
     FitOptions: FitBody,
     HandOverOptions: HandOverBody,
     ReportOptions: ReportBody,
+    ReversalOptions: ReversalBody,
     SelectOptions: NeedBody,
     ServiceOptions: ServiceBody,
     SweepOptions: SweepBody,

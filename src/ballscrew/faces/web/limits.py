@@ -16,6 +16,8 @@ from ballscrew.cases.case_files.case_file import (
 )
 from ballscrew.engine.uncertainty.bands import NUT_SAMPLES, SAMPLES
 from ballscrew.physics.components.nut import OversizeBallNut
+from ballscrew.physics.moving_balls.reversal import step_count
+from ballscrew.questions.reversal.options import ReversalOptions
 from ballscrew.questions.select.need import Need
 from ballscrew.questions.sweep import compute as sweeps
 
@@ -35,6 +37,8 @@ SHORT_POINTS, SHORT_POINTS_OF_NUT, SHORT_BALLS = 1_000, 200, 5_000
 MANY_BALLS = 300
 #: Combinations of nut, preload and oil for each row of the catalogue.
 MOST_CHOICES = 24
+#: Steps of the contacts of a reversal.
+MOST_STEPS_OF_REVERSAL = 20_000
 #: Columns of a log, and the lines at its top in which they are counted.
 MOST_COLUMNS, _FIRST_LINES = 1_000, 5_000
 #: Parameters, outputs and derivatives of a hand-over besides the usual ones.
@@ -119,6 +123,20 @@ def check_warm_up(case: Case, samples: int | None) -> None:
         )
         faults.append(Fault("--samples", "too many", f"{samples:,}", remedy))
     raise_if_any(faults)
+
+
+def check_reversal(case: Case, options: ReversalOptions) -> None:
+    """Refuse a reversal that its contacts take too many steps for; a screw at rest is refused by the question."""
+    if not case.operation.screw_speed:
+        return
+    steps = step_count(
+        case.model, case.screw, case.lubricant, axial_load=case.operation.axial_load,
+        screw_speed=float(case.operation.screw_speed), travel=options.travel, gap=options.gap,
+    )  # fmt: skip
+    if steps > MOST_STEPS_OF_REVERSAL:
+        remedy = "a shorter travel or a smaller gap; the rest by ballscrew reversal"
+        where = "--gap" if options.travel is None else "--travel"
+        raise InputError(Fault(where, "takes too many steps of the contacts", f"{steps:,}", remedy))
 
 
 def check_need(need: Need) -> Need:
