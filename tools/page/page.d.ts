@@ -14,6 +14,7 @@ declare global {
   type DutyAnswer = Schemas["Duty"];
   type WarmUpAnswer = Schemas["WarmUp"];
   type ReversalAnswer = Schemas["Reversal"];
+  type RippleAnswer = Schemas["Ripple"];
   type Vocabulary = Schemas["Vocabulary"];
   type UnitChoice = Schemas["UnitChoice"];
   type Mechanisms = Vocabulary["mechanisms"];

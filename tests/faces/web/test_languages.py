@@ -113,6 +113,7 @@ NAMES = {
     "drive torque", "back driving", "step", "as listed",
     "computed from the geometry (ISO 3408-5)", "installation", "limits.running_time",
     "static_load_rating", "dynamic_load_rating", "maximum_pressure",
+    "ball pass", "ball pass 2", "cage", "screw over balls", "ball spot", "circulation",
     *SPRINGS, *(fields_of(Surroundings)[name].info.meaning for name in OF_DEFAULTS),
     *(target.meaning for target in TARGETS.values()),
     *(option.meaning for name in TARGETS for option in options_of_target(name).values()),

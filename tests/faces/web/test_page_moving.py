@@ -75,3 +75,75 @@ def test_a_reversal_in_german(visit):
         assert here.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
     finally:
         here.page.context.clear_cookies()
+
+
+def test_a_ripple_with_a_fault(visit, server):
+    here = visit()
+    here.expected = ("status of 422",)
+    asked = []
+    here.page.on("request", lambda one: asked.append(one) if one.url.endswith("/jobs/ripple") else None)
+    here.open("#A=hiwin-40-20k4&band=0&cards=ripple")
+    page = here.page
+    page.wait_for_selector("#ripple-start")
+    assert "This is a hypothesis" in here.text("#ripple")
+    here.type("screw.loaded_balls", "20")
+    assert asked == []
+    page.locator("#ripple details.card-fields > summary").click()
+    page.locator("#ripple-turns").fill("6")
+    page.locator("#ripple-start").click()
+    page.wait_for_selector("#ripple [data-name=nut-range]")
+    answered(here, "ripple")
+    body = {"case": case_of(here), "turns": 6}
+    answer = server.post("ripple", body).json()
+    results = answer["results"]
+    assert number(here, "ripple", "nut-mean") == results["mean"]
+    assert number(here, "ripple", "nut-range") == results["peak_to_peak"] > 0
+    assert number(here, "ripple", "order-0") == results["orders"][0]["amplitude"]
+    assert results["faults"] == []
+    said = page.eval_on_selector_all("#ripple [data-record]", "all => all.map((one) => one.dataset.record)")
+    assert said == [one["id"] for one in (*answer["verdicts"], *answer["warnings"])]
+    assert page.locator("#ripple .card-result > div > details li").count() == len(answer["assumed"])
+    for id, axes in (
+        ("ripple-chart", ["linear", "turns of the screw", "friction torque (N\u00b7m)"]),
+        ("ripple-orders-chart", ["log", "order (per turn)", "amplitude (N\u00b7mm)"]),
+    ):
+        page.locator(f"#{id}").scroll_into_view_if_needed()
+        page.wait_for_selector(f"#{id} .main-svg")
+        found = page.eval_on_selector(
+            f"#{id} .plot",
+            "({ layout: { xaxis, yaxis } }) => [yaxis.type ?? 'linear', xaxis.title.text, yaxis.title.text]",
+        )
+        assert found == axes
+        page.locator(f"#{id} details summary").click()
+        page.wait_for_selector(f"#{id} tbody tr")
+    assert page.locator("#ripple-chart tbody tr").count() == sum(one <= 6 for one in results["torque"]["x"])
+    # a fault that there is not, and one that there is
+    page.locator("#ripple-fault").fill("rust")
+    page.locator("#ripple-start").click()
+    page.wait_for_selector("#ripple .fault:has-text('rust')")
+    page.locator("#ripple-fault").fill("missing-ball")
+    page.wait_for_selector("#ripple code:has-text('--fault missing-ball')")
+    page.locator("#ripple-start").click()
+    page.wait_for_selector("#ripple [data-name=missing-ball-range]")
+    answered(here, "ripple")
+    fault = server.post("ripple", {**body, "fault": ["missing-ball"]}).json()["results"]["faults"][0]
+    assert number(here, "ripple", "missing-ball-range") == fault["peak_to_peak"]
+    assert "torque" in here.text("#ripple [data-record='ripple.missing-ball']")
+    assert violations(here) == []
+
+
+def test_a_ripple_in_german(visit):
+    here = visit(width=390, height=844)
+    try:
+        here.page.context.add_cookies([{"name": "ballscrew-language", "value": "de", "url": here.address}])
+        here.open("#A=hiwin-40-20k4&A.screw.loaded_balls=20&band=0&cards=ripple")
+        here.page.locator("#ripple-start").click()
+        here.page.wait_for_selector("#ripple [data-name=nut-range]")
+        answered(here, "ripple")
+        assert "Das Moment schwankt" in here.text("#ripple [data-record='ripple.size']")
+        assert "Kugeldurchgang" in here.text("#ripple table:has([data-name=order-0])")
+        assert "kein Katalog nennt sie" in here.text("#ripple .card-result > div > details")
+        assert here.page.locator("#ripple [lang=en]").count() == 0
+        assert here.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    finally:
+        here.page.context.clear_cookies()

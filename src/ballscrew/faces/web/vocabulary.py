@@ -37,6 +37,7 @@ from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.duty.compute import CAUSES, IF_ANY, NUMBERS, slug_of
 from ballscrew.questions.fit.options import FitOptions
 from ballscrew.questions.reversal.options import ReversalOptions
+from ballscrew.questions.ripple.options import RippleOptions
 from ballscrew.questions.service.options import ServiceOptions
 from ballscrew.questions.shared.chart_colours import CAUSE_COLOURS, MECHANISM_COLOURS
 from ballscrew.questions.shared.options import Kind, vocabulary_of
@@ -49,7 +50,9 @@ _INCHES: Mapping[str, str] = {
 }  # fmt: skip
 
 #: The options of the questions, of which the page draws fields.
-OPTIONS: Mapping[str, type] = {"fit": FitOptions, "reversal": ReversalOptions, "service": ServiceOptions}
+OPTIONS: Mapping[str, type] = {
+    "fit": FitOptions, "reversal": ReversalOptions, "ripple": RippleOptions, "service": ServiceOptions,
+}  # fmt: skip
 
 
 class _Table(BaseModel):
