@@ -358,6 +358,13 @@ def test_help_names_pages_of_the_theory():
     assert {f"help.page.{page}" for page in pages} == {key for key in ENGLISH if key.startswith("help.page.")}
 
 
+def test_cards_name_pages_of_the_documentation():
+    pages = {page for script in SCRIPTS.values() for page in re.findall(r'documented\("([\w/]+)"', script)}
+    docs = Path(__file__).parents[3] / "docs"
+    assert {"howto/reversal", "howto/ripple"} <= pages
+    assert {page for page in pages if not (docs / f"{page}.md").is_file()} == set()
+
+
 @pytest.mark.parametrize(
     ("cookie", "header", "language"),
     [
