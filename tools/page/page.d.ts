@@ -13,6 +13,8 @@ declare global {
   type BandAnswer = Schemas["Band"];
   type DutyAnswer = Schemas["Duty"];
   type WarmUpAnswer = Schemas["WarmUp"];
+  type ReversalAnswer = Schemas["Reversal"];
+  type RippleAnswer = Schemas["Ripple"];
   type Vocabulary = Schemas["Vocabulary"];
   type UnitChoice = Schemas["UnitChoice"];
   type Mechanisms = Vocabulary["mechanisms"];

@@ -287,6 +287,64 @@ def test_axis(server, tmp_path):
     assert len(of_places["results"]["position"]) == 2
 
 
+def test_reversal(server, tmp_path):
+    """Over a travel, and from rest; what nobody can wait for is refused before it is computed."""
+    tables = tables_of(next(path for path in EXAMPLES if path.stem == "service"), ["operation.screw_speed=6 rpm"])
+    case = written(tables, tmp_path)
+    body = {"case": tables, "from_rest": True, "travel": "50 um", "inertia": "2e-3 kg m^2", "gap": 0.25}
+    words = ("--from-rest", "--travel", "50 um", "--inertia", "2e-3 kg m^2", "--gap", "0.25")
+    found = server.post("reversal", body).json()
+    assert_same(found, document("reversal", case, "--json", *words))
+    assert found["results"]["from_rest"] is True
+    assert max(found["results"]["travel"]) == pytest.approx(50e-6)
+    assert [one["id"] for one in found["warnings"]] == ["reversal.hypothesis", "reversal.first_range"]
+    for more, line in (
+        ({"travel": "-1 mm"}, "--travel: must be positive (-1 mm)"),
+        ({"travel": "1 km"}, "--travel: takes too many steps of the contacts"),
+        ({"gap": 1e9}, "--gap: takes too many steps of the contacts"),
+    ):
+        refusal = server.post("reversal", {"case": tables, **more})
+        assert refusal.status_code == 422
+        assert refusal.json()["lines"][0].startswith(line)
+    still = {**tables, "operation": {**tables["operation"], "screw_speed": "0 rpm"}}
+    refusal = server.post("reversal", {"case": still})
+    assert refusal.json()["lines"] == refused("reversal", case, "--set", "operation.screw_speed=0 rpm")
+    rolling = {**tables, "model": {"name": "olaru2005"}}
+    refusal = server.post("reversal", {"case": rolling})
+    assert refusal.json()["lines"] == refused("reversal", case, "--set", "model.name=olaru2005")
+
+
+def test_ripple(server, tmp_path):
+    """With a fault and other grooves; more nuts and balls than anybody waits for are refused."""
+    small = ["screw.loaded_balls=20", "nut.preload=1.5 kN"]
+    tables = tables_of(next(path for path in EXAMPLES if path.stem == "service"), small)
+    case = written(tables, tmp_path)
+    body = {"case": tables, "fault": ["preload=0.35"], "return_balls": 10, "turns": 6.0, "groove_deviation": "2 um"}
+    flags = ("--fault", "preload=0.35", "--return-balls", "10", "--turns", "6", "--groove-deviation", "2 um")
+    found = server.post("ripple", body).json()
+    assert [as_printed(one) for one in found.pop("display")["assumed"]] == found["assumed"]
+    assert_same(found, document("ripple", case, "--json", *flags))
+    assert [one["fault"] for one in found["results"]["faults"]] == ["preload=0.35"]
+    for more, line in (
+        ({"seeds": 1000}, "--seeds: takes too many nuts (1,000) · 8 at most here with faults and seeds"),
+        ({"fault": ["all"], "seeds": 4}, "--seeds: takes too many nuts (10)"),
+        ({"turns": 1e300}, "--turns: takes too many balls"),
+        ({"return_balls": 10**9}, "--turns: takes too many balls"),
+        ({"gap": 1e9}, "--turns: takes too many balls"),
+        ({"fault": ["rust"]}, "--fault: unknown"),
+        ({"groove_deviation": "1 km"}, "--groove-deviation: deviates too far"),
+        ({"fault": ["groove=1e9"]}, "--fault: deviates too far"),
+        ({"fault": ["spall=1 mm x 1 m"]}, "--fault: deviates too far"),
+        ({"seeds": -1}, "--seeds: must be at least one (-1)"),
+    ):
+        refusal = server.post("ripple", {"case": tables, **more})
+        assert refusal.status_code == 422
+        assert refusal.json()["lines"][0].startswith(line), refusal.json()["lines"]
+    rolling = {**tables, "model": {"name": "olaru2005"}}
+    refusal = server.post("ripple", {"case": rolling})
+    assert refusal.json()["lines"] == refused("ripple", case, "--set", "model.name=olaru2005")
+
+
 def test_catalogue(server):
     assert server.get("catalogue").json() == json.loads(printed("catalogue", "list", "--json"))
     found = server.get("catalogue", params={"words": "Double 40x"}).json()

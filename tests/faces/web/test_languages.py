@@ -76,7 +76,8 @@ _WORDS = re.compile(r"[A-Za-z]{2,}[,:;]? [a-z]{2,}")
 _SECTION = re.compile(r"\[[a-z_.]+\]")
 #: Two words that nobody reads: classes of elements, units, selectors, and a defect of the page.
 CODES = {
-    "(prefers-color-scheme: dark)", "card-start whole-width", "chart low", "field given", "field start given",
+    "(prefers-color-scheme: dark)", "card-start whole-width", "chart low", "chart low whole-width", "field given",
+    "field start given",
     "input, select", "kg cm^2", "lbf in", "line thin", "mm rpm",
     "no element #…", "no element …", "scroll whole", "verdict careful",
     "warning card-trouble",
@@ -97,7 +98,7 @@ SAFETY = (
     "verdict.self_locking", "verdict.skid", "verdict.stretch", "warning.bracing", "warning.stopped",
 )  # fmt: skip
 #: Options that cards ask for in a way of their own.
-OF_CARDS = {"fit": {"free", "columns"}, "service": {"tolerance"}}
+OF_CARDS = {"fit": {"free", "columns"}, "reversal": set(), "ripple": set(), "service": {"tolerance"}}
 #: Numbers of an answer that is starved of oil, by their meaning.
 STARVED = {AT_START.info.meaning, AT_END.info.meaning}
 STARVED |= {WARM.info.meaning, GIVEN.info.meaning}
@@ -112,6 +113,7 @@ NAMES = {
     "drive torque", "back driving", "step", "as listed",
     "computed from the geometry (ISO 3408-5)", "installation", "limits.running_time",
     "static_load_rating", "dynamic_load_rating", "maximum_pressure",
+    "ball pass", "ball pass 2", "cage", "screw over balls", "ball spot", "circulation",
     *SPRINGS, *(fields_of(Surroundings)[name].info.meaning for name in OF_DEFAULTS),
     *(target.meaning for target in TARGETS.values()),
     *(option.meaning for name in TARGETS for option in options_of_target(name).values()),
@@ -354,6 +356,13 @@ def test_help_names_pages_of_the_theory():
     assert len(pages) > 5
     assert {page for page in pages if not (theory / f"{page}.md").is_file()} == set()
     assert {f"help.page.{page}" for page in pages} == {key for key in ENGLISH if key.startswith("help.page.")}
+
+
+def test_cards_name_pages_of_the_documentation():
+    pages = {page for script in SCRIPTS.values() for page in re.findall(r'documented\("([\w/]+)"', script)}
+    docs = Path(__file__).parents[3] / "docs"
+    assert {"howto/reversal", "howto/ripple"} <= pages
+    assert {page for page in pages if not (docs / f"{page}.md").is_file()} == set()
 
 
 @pytest.mark.parametrize(

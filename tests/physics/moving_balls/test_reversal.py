@@ -12,7 +12,7 @@ from ballscrew.evidence.papers.olaru2005 import SCREW as PAPER
 from ballscrew.physics.equations import across_groove, presliding
 from ballscrew.physics.friction.across_groove import arms_of
 from ballscrew.physics.moving_balls.brush import BallContacts, Brush
-from ballscrew.physics.moving_balls.reversal import MECHANISMS, reversal
+from ballscrew.physics.moving_balls.reversal import MECHANISMS, reversal, step_count
 
 REFERENCE = bs.FrictionModel.reference()
 OIL = bs.Lubricant.from_grade("VG 100", temperature=313.15)
@@ -183,3 +183,19 @@ def test_what_cannot_be_followed_is_refused(changed, message):
         reversal(REFERENCE, SINGLE, OIL, **{**SLOW, **changed})
     with pytest.raises(bs.InputError, match=r"model\.slip: knows no slip across the path"):
         reversal(bs.FrictionModel.olaru2005(), SINGLE, OIL, **SLOW)
+
+
+def test_steps_are_those_that_are_taken(monkeypatch):
+    """All but those within the first five cells, which are finer."""
+    taken = []
+    turn = Brush.turn
+    monkeypatch.setattr(Brush, "turn", lambda brush, angle: taken.append(angle) or turn(brush, angle))
+    short, long = ({**SLOW, "travel": travel} for travel in (1e-4, 4e-4))
+    reversal(REFERENCE, SINGLE, OIL, **short)
+    finer = len(taken) - step_count(REFERENCE, SINGLE, OIL, **short)
+    taken.clear()
+    reversal(REFERENCE, SINGLE, OIL, **long)
+    assert len(taken) - finer == step_count(REFERENCE, SINGLE, OIL, **long)
+    assert 0 < finer < 100
+    with pytest.raises(bs.InputError, match=r"reversal\.travel: must be above zero"):
+        step_count(REFERENCE, SINGLE, OIL, **{**SLOW, "travel": 0.0})

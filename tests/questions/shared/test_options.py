@@ -35,7 +35,16 @@ from ballscrew.faces.cli import (
 )
 from ballscrew.faces.cli.flags import flags_of, with_flags
 from ballscrew.faces.report.options import ReportOptions
-from ballscrew.faces.web.bodies import AxisBody, BandBody, NeedBody, ReportBody, SweepBody, WarmUpBody
+from ballscrew.faces.web.bodies import (
+    AxisBody,
+    BandBody,
+    NeedBody,
+    ReportBody,
+    ReversalBody,
+    RippleBody,
+    SweepBody,
+    WarmUpBody,
+)
 from ballscrew.faces.web.log_bodies import FitBody, HandOverBody, ServiceBody
 from ballscrew.faces.web.vocabulary import OPTIONS, vocabulary
 from ballscrew.questions.axis.options import AxisOptions
@@ -85,6 +94,8 @@ BODIES = {
     FitOptions: FitBody,
     HandOverOptions: HandOverBody,
     ReportOptions: ReportBody,
+    ReversalOptions: ReversalBody,
+    RippleOptions: RippleBody,
     SelectOptions: NeedBody,
     ServiceOptions: ServiceBody,
     SweepOptions: SweepBody,

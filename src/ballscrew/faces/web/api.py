@@ -18,7 +18,18 @@ from ballscrew.cases.schema.case_schema import json_schema
 from ballscrew.cases.screw_tables import catalogue as rows
 from ballscrew.faces.report.heading import Heading
 from ballscrew.faces.report.options import ReportOptions
-from ballscrew.faces.web import answers_api, documents, file_api, job_api, limits, log_api, memory, openapi, vocabulary
+from ballscrew.faces.web import (
+    answers_api,
+    documents,
+    file_api,
+    job_api,
+    limits,
+    log_api,
+    memory,
+    moving_api,
+    openapi,
+    vocabulary,
+)
 from ballscrew.faces.web.bodies import (
     AxisBody,
     BandBody,
@@ -103,6 +114,7 @@ router = APIRouter(prefix="/api/v1", dependencies=[Depends(own_site), Depends(kn
 router.include_router(answers_api.router)
 router.include_router(file_api.router)
 router.include_router(log_api.router)
+router.include_router(moving_api.router)
 router.include_router(job_api.router)
 
 

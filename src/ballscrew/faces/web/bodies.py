@@ -30,6 +30,8 @@ from ballscrew.faces.web.problems import Refused
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.questions.axis.options import AxisOptions
 from ballscrew.questions.band.options import BandOptions
+from ballscrew.questions.reversal.options import ReversalOptions
+from ballscrew.questions.ripple.options import RippleOptions
 from ballscrew.questions.select.options import SelectOptions
 from ballscrew.questions.shared.options import body_fields
 from ballscrew.questions.sweep.options import SweepOptions
@@ -158,6 +160,13 @@ ReportBody = body_of(
     CasesBody,
     ReportOptions,
     "A case, other designs beside it, samples of the band, and what may stand below the title: a project, and a date.",
+)
+ReversalBody = body_of("ReversalBody", CaseBody, ReversalOptions, "A case, and what is asked of its reversal.")
+RippleBody = body_of(
+    "RippleBody",
+    CaseBody,
+    RippleOptions,
+    "A case, and what is asked of its torque over the angle; without faults unless some are named.",
 )
 BandBody = body_of("BandBody", CaseBody, BandOptions, "A case, and the options of its band.")
 SweepBody = body_of(

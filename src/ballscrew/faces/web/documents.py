@@ -16,6 +16,8 @@ from ballscrew.questions.band import document as band_documents
 from ballscrew.questions.band import text as band_text
 from ballscrew.questions.check import compute as checks
 from ballscrew.questions.check import document as check_documents
+from ballscrew.questions.ripple import document as ripple_documents
+from ballscrew.questions.ripple.compute import RippleReport
 from ballscrew.questions.run import compute as runs
 from ballscrew.questions.run import document as run_documents
 from ballscrew.questions.run import makers
@@ -109,3 +111,8 @@ def band(case: case_file.Case, found: bands.BandReport) -> dict[str, Any]:
 def warm_up(report: WarmUpReport, document: Mapping[str, Any]) -> dict[str, Any]:
     """The document of warming up, and what is assumed as messages."""
     return {**document, "display": {"assumed": messages(report.assumed)}}
+
+
+def ripple(report: RippleReport) -> dict[str, Any]:
+    """The document of a ripple, and what is assumed as messages."""
+    return {**ripple_documents.document(report), "display": {"assumed": messages(report.assumed)}}

@@ -16,6 +16,11 @@ from ballscrew.cases.case_files.case_file import (
 )
 from ballscrew.engine.uncertainty.bands import NUT_SAMPLES, SAMPLES
 from ballscrew.physics.components.nut import OversizeBallNut
+from ballscrew.physics.moving_balls.reversal import step_count
+from ballscrew.physics.moving_balls.ripple import NutGroove, Spall
+from ballscrew.questions.reversal.options import ReversalOptions
+from ballscrew.questions.ripple import compute as ripples
+from ballscrew.questions.ripple.options import RippleOptions
 from ballscrew.questions.select.need import Need
 from ballscrew.questions.sweep import compute as sweeps
 
@@ -35,6 +40,12 @@ SHORT_POINTS, SHORT_POINTS_OF_NUT, SHORT_BALLS = 1_000, 200, 5_000
 MANY_BALLS = 300
 #: Combinations of nut, preload and oil for each row of the catalogue.
 MOST_CHOICES = 24
+#: Steps of the contacts of a reversal.
+MOST_STEPS_OF_REVERSAL = 20_000
+#: Nuts of a ripple: as it is, with faults, with other grooves; balls of one and of all, in the return too, in 12 turns.
+MOST_NUTS_OF_RIPPLE, MOST_BALLS_OF_RIPPLE, MOST_BALLS_OF_RIPPLES = 8, 250, 1_000
+#: Deviation of grooves, and depth of a spall, m: balls that part and meet very often have no end.
+MOST_DEVIATION = 1e-4
 #: Columns of a log, and the lines at its top in which they are counted.
 MOST_COLUMNS, _FIRST_LINES = 1_000, 5_000
 #: Parameters, outputs and derivatives of a hand-over besides the usual ones.
@@ -119,6 +130,51 @@ def check_warm_up(case: Case, samples: int | None) -> None:
         )
         faults.append(Fault("--samples", "too many", f"{samples:,}", remedy))
     raise_if_any(faults)
+
+
+def check_reversal(case: Case, options: ReversalOptions) -> None:
+    """Refuse a reversal that its contacts take too many steps for; a screw at rest is refused by the question."""
+    if not case.operation.screw_speed:
+        return
+    steps = step_count(
+        case.model, case.screw, case.lubricant, axial_load=case.operation.axial_load,
+        screw_speed=float(case.operation.screw_speed), travel=options.travel, gap=options.gap,
+    )  # fmt: skip
+    if steps > MOST_STEPS_OF_REVERSAL:
+        remedy = "a shorter travel or a smaller gap; the rest by ballscrew reversal"
+        where = "--gap" if options.travel is None else "--travel"
+        raise InputError(Fault(where, "takes too many steps of the contacts", f"{steps:,}", remedy))
+
+
+def check_ripple(case: Case, options: RippleOptions) -> None:
+    """Refuse a ripple of too many nuts, balls or turns; numbers that are none are refused by the question."""
+    faults = len(ripples.ALL) + len(options.fault) if "all" in options.fault else len(options.fault)
+    nuts = faults + max(1, options.seeds)
+    if nuts > MOST_NUTS_OF_RIPPLE:
+        remedy = Message(
+            "{most} at most here with faults and seeds; the rest by ballscrew ripple",
+            {"most": str(MOST_NUTS_OF_RIPPLE)},
+        )
+        raise InputError(Fault("--seeds", "takes too many nuts", f"{nuts:,}", remedy))
+    given = ripples.given_of(case, options)
+    for name in options.fault:
+        for defect in () if name == "all" else ripples.defects_of([name]).values():
+            if isinstance(defect, Spall) and defect.depth > MOST_DEVIATION:
+                raise InputError(_too_deep("--fault"))
+            if isinstance(defect, NutGroove) and defect.factor * given["groove_deviation"] > MOST_DEVIATION:
+                raise InputError(_too_deep("--fault"))
+    if given["groove_deviation"] > MOST_DEVIATION:
+        raise InputError(_too_deep("--groove-deviation"))
+    each = max(0, given["return_balls"]) + max(0.0, given["gap"])
+    balls = float(case.screw.loaded_balls) + max(0, given["circuits"]) * each
+    balls *= max(1.0, options.turns / RippleOptions.turns)
+    if not (balls <= MOST_BALLS_OF_RIPPLE and nuts * balls <= MOST_BALLS_OF_RIPPLES):
+        remedy = "fewer faults, seeds, turns or places for balls; the rest by ballscrew ripple"
+        raise InputError(Fault("--turns", "takes too many balls", f"{nuts * balls:,.0f}", remedy))
+
+
+def _too_deep(where: str) -> Fault:
+    return Fault(where, "deviates too far", "", "100 um at most here; the rest by ballscrew ripple")
 
 
 def check_need(need: Need) -> Need:

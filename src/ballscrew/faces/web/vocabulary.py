@@ -30,11 +30,14 @@ from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
 from ballscrew.physics.friction.validity import NUT_REASONS
+from ballscrew.physics.moving_balls.friction_states import Dahl, LuGre
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.physics.sizing.installation import Installation, Limits
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.duty.compute import CAUSES, IF_ANY, NUMBERS, slug_of
 from ballscrew.questions.fit.options import FitOptions
+from ballscrew.questions.reversal.options import ReversalOptions
+from ballscrew.questions.ripple.options import RippleOptions
 from ballscrew.questions.service.options import ServiceOptions
 from ballscrew.questions.shared.chart_colours import CAUSE_COLOURS, MECHANISM_COLOURS
 from ballscrew.questions.shared.options import Kind, vocabulary_of
@@ -47,7 +50,9 @@ _INCHES: Mapping[str, str] = {
 }  # fmt: skip
 
 #: The options of the questions, of which the page draws fields.
-OPTIONS: Mapping[str, type] = {"fit": FitOptions, "service": ServiceOptions}
+OPTIONS: Mapping[str, type] = {
+    "fit": FitOptions, "reversal": ReversalOptions, "ripple": RippleOptions, "service": ServiceOptions,
+}  # fmt: skip
 
 
 class _Table(BaseModel):
@@ -189,7 +194,8 @@ def _documentation() -> str | None:
 def _units() -> dict[str, Any]:
     """The units people use, by SI unit: SI = number × factor + offset."""
     known = {si: dict.fromkeys((*usual, si)) for si, usual in units.USUAL.items()}
-    for quantity in (*_known_results().values(), *NUMBERS.values(), *SERIES.values(), *_known_fields()):
+    of_models = (*quantities_of(Dahl).values(), *quantities_of(LuGre).values())
+    for quantity in (*_known_results().values(), *NUMBERS.values(), *SERIES.values(), *_known_fields(), *of_models):
         if quantity.unit != "1":
             known.setdefault(quantity.unit, {})[quantity.shown_in] = None
     return {si: [_unit(unit, si) for unit in those] for si, those in known.items()}

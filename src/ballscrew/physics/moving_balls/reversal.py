@@ -101,6 +101,17 @@ class _Ball(NamedTuple):
     lifts: bool
 
 
+class _Start(NamedTuple):
+    """What a reversal sets out from: angles of the screw to where contacts and grooves settle, and to its end."""
+
+    steady: FrictionResult
+    balls: list[_Ball]
+    advance: Length
+    closing: Angle
+    whole: Angle
+    end: Angle
+
+
 class _Curve(NamedTuple):
     """Slip torque of one ball over the angle, by part, its way off the line, and the steady slip torque."""
 
@@ -142,12 +153,7 @@ def reversal(
         remedy = "give the load under which the screw turns round"
         raise_if_any([Fault("operation.axial_load", "leaves the balls without load", str(axial_load), remedy)])
     operation: dict[str, Any] = {"axial_load": float(axial_load), "screw_speed": float(screw_speed)}
-    steady = model(screw, lubricant, **operation)
-    lifts = operation["axial_load"] * operation["screw_speed"] >= 0
-    balls = _balls(of_balls_alike(model, steady.ball_screw, lubricant, **operation), lifts=lifts)
-    advance, closing = float(screw.lead) / (2 * math.pi), _closing(steady, float(gap))
-    whole = max((_whole(ball) for ball in balls), default=0.0)
-    end = max(whole, 1.2 * closing) if travel is None else float(travel) / advance
+    steady, balls, advance, closing, whole, end = _start(model, screw, lubricant, operation, travel, gap)
     curves = [_curve(ball, end, whole, from_rest) for ball in balls]
     angle = _angles(curves, end)
     slip, of_bristles = {"spin_and_curvature": 0 * angle, "helix": 0 * angle}, 0.0
@@ -178,6 +184,45 @@ def reversal(
         bristles_over_model=1 / scale if scale else math.nan,
         from_rest=from_rest,
     )
+
+
+def step_count(
+    model: FrictionModel,
+    screw: BallScrew,
+    lubricant: Lubricant,
+    *,
+    axial_load: Force,
+    screw_speed: AngularSpeed,
+    travel: Length | None = None,
+    gap: Ratio = GAP,
+) -> int:
+    """Steps that the contacts of all balls take in a :func:`reversal`: its time grows with them.
+
+    Of a few, each after another part of a cell, only as many cells are counted. Raises
+    :class:`~ballscrew.basis.errors.InputError` as the reversal does.
+    """
+    raise_if_any(_faults(model, {"axial_load": axial_load, "screw_speed": screw_speed}, travel, gap))
+    operation: dict[str, Any] = {"axial_load": float(axial_load), "screw_speed": float(screw_speed)}
+    start = _start(model, screw, lubricant, operation, travel, gap)
+    cells = [ball.contacts.cell / ball.contacts.rolled for ball in start.balls]
+    return sum(math.ceil(start.whole / cell) + math.ceil(start.end / cell) for cell in cells)
+
+
+def _start(
+    model: FrictionModel,
+    screw: BallScrew,
+    lubricant: Lubricant,
+    operation: Mapping[str, Any],
+    travel: Length | None,
+    gap: Ratio,
+) -> _Start:
+    steady = model(screw, lubricant, **operation)
+    lifts = operation["axial_load"] * operation["screw_speed"] >= 0
+    balls = _balls(of_balls_alike(model, steady.ball_screw, lubricant, **operation), lifts=lifts)
+    advance, closing = float(screw.lead) / (2 * math.pi), _closing(steady, float(gap))
+    whole = max((_whole(ball) for ball in balls), default=0.0)
+    end = max(whole, 1.2 * closing) if travel is None else float(travel) / advance
+    return _Start(steady, balls, advance, closing, whole, end)
 
 
 def _balls(found: FrictionResult, *, lifts: bool) -> list[_Ball]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
@@ -140,9 +141,10 @@ def shows(usual: Ripple, found: Ripple) -> bool:
     return abs(mean - 1) > SHOWS_MEAN or abs(change - 1) > SHOWS_RANGE
 
 
-def ripple_of(case: Case, options: RippleOptions) -> RippleReport:
+def ripple_of(case: Case, options: RippleOptions, done: Callable[[int, int], None] | None = None) -> RippleReport:
     """The torque of a case's nut over the angle, with the faults that are asked for.
 
+    ``done`` is told after each nut how many of all there are.
     Raises :class:`~ballscrew.basis.errors.InputError` as
     :func:`~ballscrew.physics.moving_balls.ripple.torque_ripple` does, and for an unknown fault.
     """
@@ -152,8 +154,13 @@ def ripple_of(case: Case, options: RippleOptions) -> RippleReport:
         raise InputError(Fault("--seeds", "must be at least one", str(options.seeds), "leave it out, or give 8"))
     given = given_of(case, options)
 
+    total, counted = len(defects) + options.seeds, itertools.count(1)
+
     def run(defect: Defect | None = None, seed: int = options.seed) -> Ripple:
-        return torque_ripple(case.model, case.screw, case.lubricant, **given, seed=seed, defect=defect)
+        found = torque_ripple(case.model, case.screw, case.lubricant, **given, seed=seed, defect=defect)
+        if done is not None:
+            done(next(counted), total)
+        return found
 
     try:
         usual = run()

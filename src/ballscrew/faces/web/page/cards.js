@@ -18,6 +18,8 @@ const SCRIPTS = {
   duty: "./cards/duty.js",
   "warm-up": "./cards/warm_up.js",
   choose: "./cards/choose.js",
+  reversal: "./cards/reversal.js",
+  ripple: "./cards/ripple.js",
   calibration: "./cards/calibrate.js",
   service: "./cards/service.js",
   "hand-over": "./cards/hand_over.js",

@@ -88,9 +88,18 @@ function theoryOf(path) {
   const [section, field] = path.split(".");
   const page = PAGES[`${section}.${field}`] ?? PAGES[section];
   if (!page) return "";
+  return documented(`theory/${page}`, text("help.theory", { page: textOr(`help.page.${page}`, page) }));
+}
+
+/**
+ * A page of the documentation by its name: a link where the documentation has an address, else the words alone.
+ *
+ * @param {string} page
+ * @param {string} words
+ */
+export function documented(page, words) {
   const { documentation } = vocabulary;
-  const words = text("help.theory", { page: textOr(`help.page.${page}`, page) });
   if (!documentation) return words;
-  const address = `${documentation.replace(/\/$/, "")}/theory/${page}.html`;
+  const address = `${documentation.replace(/\/$/, "")}/${page}.html`;
   return element("a", { href: address, target: "_blank", rel: "noreferrer" }, words);
 }

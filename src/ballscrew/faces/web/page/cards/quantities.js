@@ -44,6 +44,7 @@ export const POSITION = quantity("m", "mm");
 export const GROWTH = quantity("m", "um");
 export const SPEED = quantity("m/s", "m/min");
 export const TURNING = quantity("rad/s", "rpm");
+export const ANGLE = quantity("rad", "deg");
 export const TORQUE = quantity("N m", "N m");
 export const FORCE = quantity("N", "N");
 export const ENERGY = quantity("J", "J");
