@@ -19,8 +19,7 @@ import { lines } from "./records.js";
 
 const CHART = "ripple-chart";
 const ORDERS = "ripple-orders-chart";
-/** Turns and orders that are drawn, and the share of the greatest amplitude that is the least drawn. */
-const TURNS = 6;
+/** Orders that are drawn, and the share of the greatest amplitude that is the least drawn. */
 const MOST_ORDER = 24;
 const FLOOR = 1e-4;
 const BLUE = "#0072B2";
@@ -104,21 +103,20 @@ export function setUp(holder) {
 }
 
 /**
- * The first turns of the torque.
+ * The torque over all turns: its greatest and its least value may come once in many of them.
  *
  * @param {Results} results
  * @returns {import("../plot.js").Chart}
  */
 function overAngle({ torque, mean, peak_to_peak: range }) {
-  const count = torque.x.filter((turns) => Number(turns) <= TURNS).length;
-  const x = torque.x.slice(0, count);
-  const y = TORQUE.all(torque.y.slice(0, count));
+  const { x } = torque;
+  const y = TORQUE.all(torque.y);
   const titles = /** @type {const} */ ([text("ripple.turns"), TORQUE.titled(text("ripple.torque"))]);
   return {
     name: "ripple_torque",
     caption: text("ripple.torque_caption"),
     description: text("ripple.torque_description", {
-      turns: TURNS,
+      turns: units.digits(x.at(-1), 2),
       mean: TORQUE.text(mean, 3),
       range: TORQUE.text(range, 3),
     }),
@@ -150,6 +148,7 @@ function overOrder({ spectrum, orders: named }) {
   const shown = spectrum.x.flatMap((order, place) => (Number(order) > 0 && Number(order) <= MOST_ORDER ? [place] : []));
   const x = shown.map((place) => spectrum.x[place]);
   const y = SMALL_TORQUE.all(shown.map((place) => spectrum.y[place]));
+  const here = named.filter(({ order }) => Number(order) <= MOST_ORDER);
   const most = Math.max(...y.map(Number), Number.MIN_VALUE);
   const titles = /** @type {const} */ ([text("ripple.order"), SMALL_TORQUE.titled(text("ripple.amplitude"))]);
   return {
@@ -169,7 +168,7 @@ function overOrder({ spectrum, orders: named }) {
       ],
       layout: layout(colours, ...titles, {
         yaxis: { type: "log", dtick: 1, rangemode: "normal", range: [FLOOR * most, 2 * most].map(Math.log10) },
-        shapes: named.map(({ order }) => ({
+        shapes: here.map(({ order }) => ({
           type: "line",
           yref: "paper",
           y0: 0,
