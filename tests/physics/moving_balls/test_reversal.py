@@ -175,6 +175,8 @@ def test_the_gap_closes_before_balls_press():
         ({"screw_speed": 0.0}, "operation.screw_speed: must not be zero"),
         ({"travel": 0.0}, "reversal.travel: must be above zero"),
         ({"gap": -1.0}, "reversal.gap: must not be negative"),
+        ({"axial_load": 0.0}, "operation.axial_load: leaves the balls without load"),
+        ({"travel": math.inf}, "reversal.travel: must be above zero"),
         ({"axial_load": np.ones(2)}, "operation.axial_load: must be one number"),
     ],
 )

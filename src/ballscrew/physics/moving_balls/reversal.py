@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from ballscrew.basis.errors import Fault, accepts_units, raise_if_any
 from ballscrew.basis.quantities import Angle, AngularSpeed, Array, Force, Info, Length, Ratio, Torque
 from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.nut import OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.equations import kinematics
@@ -148,10 +149,7 @@ def reversal(
     Raises :class:`~ballscrew.basis.errors.InputError` for arrays, a speed of zero, a travel that is not above zero, a
     gap below zero, balls without load, and for a model without slip across the path.
     """
-    raise_if_any(_faults(model, {"axial_load": axial_load, "screw_speed": screw_speed}, travel, gap))
-    if axial_load == 0 and screw.nut.halves == 1 and not preload_of(screw, screw.nut):
-        remedy = "give the load under which the screw turns round"
-        raise_if_any([Fault("operation.axial_load", "leaves the balls without load", str(axial_load), remedy)])
+    raise_if_any(_faults(model, screw, {"axial_load": axial_load, "screw_speed": screw_speed}, travel, gap))
     operation: dict[str, Any] = {"axial_load": float(axial_load), "screw_speed": float(screw_speed)}
     steady, balls, advance, closing, whole, end = _start(model, screw, lubricant, operation, travel, gap)
     curves = [_curve(ball, end, whole, from_rest) for ball in balls]
@@ -198,14 +196,14 @@ def step_count(
 ) -> int:
     """Steps that the contacts of all balls take in a :func:`reversal`: its time grows with them.
 
-    Of a few, each after another part of a cell, only as many cells are counted. Raises
+    The parts of the first cells are counted as whole ones. Raises
     :class:`~ballscrew.basis.errors.InputError` as the reversal does.
     """
-    raise_if_any(_faults(model, {"axial_load": axial_load, "screw_speed": screw_speed}, travel, gap))
+    raise_if_any(_faults(model, screw, {"axial_load": axial_load, "screw_speed": screw_speed}, travel, gap))
     operation: dict[str, Any] = {"axial_load": float(axial_load), "screw_speed": float(screw_speed)}
     start = _start(model, screw, lubricant, operation, travel, gap)
     cells = [ball.contacts.cell / ball.contacts.rolled for ball in start.balls]
-    return sum(math.ceil(start.whole / cell) + math.ceil(start.end / cell) for cell in cells)
+    return sum(math.ceil(start.whole / cell) + math.ceil(min(start.end, start.whole) / cell) for cell in cells)
 
 
 def _start(
@@ -307,7 +305,9 @@ def _angles(curves: list[_Curve], end: Angle) -> Field:
     return np.concatenate([dense, np.geomspace(dense[-1], last, POINTS)[1:]])
 
 
-def _faults(model: FrictionModel, operation: Mapping[str, Any], travel: Length | None, gap: Ratio) -> list[Fault]:
+def _faults(
+    model: FrictionModel, screw: BallScrew, operation: Mapping[str, Any], travel: Length | None, gap: Ratio
+) -> list[Fault]:
     numbers = {**{f"operation.{n}": v for n, v in operation.items()}, "reversal.travel": travel, "reversal.gap": gap}
     remedy = "follow one reversal at a time"
     found = [
@@ -320,6 +320,10 @@ def _faults(model: FrictionModel, operation: Mapping[str, Any], travel: Length |
     if operation["screw_speed"] == 0:
         remedy = "give the speed after the reversal, a slow one"
         found.append(Fault("operation.screw_speed", "must not be zero", "", remedy))
+    braced = screw.nut.halves == 2 or isinstance(screw.nut, OversizeBallNut)
+    if operation["axial_load"] == 0 and not (braced and preload_of(screw, screw.nut)):
+        remedy = "give the load under which the screw turns round"
+        found.append(Fault("operation.axial_load", "leaves the balls without load", "", remedy))
     if travel is not None and not 0 < travel < math.inf:
         found.append(Fault("reversal.travel", "must be above zero", str(travel), "give how far to follow: 1 mm"))
     if not 0 <= gap < math.inf:
