@@ -125,7 +125,8 @@ def test_a_case_gives_load_and_inertia_at_the_screw(example):
     case = case_file.load(example.parent / "vertical_axis.toml", ["axis.transmission_ratio=2"])
     found = options_of_case("mujoco", case)
     assert (found["load"], found["inertia"]) == (4000.0, pytest.approx(4 * 45e-4))
-    assert options_of_case("c", case) == {}
+    point = {"presliding_load": case.operation.axial_load, "presliding_speed": case.operation.screw_speed}
+    assert options_of_case("c", case) == point
 
 
 @pytest.mark.parametrize(

@@ -63,6 +63,15 @@ RESULTS = {
     "MovingChain",
     "NamedOrder",
     "Ripple",
+    "OffLineBalls",
+    "Reversal",
+    "WindingUp",
+    "FitError",
+    "Dahl",
+    "LuGre",
+    "SlipElement",
+    "Element",
+    "Presliding",
 }
 
 #: Read from files, whose values are text.

@@ -141,9 +141,8 @@ def check_reversal(case: Case, options: ReversalOptions) -> None:
         screw_speed=float(case.operation.screw_speed), travel=options.travel, gap=options.gap,
     )  # fmt: skip
     if steps > MOST_STEPS_OF_REVERSAL:
-        remedy = "a shorter travel or a smaller gap; the rest by ballscrew reversal"
-        where = "--gap" if options.travel is None else "--travel"
-        raise InputError(Fault(where, "takes too many steps of the contacts", f"{steps:,}", remedy))
+        remedy = "a shorter travel, or more load or preload; the rest by ballscrew reversal"
+        raise InputError(Fault("--travel", "takes too many steps of the contacts", f"{steps:,}", remedy))
 
 
 def check_ripple(case: Case, options: RippleOptions) -> None:
