@@ -1,18 +1,13 @@
 // The card of a reversal: friction over the angle of the screw after it has turned round, by mechanism, and the numbers
 // of models for controllers. It takes some seconds, so that it is asked for by its button.
 
-import * as designs from "../designs.js";
 import { element, scrolling, table } from "../dom.js";
 import { documented } from "../help.js";
-import { draw, layout, watch } from "../plot.js";
+import { draw, layout } from "../plot.js";
 import { text, textOr } from "../texts.js";
 import * as units from "../units.js";
-import { vocabulary } from "../vocabulary.js";
-import { button, caseFile, commandLine, faultLines } from "./log_parts.js";
-import { flags, optionFields } from "./option_fields.js";
+import { askedByButton } from "./asked_by_button.js";
 import { ANGLE, data, GROWTH, quantity, TORQUE } from "./quantities.js";
-import { question } from "./question.js";
-import { lines } from "./records.js";
 
 /** @typedef {ReversalAnswer["results"]} Results */
 /** @typedef {(number | null)[]} Values */
@@ -44,73 +39,13 @@ function percent(share) {
  * @returns {import("../cards.js").Card}
  */
 export function setUp(holder) {
-  /** @type {import("../state.js").Tables} */
-  let tables = {};
-  /** @type {ReversalAnswer | undefined} */
-  let answer;
-  let system = "";
-  const problems = element("div");
-  const words = element("div");
-  const rest = element("div");
   const chart = element("div", { id: CHART, class: "chart low whole-width", hidden: true });
-  const result = element("div", { class: "card-result", hidden: true }, words, chart, rest);
-  const asked = question({
-    address: "reversal",
-    result,
-    show: (found) => show(found),
-    place: (faults) => {
-      problems.replaceChildren(...faultLines(faults));
-      return undefined;
-    },
-  });
-  const start = button("reversal-start", "reversal.start", async () => {
-    tables = await designs.currentCase();
-    asked.follow(body(), 0);
-  });
-  const command = element("div");
-  const options = vocabulary.options.reversal;
-  /** @type {import("./option_fields.js").Given} */
-  const chosen = {};
-  holder.replaceChildren(
-    element(
-      "p",
-      { class: "small" },
-      `${text("reversal.hypothesis")} `,
-      documented("howto/reversal", `${text("reversal.how_to")}.`),
-    ),
-    optionFields("reversal", options, chosen, () => follow()),
-    element("p", { class: "card-start" }, start),
-    command,
-    asked.line,
-    problems,
-    result,
-  );
-  watch(chart);
-  asked.resume();
-
-  function body() {
-    return { case: tables, ...chosen };
-  }
-
-  async function follow() {
-    tables = await designs.currentCase();
-    command.replaceChildren(commandLine(["ballscrew", "reversal", caseFile(), ...flags(options, chosen)]));
-    if (answer && system !== units.currentSystem()) show(answer);
-    asked.compare(body());
-  }
-
-  /** @param {ReversalAnswer} found */
-  function show(found) {
-    answer = found;
-    system = units.currentSystem();
-    const { results, verdicts, warnings } = found;
-    result.hidden = false;
-    words.replaceChildren(...lines(verdicts, warnings));
+  const page = documented("howto/reversal", `${text("reversal.how_to")}.`);
+  const about = [`${text("reversal.hypothesis")} `, page];
+  return askedByButton(holder, "reversal", about, "reversal.start", [chart], ({ results }) => {
     draw(CHART, picture(results));
-    rest.replaceChildren(swing(results), models(results));
-  }
-
-  return { follow, stop: asked.stop };
+    return [swing(results), models(results)];
+  });
 }
 
 /**

@@ -1,19 +1,14 @@
 // The card of a ripple: the friction torque of the balls over the angle of the screw, its orders, and what faults change.
 // It takes some seconds, so that it is asked for by its button.
 
-import * as designs from "../designs.js";
 import { element, scrolling, table } from "../dom.js";
 import { documented } from "../help.js";
 import { said, translated } from "../messages.js";
-import { draw, layout, watch } from "../plot.js";
+import { draw, layout } from "../plot.js";
 import { text } from "../texts.js";
 import * as units from "../units.js";
-import { vocabulary } from "../vocabulary.js";
-import { button, caseFile, commandLine, faultLines } from "./log_parts.js";
-import { flags, optionFields } from "./option_fields.js";
+import { askedByButton } from "./asked_by_button.js";
 import { data, quantity, TORQUE } from "./quantities.js";
-import { question } from "./question.js";
-import { lines } from "./records.js";
 
 /** @typedef {RippleAnswer["results"]} Results */
 
@@ -30,76 +25,16 @@ const SMALL_TORQUE = quantity("N m", "N mm");
  * @returns {import("../cards.js").Card}
  */
 export function setUp(holder) {
-  /** @type {import("../state.js").Tables} */
-  let tables = {};
-  /** @type {RippleAnswer | undefined} */
-  let answer;
-  let system = "";
-  const problems = element("div");
-  const words = element("div");
-  const rest = element("div");
-  const places = [CHART, ORDERS].map((id) => element("div", { id, class: "chart low", hidden: true }));
-  const result = element("div", { class: "card-result", hidden: true }, words, ...places, rest);
-  const asked = question({
-    address: "ripple",
-    result,
-    show: (found) => show(found),
-    place: (faults) => {
-      problems.replaceChildren(...faultLines(faults));
-      return undefined;
-    },
-  });
-  const start = button("ripple-start", "ripple.start", async () => {
-    tables = await designs.currentCase();
-    asked.follow(body(), 0);
-  });
-  const command = element("div");
-  const options = vocabulary.options.ripple;
-  /** @type {import("./option_fields.js").Given} */
-  const chosen = {};
-  holder.replaceChildren(
-    element(
-      "p",
-      { class: "small" },
-      `${text("ripple.hypothesis")} `,
-      documented("howto/ripple", `${text("ripple.how_to")}.`),
-    ),
-    optionFields("ripple", options, chosen, () => follow()),
-    element("p", { class: "card-start" }, start),
-    command,
-    asked.line,
-    problems,
-    result,
-  );
-  for (const place of places) watch(place);
-  asked.resume();
-
-  function body() {
-    return { case: tables, ...chosen };
-  }
-
-  async function follow() {
-    tables = await designs.currentCase();
-    command.replaceChildren(commandLine(["ballscrew", "ripple", caseFile(), ...flags(options, chosen)]));
-    if (answer && system !== units.currentSystem()) show(answer);
-    asked.compare(body());
-  }
-
-  /** @param {RippleAnswer} found */
-  function show(found) {
-    answer = found;
-    system = units.currentSystem();
-    const { results, verdicts, warnings, display } = found;
-    result.hidden = false;
-    words.replaceChildren(...lines(verdicts, warnings));
+  const charts = [CHART, ORDERS].map((id) => element("div", { id, class: "chart low", hidden: true }));
+  const page = documented("howto/ripple", `${text("ripple.how_to")}.`);
+  const about = [`${text("ripple.hypothesis")} `, page];
+  return askedByButton(holder, "ripple", about, "ripple.start", charts, ({ results, display }) => {
     draw(CHART, overAngle(results));
     draw(ORDERS, overOrder(results));
     const list = element("ul", {}, ...display.assumed.map((one) => element("li", {}, said(one))));
     const assumed = element("details", { open: "" }, element("summary", {}, text("ripple.assumed")), list);
-    rest.replaceChildren(sizes(results), causes(results), orders(results), assumed);
-  }
-
-  return { follow, stop: asked.stop };
+    return [sizes(results), causes(results), orders(results), assumed];
+  });
 }
 
 /**
