@@ -19,7 +19,7 @@ import numpy as np
 
 import ballscrew as bs
 from ballscrew.compiler.kernels.kernel import available
-from ballscrew.physics.components.chain_force import ChainBallForce
+from ballscrew.physics.components.chain_force import WALL_FACTOR, ChainBallForce
 from ballscrew.physics.equations import ball_chain
 from ballscrew.physics.moving_balls.chain import MovingChain, chain_run, circuit_of
 from ballscrew.physics.moving_balls.loaded_zone import loaded_zone
@@ -78,7 +78,7 @@ def row(name: str, speed: float, circuits: int, drawn: list[Draw], plain: bool) 
             MODEL, screw, OIL, axial_load=0.0, screw_speed=speed, groove_deviation=drawn[0].deviation, seed=0,
             circuits=circuits,
         )  # fmt: skip
-        circuit = circuit_of(MODEL, screw, OIL, zone, speed, drawn[0].gap, circuits, None, 10.0)
+        circuit = circuit_of(MODEL, screw, OIL, zone, speed, drawn[0].gap, circuits, None, WALL_FACTOR)
         slow = f"{seconds(lambda: chain_run(circuit, speed, compiled=False)):.1f}"
     shares = np.quantile([run.share for run in runs], QUANTILES)
     law = np.median([by_law(screw, speed, circuits, draw) for draw in drawn])

@@ -36,13 +36,6 @@ def test_the_deviation_is_the_slope_of_the_kinematics(alpha):
     by_shift = (speed(alpha, far) - speed(alpha, -far)) / (2 * far * speed(alpha, 0.0))
     # the shift of the path is along the helix, where the pitch circle is wider by twice it times the cosine
     assert by_shift / math.cos(phi) == pytest.approx(ball_chain.speed_deviation(gamma, alpha, 0.0, 1.0, L), rel=1e-2)
-    by_size = (speed(alpha, 0.0, d_w + far) - speed(alpha, 0.0, d_w - far)) / (2 * far * speed(alpha, 0.0))
-    assert by_size == pytest.approx(ball_chain.speed_deviation_of_size(gamma, 1.0, d_w), rel=1e-7)
-
-
-def test_the_size_of_a_ball_hardly_matters():
-    # 2e-6 for 0.1 um, a hundredth of what a micrometre of groove does
-    assert ball_chain.speed_deviation_of_size(GAMMA, 1e-7, 6e-3) == pytest.approx(-2e-6, rel=0.02)
 
 
 def test_creep_is_between_its_limits():

@@ -26,10 +26,8 @@ from ballscrew.basis.quantities import (
     Temperature,
     Torque,
 )
+from ballscrew.physics.components.materials import GRAVITY
 from ballscrew.physics.friction.element import ElementFriction
-
-#: Standard acceleration of free fall, m/s².
-GRAVITY = 9.80665
 
 
 class Guides(Protocol):

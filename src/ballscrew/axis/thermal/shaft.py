@@ -29,9 +29,10 @@ from ballscrew.basis.quantities import (
     TemperatureCoefficient,
     ThermalCapacity,
 )
+from ballscrew.physics.components.materials import STEEL_DENSITY
 
 #: Steel of shafts and nuts: thermal conductivity W/(m K), heat capacity J/(kg K), density kg/m³, expansion 1/K.
-CONDUCTIVITY, CAPACITY, DENSITY, EXPANSION = 46.0, 470.0, 7850.0, 11.7e-6
+CONDUCTIVITY, CAPACITY, DENSITY, EXPANSION = 46.0, 470.0, STEEL_DENSITY, 11.7e-6
 CELLS = 60
 
 

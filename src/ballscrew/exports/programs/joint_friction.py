@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linprog
 
-from ballscrew.axis.duty_cycle.axis import GRAVITY
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity
@@ -24,6 +23,7 @@ from ballscrew.exports.programs import c99
 from ballscrew.exports.subject import HandOver
 from ballscrew.exports.targets import Option
 from ballscrew.exports.worst_error import Values, WorstError, worst_errors
+from ballscrew.physics.components.materials import GRAVITY
 
 LOAD = Quantity("load", "N", Info("F", "load of the fit", "kN", hint="4 kN", usual=(-1e7, 1e7)))
 INERTIA = Quantity("inertia", "kg m^2", Info("J", "inertia of all that turns", "kg cm^2", at_least=0, usual=(0, 100)))

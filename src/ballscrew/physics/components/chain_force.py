@@ -10,12 +10,11 @@ from ballscrew.basis.errors import faults_of, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Ratio
 from ballscrew.physics.components.contact import Contact
 from ballscrew.physics.components.frame import Frame
+from ballscrew.physics.components.materials import GRAVITY, STEEL_DENSITY
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.components.traits import law_traits, traits_of
 from ballscrew.physics.equations import ball_chain, deflection, kinematics
 
-#: Standard gravity, m/s², and the density of steel, kg/m³.
-GRAVITY, STEEL_DENSITY = 9.80665, 7850.0
 #: Turns of balls that a return holds, and the drag of a ball in it against that in open oil, within a factor of 3.
 TURNS_IN_RETURN, WALL_FACTOR = 0.5, 10.0
 #: Contacts through which the last loaded balls push the return: half of the last one where the end of the zone is

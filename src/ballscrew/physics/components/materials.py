@@ -47,6 +47,9 @@ from ballscrew.physics.components.oil_grades import grades as grades
 from ballscrew.physics.components.oil_grades import nominal_oil as nominal_oil
 from ballscrew.physics.equations import rheology
 
+#: Standard acceleration of free fall, m/s², and the density of steel, kg/m³.
+GRAVITY, STEEL_DENSITY = 9.80665, 7850.0
+
 
 @names_keywords
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -19,9 +19,9 @@ from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, InputError, accepts_units, faults_of, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, Count, Density, Force, Info, Length, Ratio, Speed, Torque
 from ballscrew.basis.records import Message
-from ballscrew.physics.components.chain_force import GRAVITY, STEEL_DENSITY, WALL_FACTOR
+from ballscrew.physics.components.chain_force import WALL_FACTOR
 from ballscrew.physics.components.frame import helix_frame
-from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.materials import GRAVITY, STEEL_DENSITY, Lubricant
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import ball_chain, geometry, kinematics, nut_losses, preload, transmission
 

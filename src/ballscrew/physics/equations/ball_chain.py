@@ -63,17 +63,6 @@ def speed_deviation(
     return gamma / (1 - gamma) * xp.tan(alpha) * Delta_alpha + e_L / (L * (1 - gamma))
 
 
-def speed_deviation_of_size(curvature_ratio: Ratio, diameter_deviation: Length, ball_diameter: Length) -> Ratio:
-    r"""Deviation of the natural speed of a ball that is too big, at the same contact angle.
-
-    .. math:: \epsilon = -\frac{\gamma}{1 - \gamma} \frac{\Delta_d}{d_w}
-
-    Some 2e-6 for 0.1 µm, which is nothing beside what the grooves do; the load of the ball is what its size changes.
-    """
-    gamma, Delta_d, d_w = curvature_ratio, diameter_deviation, ball_diameter
-    return -gamma / (1 - gamma) * Delta_d / d_w
-
-
 def rms_speed_deviation(
     curvature_ratio: Ratio, contact_angle: Angle, groove_deviation: Length, groove_centre_distance: Length
 ) -> Ratio:

@@ -63,15 +63,15 @@ def bristle_stiffness(
 ) -> StiffnessDensity:
     r"""Stiffness for each area of a strip of bristles that gives way as the elastic strip does when it rolls.
 
-    .. math:: k = \frac{\pi}{4 l} \frac{2}{1/G_b + 1/G_r}
+    .. math:: k = \frac{\pi}{4 w} \frac{2}{1/G_b + 1/G_r}
 
-    A strip of the half width l that rolls without slip under a creepage :math:`\xi` across its path carries
-    :math:`(\pi/2) G l \xi` on each length, Carter's solution with the shear modulus in place of :math:`G/(1 - \nu)`;
-    bristles carry :math:`2 k l^2 \xi`. Summed over the strips of a slender ellipse the force is :math:`(\pi^2/4) G a b
+    A strip of the half width w that rolls without slip under a creepage :math:`\xi` across its path carries
+    :math:`(\pi/2) G w \xi` on each length, Carter's solution with the shear modulus in place of :math:`G/(1 - \nu)`;
+    bristles carry :math:`2 k w^2 \xi`. Summed over the strips of a slender ellipse the force is :math:`(\pi^2/4) G a b
     \xi`, Kalker's for such a contact (Kalker1967).
     """
-    l, G_b, G_r = half_width, ball_shear_modulus, race_shear_modulus  # noqa: E741
-    return math.pi / (4 * l) * 2 / (1 / G_b + 1 / G_r)
+    w, G_b, G_r = half_width, ball_shear_modulus, race_shear_modulus
+    return math.pi / (4 * w) * 2 / (1 / G_b + 1 / G_r)
 
 
 def lateral_stiffness(

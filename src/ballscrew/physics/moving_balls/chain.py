@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 from ballscrew.basis.errors import Fault, accepts_units, is_concrete, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, Count, Force, Info, Length, Power, Ratio
 from ballscrew.compiler.kernels.kernel import available
-from ballscrew.physics.components.chain_force import GRAVITY, STEEL_DENSITY, TURNS_IN_RETURN, WALL_FACTOR
-from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.chain_force import TURNS_IN_RETURN, WALL_FACTOR
+from ballscrew.physics.components.materials import GRAVITY, STEEL_DENSITY, Lubricant
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.components.traits import traits_of

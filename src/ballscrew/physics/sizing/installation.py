@@ -11,6 +11,7 @@ from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, faults_of, raise_if_any
 from ballscrew.basis.quantities import Array, Density, DiameterSpeed, Info, Length, Pressure, Ratio, Stiffness, Unit
 from ballscrew.basis.records import Message
+from ballscrew.physics.components.materials import STEEL_DENSITY
 
 
 class Ends(enum.Enum):
@@ -60,7 +61,7 @@ class Installation(ByValue):
         Info(
             r"\rho_s", "density of the shaft", "kg/m^3", above=0, hint="steel has 7850 kg/m^3", usual=(1500.0, 20000.0)
         ),
-    ] = 7850.0
+    ] = STEEL_DENSITY
     bearing_rigidity: Annotated[
         Stiffness | None,
         Info(
