@@ -13,6 +13,7 @@ from ballscrew.physics.equations import across_groove, deflection
 from ballscrew.physics.friction.across_groove import friction_across, preload_off_line
 from ballscrew.physics.moving_balls.across_groove import off_line_balls
 from ballscrew.physics.moving_balls.brush import BallContacts, Brush
+from ballscrew.physics.moving_balls.ripple import torque_ripple
 from oracles.ball_in_grooves import HalfNut
 
 REFERENCE = bs.FrictionModel.reference()
@@ -206,15 +207,31 @@ def test_at_rest_the_preload_is_as_it_was_set():
 
 
 def test_the_chain_and_the_ripple_are_of_the_nut_in_motion():
+    """As of a nut that is given the preload which it has there."""
     screw, _ = SCREWS["40x10"]
-    circuit = {"axial_load": 100.0, "screw_speed": SPEED, "gap": 0.5, "groove_deviation": 1e-6, "seed": 1}
-    one, other = (
-        bs.moving_chain(
-            REFERENCE, dataclasses.replace(screw, nut=bs.DoubleNut(preload=900.0, set_at_rest=rest)), OIL, **circuit
+    point = {"axial_load": 100.0, "screw_speed": SPEED}
+    circuit = {**point, "gap": 0.5, "groove_deviation": 1e-6, "seed": 1}
+    set_at_rest = dataclasses.replace(screw, nut=bs.DoubleNut(preload=900.0, set_at_rest=True))
+    preload = float(REFERENCE(set_at_rest, OIL, **point).ball_screw.nut.preload)
+    assert preload > 1.3 * 900
+    in_motion = dataclasses.replace(screw, nut=bs.DoubleNut(preload=preload))
+    one, other = (bs.moving_chain(REFERENCE, each, OIL, **circuit) for each in (set_at_rest, in_motion))
+    np.testing.assert_allclose(one.loads, other.loads, rtol=1e-9)
+    torques = [torque_ripple(REFERENCE, each, OIL, **circuit, turns=2).torque for each in (set_at_rest, in_motion)]
+    np.testing.assert_allclose(*torques, rtol=1e-9)
+
+
+def test_a_dataset_says_that_the_preload_was_set_at_rest():
+    screw, _ = SCREWS["20x5"]
+    of = {
+        rest: bs.sweep(
+            REFERENCE, dataclasses.replace(screw, nut=bs.DoubleNut(preload=500.0, set_at_rest=rest)), OIL,
+            outputs=["screw_torque"], axial_load=[200.0], screw_speed=[SPEED],
         )
         for rest in (True, False)
-    )
-    assert np.max(one.loads) > 1.2 * np.max(other.loads)
+    }  # fmt: skip
+    assert of[True].attrs["nut_set_at_rest"] == "true"
+    assert "nut_set_at_rest" not in of[False].attrs
 
 
 def test_the_stiffness_from_rest_is_that_of_the_leaning_normals():

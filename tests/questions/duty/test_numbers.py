@@ -140,3 +140,26 @@ def test_what_is_said_of_the_running_time(tmp_path):
     for check in (hours, turns):
         assert check.utilisation == pytest.approx(check.limit / check.value, rel=1e-12)
         assert check.holds is bool(check.utilisation <= 1)
+
+
+def test_the_life_is_that_of_the_preload_in_motion(tmp_path):
+    """A nut whose preload was set at rest lives as one with the preload that it has at the mean speed of the cycle."""
+    constant = '[model]\nname = "constant-efficiency"\nefficiency = 0.8\n'
+
+    def of(nut):
+        path = tmp_path / "case.toml"
+        path.write_text(CASE.replace(constant, "").replace('type = "single"', f'type = "double"\n{nut}'))
+        return duty(case_file.load(path, [], moves=True))
+
+    given, set_at_rest = of('preload = "3 kN"'), of('preload = "3 kN"\nset_at_rest = true')
+    assert given.life.preload == 3000
+    assert set_at_rest.life.preload > 1.3 * given.life.preload
+    same = of(f'preload = "{float(set_at_rest.life.preload)!r} N"')
+    assert same.life.revolutions == pytest.approx(set_at_rest.life.revolutions, rel=1e-9)
+    assert set_at_rest.life.revolutions < given.life.revolutions
+    at_rest, moving, like = (
+        float(np.max(one.balls_under_largest_load.forward_load + one.balls_under_largest_load.backward_load))
+        for one in (given, set_at_rest, same)
+    )
+    assert moving == pytest.approx(like, rel=1e-9)
+    assert moving > at_rest

@@ -118,6 +118,7 @@ def order_of_failing(candidates, objective, *, asks_for_life):
         {**UP, **ROW, "inclination": "0 deg", "life": "20000 h"},
         {**UP, **ROW, "motor": {"rated_torque": "10 N m", "peak_torque": "30 N m", "largest_speed": "2200 rpm"}},
         {**UP, **ROW},
+        {**POINT, "nut": {"type": ["double", "oversize-balls"], "preload": ["3 %"], "set_at_rest": True}},
     ],
 )
 def test_what_its_loads_rule_out_changes_no_rank(need):
