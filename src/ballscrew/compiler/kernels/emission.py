@@ -17,6 +17,8 @@ import numpy as np
 
 from ballscrew.compiler.kernels import elementary
 from ballscrew.compiler.kernels.ir import Value, Writer, constant
+from ballscrew.compiler.kernels.pieces import STEPS as STEPS_OF_A_PIECE
+from ballscrew.compiler.kernels.pieces import pieces_of
 from ballscrew.compiler.tracing.program import Program, Source
 from ballscrew.compiler.tracing.steps import Operand, Step, choose
 
@@ -69,6 +71,7 @@ def kernel_text(
     lanes: int | None = None,
     watched: bool = False,
     reduced: Mapping[str, Any] | None = None,
+    in_pieces: bool = False,
 ) -> str:
     """The module with the kernel of a program.
 
@@ -76,11 +79,15 @@ def kernel_text(
     holds truth values. A ``watched`` kernel has one more output, the ends of what it reads, so that inputs need not be
     read twice to be checked: for each input over points :data:`ENDS_OF_EACH` vectors of integers, the least and the
     greatest bits by lane over all whole vectors. Outputs that are ``reduced``, by ``numpy.sum`` or ``numpy.max`` over
-    the rows, have a place for each column, and room for a vector more. Raises :class:`UnknownOperationError`.
+    the rows, have a place for each column, and room for a vector more. A long program ``in_pieces`` is sooner compiled
+    (:mod:`ballscrew.compiler.kernels.pieces`). Raises :class:`UnknownOperationError`.
     """
     w = Writer(lanes or lanes_for(program))
     seen = [i for i, source in enumerate(sources) if source == "points"] if watched else []
     values = dict(enumerate(_emit_loops_and_loads(w, sources, seen)))
+    parts = pieces_of(program, w.lanes, _steps) if in_pieces and len(program.steps) > STEPS_OF_A_PIECE else None
+    if parts is not None:
+        values, program = parts.write(w, values, program.outputs.values()), dataclasses.replace(program, steps=())
     emitter = StepEmitter(w, program, values)
     results = [
         (j, name, emitter.as_mask(i) if masks[name] else emitter.as_number(i))
@@ -96,10 +103,12 @@ def kernel_text(
     return "\n".join(
         [
             elementary.definitions(w.lanes),
+            *([] if parts is None else [parts.functions]),
             f"define void @kernel({SIGNATURE}) {{",
             "entry:",
             f"  %spare = alloca {w.doubles}, align 64",
             f"  store {w.doubles} zeroinitializer, ptr %spare",
+            *([] if parts is None else parts.table(w)),
             *pointers("input", len(sources)),
             *pointers("output", len(program.outputs)),
             *(line for i in seen for line in _ends_of_nothing(w, i)),
@@ -110,6 +119,10 @@ def kernel_text(
             "",
         ]
     )
+
+
+def _steps(w: Writer, program: Program, values: dict[int, Value]) -> Mapping[int, Value]:
+    return StepEmitter(w, program, values).values
 
 
 def pointers(name: str, count: int) -> list[str]:

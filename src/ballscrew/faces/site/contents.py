@@ -1,0 +1,142 @@
+"""All that the static page knows besides its modules: names, units, bounds, words, and the screws to start from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from ballscrew.basis import units
+from ballscrew.basis.quantities import Quantity
+from ballscrew.basis.version import __version__
+from ballscrew.engine.evaluation.outputs import OPERATION, known_outputs
+from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.faces.site import kinds
+from ballscrew.faces.site.modules import Function, Module
+from ballscrew.faces.web.vocabulary import vocabulary
+from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.sizing.catalogue import catalogue
+
+#: Format of what follows, for a page of another version.
+FORMAT = 1
+#: The sections of a case file by the part that an input belongs to.
+_SECTIONS: Mapping[str, str] = {
+    "operation": "operation", "screw": "screw", "lubricant": "lubricant", "model": "model", "nut": "nut",
+}  # fmt: skip
+
+
+def contents(modules: Mapping[tuple[str, str], Module], oils: Module, grades: tuple[str, ...]) -> dict[str, Any]:
+    """The contents as one JSON document; numbers are in SI.
+
+    ``modules`` are those of models and kinds of nut, ``oils`` that of the ``grades``.
+    """
+    words = vocabulary()
+    subjects = {pair: kinds.subject_of(kinds.case_of(kinds.PAPER, *pair)) for pair in modules}
+    results = {name: _described(output.quantity) for s in subjects.values() for name, output in _outputs(s).items()}
+    given = {name for module in modules.values() for function in module.functions for name in function.outputs}
+    of_oils = zip(grades, oils.functions, strict=True)
+    return {
+        "format": FORMAT,
+        "version": __version__,
+        "models": {model: _values(subjects, model) for model in dict.fromkeys(model for model, _ in modules)},
+        "kinds": {
+            name: {"words": kind.words, "is_preloaded": kind.is_preloaded, "nut": kind.nut}
+            for name, kind in kinds.KINDS.items()
+        },
+        "structures": {
+            f"{model}/{kind}": {"file": module.file, **_function(module.functions[0])}
+            for (model, kind), module in modules.items()
+        },
+        "oils": {"file": oils.file, "grades": {grade: _function(function) for grade, function in of_oils}},
+        "fields": _fields(subjects),
+        "results": {name: described for name, described in results.items() if name in given},
+        "mechanisms": words["mechanisms"],
+        "reasons": words["reasons"],
+        "symbols": words["symbols"],
+        "starts": {name: _start(name) for name in kinds.start_tables()},
+    }
+
+
+def _function(function: Function) -> dict[str, Any]:
+    return {
+        "function": function.name,
+        "inputs": list(function.inputs),
+        "outputs": list(function.outputs),
+        "constants": dict(function.constants),
+    }
+
+
+def _outputs(subject: Configuration) -> Mapping[str, Any]:
+    return known_outputs(subject.nut)
+
+
+def _described(quantity: Quantity) -> dict[str, Any]:
+    offset = units.to_si(0.0, quantity.shown_in, quantity)
+    return {
+        "meaning": quantity.info.meaning,
+        "symbol": quantity.info.symbol,
+        "unit": quantity.unit,
+        "shown_in": quantity.shown_in,
+        "factor": units.to_si(1.0, quantity.shown_in, quantity) - offset,
+        "offset": offset,
+    }
+
+
+def _values(subjects: Mapping[tuple[str, str], Configuration], model: str) -> dict[str, Any]:
+    """The numbers of a model."""
+    found: dict[str, float] = {}
+    for (of, _), subject in subjects.items():
+        if of == model:
+            found |= {n: float(subject.value_of(n)) for n in kinds.inputs_of(subject) if subject.inputs[n][0] == "model"}
+    return {"values": found}
+
+
+def _fields(subjects: Mapping[tuple[str, str], Configuration]) -> dict[str, Any]:
+    """The inputs of all modules by name: where they stand in a case file, their units and bounds."""
+    known = {
+        name: subject.inputs[name] for subject in subjects.values() for name in kinds.inputs_of(subject)
+    } | {TEMPERATURE.name: ("lubricant", TEMPERATURE)}
+    return {name: _field(name, part, quantity) for name, (part, quantity) in known.items()}
+
+
+def _field(name: str, part: str, quantity: Quantity) -> dict[str, Any]:
+    info = quantity.info
+    section = "" if name.startswith("losses.") else f"{_SECTIONS[part]}."
+    bounds = {"above": info.above, "at_least": info.at_least, "below": info.below, "at_most": info.at_most}
+    return {
+        "path": f"{section}{name}",
+        **_described(quantity),
+        **{bound: value for bound, value in bounds.items() if value is not None},
+        "usual": info.usual,
+        "whole": info.whole,
+    }
+
+
+def _start(name: str) -> dict[str, Any]:
+    """A case to start from: its tables, its numbers, and those of each kind of nut."""
+    row = catalogue().get(name) if name != kinds.PAPER else None
+    nuts: dict[str, Any] = {}
+    values: dict[str, float] = {}
+    temperature: Any = None
+    for kind in kinds.KINDS:
+        case = kinds.case_of(name, kinds.MODELS[0], kind)
+        subject, temperature = kinds.subject_of(case), case.lubricant.temperature
+        parts = {n: subject.inputs[n][0] for n in kinds.inputs_of(subject) if n not in OPERATION}
+        values |= {n: float(subject.value_of(n)) for n, part in parts.items() if part in ("screw", "lubricant")}
+        values |= {n: float(getattr(case.operation, n)) for n in OPERATION}
+        tables = kinds.tables_of(name, kinds.MODELS[0], kind)
+        nuts[kind] = {
+            "values": {n: float(subject.value_of(n)) for n, part in parts.items() if part == "nut"},
+            "tables": {section: tables[section] for section in ("nut", "losses") if section in tables},
+        }
+    oil = kinds.start_tables()[name]["lubricant"]
+    return {
+        "title": "" if row is None else row.name,
+        "make": "" if row is None else row.make,
+        "source": "" if row is None else row.source,
+        "kind": kinds.kind_of_start(name),
+        "tables": kinds.start_tables()[name],
+        "grade": oil.get("grade"),
+        "temperature": temperature,
+        "values": values,
+        "nuts": nuts,
+    }
