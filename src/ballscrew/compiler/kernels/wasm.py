@@ -5,8 +5,8 @@ functions are polynomials of :mod:`ballscrew.compiler.kernels.elementary`, so th
 and neither fused products nor relaxed vectors are used. Results are therefore the same to the last bit on every machine
 (but the payload of NaN). Needs vectors of 128 bits and bulk memory: Chrome 91, Firefox 89, Safari 16.4 or later.
 
-An object file of LLVM is nearly such a module: it imports its memory and the pointer of its stack. What is left to do is
-to drop the sections of the linker and to say which functions are exported.
+An object file of LLVM is nearly such a module: it imports its memory and the pointer of its stack. What is left to do
+is to drop the sections of the linker and to say which functions are exported.
 """
 
 from __future__ import annotations
@@ -16,7 +16,6 @@ import importlib
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
-from ballscrew.basis.errors import Fault, InputError
 from ballscrew.compiler.kernels import kernel as kernels
 from ballscrew.compiler.kernels.emission import SIGNATURE
 
@@ -44,10 +43,10 @@ def module_of(parts: Sequence[Part]) -> bytes:
     """A module whose functions ``name(count, rows, tile, inputs, outputs)`` are kernels of :data:`LANES` lanes.
 
     ``count`` is the number of columns, ``rows`` that of rows (1 for a kernel over points), ``tile`` that of the columns
-    worked on at a time; ``inputs`` and ``outputs`` are addresses of tables of addresses, 32 bits each, of arrays. The module imports ``memory``
-    and ``stack_pointer`` as an object file names them: ``env.__linear_memory``, ``env.__stack_pointer``.
+    worked on at a time; ``inputs`` and ``outputs`` are addresses of tables of addresses, 32 bits each, of arrays. The
+    module imports its memory and the pointer of its stack, as ``env.__linear_memory`` and ``env.__stack_pointer``.
 
-    Raises :class:`~ballscrew.basis.errors.InputError` where the compiler is not installed or has no such target.
+    Raises ``ImportError`` without the compiler, and :class:`ValueError` for a kernel that needs other functions.
     """
     llvm = _llvm()
     whole = llvm.parse_assembly("")
@@ -71,8 +70,6 @@ def available() -> bool:
 
 @functools.cache
 def _llvm() -> Any:
-    if not available():
-        raise InputError(Fault("kernels", "need a compiler that is not installed", "", 'pip install "ballscrew[fast]"'))
     llvm = importlib.import_module("llvmlite.binding")
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()

@@ -86,15 +86,17 @@ def _values(subjects: Mapping[tuple[str, str], Configuration], model: str) -> di
     found: dict[str, float] = {}
     for (of, _), subject in subjects.items():
         if of == model:
-            found |= {n: float(subject.value_of(n)) for n in kinds.inputs_of(subject) if subject.inputs[n][0] == "model"}
+            found |= {
+                n: float(subject.value_of(n)) for n in kinds.inputs_of(subject) if subject.inputs[n][0] == "model"
+            }
     return {"values": found}
 
 
 def _fields(subjects: Mapping[tuple[str, str], Configuration]) -> dict[str, Any]:
     """The inputs of all modules by name: where they stand in a case file, their units and bounds."""
-    known = {
-        name: subject.inputs[name] for subject in subjects.values() for name in kinds.inputs_of(subject)
-    } | {TEMPERATURE.name: ("lubricant", TEMPERATURE)}
+    known = {name: subject.inputs[name] for subject in subjects.values() for name in kinds.inputs_of(subject)} | {
+        TEMPERATURE.name: ("lubricant", TEMPERATURE)
+    }
     return {name: _field(name, part, quantity) for name, (part, quantity) in known.items()}
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ballscrew.compiler.kernels import wasm
 from ballscrew.compiler.kernels.emission import kernel_text
@@ -58,7 +58,7 @@ class Module(NamedTuple):
 
 
 def module_of_structure(model: str, kind: str) -> Module:
-    """The module of a model and a kind of nut. Raises :class:`~ballscrew.basis.errors.InputError` without a compiler."""
+    """The module of a model and a kind of nut."""
     subject = kinds.subject_of(kinds.case_of(kinds.PAPER, model, kind))
     program, names = recorded(subject)
     return _compiled([(EVALUATE, names, program)])
@@ -80,7 +80,7 @@ def oils() -> tuple[str, ...]:
 
 
 def module_of_oils() -> Module:
-    """The numbers of each grade of oil at a temperature in kelvin: a function for each, in the order of :func:`oils`."""
+    """The numbers of each grade of oil at a temperature: a function for each, in the order of :func:`oils`."""
     wanted = [name for name in OF_A_GRADE if name != "pressure_modulus_slope"]
     programs: list[tuple[str, tuple[str, ...], Program]] = []
     for place, grade in enumerate(oils()):
@@ -91,10 +91,10 @@ def module_of_oils() -> Module:
     return _compiled(programs)
 
 
-def _at(grade: str, temperature: float) -> OilState:
-    """The nominal numbers of a grade at a temperature."""
-    oil = Lubricant.from_grade(grade, _ANY_TEMPERATURE)
-    return nominal_oil(dataclasses.replace(oil.made_as, temperature=temperature))
+def _at(grade: str, temperature: Any) -> OilState:
+    """The nominal numbers of a grade at a temperature, a number or one that is recorded."""
+    oil: Any = Lubricant.from_grade(grade, _ANY_TEMPERATURE).made_as
+    return nominal_oil(dataclasses.replace(oil, temperature=temperature))
 
 
 def _compiled(programs: Sequence[tuple[str, tuple[str, ...], Program]]) -> Module:

@@ -4,14 +4,173 @@ from __future__ import annotations
 
 import base64
 import hashlib
+import html
 import json
 import re
-from collections.abc import Callable, Mapping
-from importlib import resources
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from ballscrew.basis.atomic_files import write_whole
-from ballscrew.faces.site import kinds
+from ballscrew.basis.atomic_files import atomic_write, check_writable, write_error
+from ballscrew.basis.errors import Fault, InputError, nearest
+from ballscrew.compiler.kernels import wasm
+from ballscrew.faces.site import bundle, kinds
 from ballscrew.faces.site.contents import contents
 from ballscrew.faces.site.modules import Module, module_of_oils, module_of_structure, oils
+
+#: Files of the folder that are as they are in the package.
+_PLAIN = ("style.css", "icon.svg")
+_KERNELS = "kernels"
+_OLD_KERNEL = re.compile(r"[0-9a-f]{16}\.wasm(\.js)?")
+#: Told of each module that is made: how many of how many.
+Progress = Callable[[int, int], None]
+
+
+def _silent(*_: int) -> None:
+    """Nothing, for nobody looks."""
+
+
+def site(
+    models: Sequence[str] = (), nuts: Sequence[str] = (), *, single: bool = False, done: Progress = _silent
+) -> dict[str, bytes]:
+    """The files of the page by their names in the folder; a ``single`` one has all in ``index.html``.
+
+    ``models`` and ``nuts`` name those that it knows, all by default. Raises
+    :class:`~ballscrew.basis.errors.InputError` for unknown ones, and where the compiler is not installed.
+    """
+    if not wasm.available():
+        raise InputError(Fault("site", "needs a compiler that is not installed", "", 'pip install "ballscrew[fast]"'))
+    chosen = _chosen(models, nuts)
+    total = len(chosen) + 1
+    modules: dict[tuple[str, str], Module] = {}
+    for place, pair in enumerate(chosen):
+        done(place, total)
+        modules[pair] = module_of_structure(*pair)
+    grades = oils()
+    of_oils = module_of_oils()
+    done(total, total)
+    codes = {module.file: module.code for module in (*modules.values(), of_oils)}
+    known = contents(modules, of_oils, grades)
+    return _single(known, codes) if single else _folder(known, codes)
+
+
+def write(out: Path, files: Mapping[str, bytes]) -> list[Path]:
+    """Write the files of the page into a folder, the document last; modules of an earlier page are removed.
+
+    One file may have a name of its own that ends in ``.html``. Raises :class:`~ballscrew.basis.errors.InputError`
+    where it cannot be written.
+    """
+    if len(files) == 1 and out.suffix == ".html":
+        check_writable("site.out", out)
+        return [_written(out, *files.values())]
+    if out.is_file():
+        raise InputError(Fault("site.out", "is a file", str(out), "name a folder, or a file .html with --single"))
+    try:
+        (out / _KERNELS).mkdir(parents=True, exist_ok=True) if len(files) > 1 else out.mkdir(
+            parents=True, exist_ok=True
+        )
+    except OSError as error:
+        raise write_error("site.out", out, error) from None
+    paths = [_written(out / name, content) for name, content in files.items()]
+    for old in (out / _KERNELS).glob("*"):
+        if _OLD_KERNEL.fullmatch(old.name) and f"{_KERNELS}/{old.name}" not in files:
+            old.unlink(missing_ok=True)
+    return paths
+
+
+def _written(path: Path, content: bytes) -> Path:
+    with atomic_write("site.out", path) as temporary:
+        temporary.write_bytes(content)
+    return path
+
+
+def _chosen(models: Sequence[str], nuts: Sequence[str]) -> list[tuple[str, str]]:
+    """The models and kinds of nut of the page. Raises :class:`~ballscrew.basis.errors.InputError` for unknown ones."""
+    known = {"model": kinds.MODELS, "nut": tuple(kinds.KINDS)}
+    faults = [
+        Fault(f"site.{what}", "unknown", name, nearest(name, known[what]))
+        for what, names in (("model", models), ("nut", nuts))
+        for name in names
+        if name not in known[what]
+    ]
+    if faults:
+        raise InputError(*faults)
+    found = [pair for pair in kinds.structures() if (not models or pair[0] in models) and (not nuts or pair[1] in nuts)]
+    if not found:
+        given = f"{', '.join(models)} with {', '.join(nuts)}"
+        raise InputError(Fault("site", "no such model has such a nut", given, "leave one of them out"))
+    return found
+
+
+def _digest(known: Mapping[str, Any], script: str) -> str:
+    """The digest of a page: of what it computes, what it says, and how it looks."""
+    everything = [_json(known), script, *map(bundle.text_of, ("index.html", "service_worker.js", *_PLAIN))]
+    return hashlib.sha256("\n".join(everything).encode()).hexdigest()[:16]
+
+
+def _json(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+
+
+def _contents(known: Mapping[str, Any], digest: str, embedded: Mapping[str, str]) -> str:
+    """The script that holds the contents."""
+    return f"globalThis.ballscrewSite={_json({'digest': digest, 'embedded': embedded, 'contents': known})};\n"
+
+
+def _in_text(code: bytes) -> str:
+    return base64.b64encode(code).decode()
+
+
+def _folder(known: Mapping[str, Any], codes: Mapping[str, bytes]) -> dict[str, bytes]:
+    script = bundle.script()
+    digest = _digest(known, script)
+    # from file:// nothing can be fetched: there a module is a script that holds its bytes
+    scripts = {
+        f"{_KERNELS}/{name}.js": f'globalThis.ballscrewSite.embedded["{name}"]="{_in_text(code)}";\n'
+        for name, code in codes.items()
+    }
+    texts = {
+        **scripts,
+        **{name: bundle.text_of(name) for name in _PLAIN},
+        "contents.js": _contents(known, digest, {}),
+        "page.js": script,
+        "manifest.webmanifest": _json(_manifest()),
+    }
+    files = {f"{_KERNELS}/{name}": code for name, code in codes.items()} | {n: t.encode() for n, t in texts.items()}
+    kept = [name for name in files if name not in scripts]
+    worker = bundle.text_of("service_worker.js").replace('"DIGEST"', f'"{digest}"')
+    files["service_worker.js"] = worker.replace('["FILES"]', _json(["./", "index.html", *kept])).encode()
+    return {**files, "index.html": _document(bundle.policy()).encode()}
+
+
+def _manifest() -> dict[str, Any]:
+    return {
+        "name": "ballscrew",
+        "short_name": "ballscrew",
+        "start_url": "./",
+        "display": "standalone",
+        "icons": [{"src": "icon.svg", "sizes": "any", "type": "image/svg+xml"}],
+    }
+
+
+def _document(policy: str) -> str:
+    return bundle.text_of("index.html").replace("POLICY", html.escape(policy, quote=True))
+
+
+def _single(known: Mapping[str, Any], codes: Mapping[str, bytes]) -> dict[str, bytes]:
+    script, style = bundle.script(), bundle.text_of("style.css")
+    held = _contents(known, _digest(known, script), {name: _in_text(code) for name, code in codes.items()})
+    held = held.replace("</", "<\\/")
+    icon = f"data:image/svg+xml;base64,{_in_text(bundle.text_of('icon.svg').encode())}"
+    document = _document(bundle.policy([held, script], [style]))
+    for reference, content in (
+        ('<link rel="stylesheet" href="style.css">', f"<style>{style}</style>"),
+        ('<link rel="icon" href="icon.svg" type="image/svg+xml">', f'<link rel="icon" href="{icon}">'),
+        ('<link rel="manifest" href="manifest.webmanifest">', ""),
+        ('<script src="contents.js"></script>', f"<script>{held}</script>"),
+        ('<script src="page.js"></script>', f"<script>{script}</script>"),
+    ):
+        if document.count(reference) != 1:
+            raise ValueError(f"the document has not once {reference}")
+        document = document.replace(reference, content)
+    return {"index.html": document.encode()}
