@@ -207,6 +207,16 @@ def is_concrete(value: Any) -> bool:
     return isinstance(value, numbers.Real) and value is not True and value is not False
 
 
+def holds_somewhere(mask: Any) -> bool:
+    """Return whether a mask of NumPy holds anywhere; False for that of a value which is only being recorded."""
+    return isinstance(mask, bool | np.bool_ | np.ndarray) and bool(np.any(mask))
+
+
+def plain(value: Any) -> Any:
+    """A concrete number as a float; arrays and tracers as they are."""
+    return float(value) if is_concrete(value) else value
+
+
 def as_float(value: Any) -> float:
     """A concrete number as a float; infinite on overflow."""
     try:

@@ -10,8 +10,6 @@ from __future__ import annotations
 import dataclasses
 from typing import NamedTuple
 
-import numpy as np
-
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.records import Message
 from ballscrew.compiler.tracing.grid import Split
@@ -21,8 +19,7 @@ from ballscrew.compiler.tracing.tape import CannotRecordError
 from ballscrew.engine.evaluation.by_ball import recorded_by_ball, stages_by_ball
 from ballscrew.engine.evaluation.outputs import OF_LOADS, OPERATION
 from ballscrew.exports.subject import PRELOADS, HandOver
-from ballscrew.physics.equations.deflection import groove_centre_distance
-from ballscrew.physics.solvers.load_distribution import body_stiffness, pair_load_deflection, radial_stiffness
+from ballscrew.physics.solvers.load_distribution import elastic_nut_numbers
 
 #: What the solver in C finds besides the loads of the balls.
 SOLVED = "residual"
@@ -160,23 +157,10 @@ def elastic_nut(handed: HandOver) -> ElasticNut:
     """The numbers of the nut for the solver in C."""
     screw, nut = handed.subject.screw, handed.subject.nut
     assert nut.bodies is not None, "elastic bodies, as was checked"
-    bodies = nut.bodies.sized(screw)
-    screw_bar, nut_bar, step = body_stiffness(screw, bodies)
-    link = 1 / (1 / screw_bar + 1 / nut_bar)
     return ElasticNut(
         halves=nut.halves,
         balls=int(screw.carrying_balls),
         four_contacts=int(nut.contacts_per_ball == 4),
-        swells=int(bodies.swelling),
-        load_deflection=float(pair_load_deflection(screw)),
-        centre_distance=float(
-            groove_centre_distance(screw.screw_conformity, screw.nut_conformity, screw.ball_diameter)
-        ),
-        contact_angle=float(screw.contact_angle),
-        lead_cosine=float(np.cos(screw.lead_angle)),
-        step=float(step),
-        spacing=float(getattr(nut, "spacing", 0.0)),
-        link=float(link),
-        first_share=1.0 if bodies.same_side else float(link / screw_bar),
-        radial_stiffness=float(radial_stiffness(screw, bodies)) if bodies.swelling else 0.0,
+        swells=int(nut.bodies.swelling),
+        **{name: float(value) for name, value in elastic_nut_numbers(screw, nut, nut.bodies)._asdict().items()},
     )

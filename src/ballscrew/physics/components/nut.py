@@ -15,6 +15,7 @@ from ballscrew.basis.errors import (
     InputError,
     accepts_units,
     faults_of,
+    holds_somewhere,
     is_concrete,
     names_keywords,
     raise_if_any,
@@ -86,7 +87,7 @@ class Bodies(ByValue):
     def __post_init__(self) -> None:
         faults = faults_of("bodies", self, optional=tuple(fields_of(Bodies)))
         outer, inner = self.nut_outer_diameter, self.nut_inner_diameter
-        if not faults and outer is not None and inner is not None and np.any(outer <= inner):
+        if not faults and outer is not None and inner is not None and holds_somewhere(outer <= inner):
             remedy = "give the outer diameter of the nut, not that of its bore"
             faults.append(Fault("bodies.nut_outer_diameter", "must exceed the inner diameter", "", remedy))
         raise_if_any(faults)
@@ -112,7 +113,7 @@ class Bodies(ByValue):
         }
         missing = {name: value for name, value in usual.items() if getattr(self, name) is None}
         whole = dataclasses.replace(self, **missing) if missing else self
-        if self.swelling and np.any(whole.nut_outer_diameter <= d_m + d_w * np.cos(screw.contact_angle)):
+        if self.swelling and holds_somewhere(whole.nut_outer_diameter <= d_m + d_w * np.cos(screw.contact_angle)):
             remedy = "give the outer diameter of the nut, or let it not swell (swelling = false)"
             raise InputError(Fault("bodies.nut_outer_diameter", "leaves no wall around the balls", "", remedy))
         return whole

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ballscrew.basis.arrays import where
-from ballscrew.basis.quantities import Array, Mask, Ratio, Torque
+from ballscrew.basis.quantities import Array, Force, Mask, Ratio, Torque
 from ballscrew.physics.equations import transmission
 
 
@@ -16,6 +16,11 @@ def holding_torque(ideal_torque: Torque, screw_torque: Torque) -> Torque:
     """Torque on the shaft that holds a load of either sign; of the other sign than the load's where it locks itself."""
     size = transmission.holding_torque(abs(ideal_torque), screw_torque)
     return where(ideal_torque < 0, -size, size)
+
+
+def load_drives(holding_torque: Torque, axial_load: Force) -> Mask:
+    """Mask: the load alone turns the screw; False where the torque is NaN."""
+    return holding_torque * axial_load > 0
 
 
 def locks_itself(ideal_torque: Torque, screw_torque: Torque) -> Mask:

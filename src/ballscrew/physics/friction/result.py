@@ -394,10 +394,16 @@ class FrictionResult(VendorTerms, Drawn):
         return holds
 
     @property
+    def may_starve(self) -> bool:
+        """Oil that comes back too late may take so much of the torque that a full bath has to be asked for, too."""
+        model, oil = self.parts["model"], self.parts["lubricant"]
+        left = starvation.least_replenished(model, self.ball_screw, oil, self.screw_speed)
+        return left < starvation.NEARLY_ALL
+
+    @property
     def starvation(self) -> list[Record]:
         """The torque where it is starved the most, beside that of a full bath; empty where they hardly differ."""
-        model, oil = self.parts["model"], self.parts["lubricant"]
-        if starvation.least_replenished(model, self.ball_screw, oil, self.screw_speed) >= starvation.NEARLY_ALL:
+        if not self.may_starve:
             return []
         found = starvation.most_starved(self.screw_torque, self.flooded_torque)
         quantity = quantities_of(FrictionResult)["screw_torque"]

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ballscrew.basis.arrays import as_array
 from ballscrew.basis.errors import shown_in_si
 from ballscrew.basis.quantities import Quantity
 from ballscrew.basis.records import Measured, Message, Record
@@ -26,7 +27,8 @@ LARGEST_DIFFERENCE = 0.1
 #: the torque that force, it would grow by 1/0.92, that is by less than what counts.
 NEARLY_ALL = 0.92
 
-_ONE = Message(
+#: The sentence of an answer that has one number.
+OF_ONE_NUMBER = Message(
     "starved: {given} if oil this thick comes back into the track too late, as in bearings; "
     "{flooded} in a full bath of oil; which of them a ball screw has is not measured"
 )
@@ -46,8 +48,7 @@ class BothTorques(NamedTuple):
 
 def differs(given: Any, flooded: Any) -> Any:
     """Mask: the torque of a full bath is larger by more than :data:`LARGEST_DIFFERENCE`; False where one is NaN."""
-    given, flooded = np.asarray(given, dtype=float), np.asarray(flooded, dtype=float)
-    return flooded > (1 + LARGEST_DIFFERENCE) * given
+    return as_array(flooded) > (1 + LARGEST_DIFFERENCE) * as_array(given)
 
 
 def most_starved(given: Any, flooded: Any) -> tuple[float, float] | None:
@@ -88,7 +89,7 @@ def records(numbers: Sequence[BothTorques], remark: Message | None = None) -> li
     given = [Measured(one.given, one.quantity) for one in numbers]
     flooded = [Measured(one.flooded, one.quantity) for one in numbers]
     if len(numbers) == 1:
-        message = _ONE.of(given=given[0], flooded=flooded[0])
+        message = OF_ONE_NUMBER.of(given=given[0], flooded=flooded[0])
     else:
         named = [
             Message("{meaning} {value}", {"meaning": Message(one.quantity.info.meaning), "value": value})

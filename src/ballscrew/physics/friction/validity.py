@@ -10,6 +10,7 @@ import numpy as np
 
 from ballscrew.basis.arrays import namespace
 from ballscrew.basis.errors import is_concrete
+from ballscrew.basis.judgements import Judgement, Sentence, Shown
 from ballscrew.basis.quantities import Mask, Ratio, Torque, fields_of, within_bounds
 from ballscrew.basis.records import Measured, Message, Record
 from ballscrew.physics.components.contact import Contact, RaceState
@@ -119,37 +120,84 @@ NUT_REASONS: Mapping[str, str] = {reason: condition.text for reason, condition i
 REASONS: Mapping[str, str] = {reason: condition.text for reason, condition in CONDITIONS.items()}
 
 
+def _imbalance(of: Mapping[str, Any]) -> Mapping[str, Any]:
+    share = abs(of["power_imbalance"])
+    return {
+        "said": namespace(share).isfinite(share) & (share > LARGEST_IMBALANCE),
+        "value": share,
+        "limit": LARGEST_IMBALANCE,
+        "percent": 100 * share,
+        "is_below_zero": of["nut_torque"] < 0,
+    }
+
+
+_PERCENT = {"percent": Shown("percent", digits=3)}
+#: A warning where a model's own torque and losses differ by more than rounding and slow convergence explain.
+IMBALANCE = Judgement(
+    id="model.power_balance",
+    subject="friction_power",
+    formula=_imbalance,
+    needs=("power_imbalance", "nut_torque"),
+    severity="warning",
+    holds=False,
+    sentences=(
+        Sentence(
+            Message(
+                "the power of the torque differs by up to {percent}% from what the parts dissipate, and the torque on "
+                "the nut falls below zero: the reactions of the model do not balance; "
+                "the model corrected has them in balance"
+            ),
+            "is_below_zero",
+            _PERCENT,
+        ),
+        Sentence(
+            Message(
+                "the power of the torque differs by up to {percent}% from what the parts dissipate: "
+                "the reactions of the model do not balance; the model corrected has them in balance"
+            ),
+            places=_PERCENT,
+        ),
+    ),
+)
+
+
+def _judgement(reason: str, condition: Condition) -> Judgement:
+    """The warning of a condition: said where its mask, the output ``validity_…``, is false."""
+    mask = f"validity_{reason}"
+    limit = {} if condition.limit is None else {"limit": condition.limit}
+
+    def formula(of: Mapping[str, Any]) -> Mapping[str, Any]:
+        return {"said": namespace(of[mask]).logical_not(of[mask]), **limit}
+
+    return Judgement(
+        id=f"validity.{reason}",
+        subject=condition.subject,
+        formula=formula,
+        needs=(mask,),
+        truths=(mask,),
+        severity="warning",
+        holds=False,
+        unit=condition.unit,
+        sentences=(Sentence(condition.message, places=condition.message.values),),
+    )
+
+
+#: The warnings of all conditions.
+VALIDITY: tuple[Judgement, ...] = tuple(_judgement(*one) for one in NUT_CONDITIONS.items())
+
+
+def _in_si(message: Message) -> str:
+    return message.filled(Measured.plain)
+
+
 def imbalance_records(power_imbalance: Ratio, nut_torque: Torque) -> list[Record]:
-    """A warning where a model's own torque and losses differ by more than rounding and slow convergence explain."""
-    shares = np.abs(np.asarray(power_imbalance, dtype=float))
-    largest = float(np.max(shares[np.isfinite(shares)], initial=0.0))
-    if largest <= LARGEST_IMBALANCE:
-        return []
-    percent = {"percent": Measured(100 * largest, digits=3)}
-    if np.any(np.asarray(nut_torque, dtype=float) < 0):
-        message = Message(
-            "the power of the torque differs by up to {percent}% from what the parts dissipate, and the torque on the "
-            "nut falls below zero: the reactions of the model do not balance; the model corrected has them in balance",
-            percent,
-        )
-    else:
-        message = Message(
-            "the power of the torque differs by up to {percent}% from what the parts dissipate: "
-            "the reactions of the model do not balance; the model corrected has them in balance",
-            percent,
-        )
-    return [
-        Record(
-            id="model.power_balance",
-            subject="friction_power",
-            text=message.filled(Measured.plain),
-            message=message,
-            severity="warning",
-            holds=False,
-            value=largest,
-            limit=LARGEST_IMBALANCE,
-        )
-    ]
+    """:data:`IMBALANCE` of arrays: of the largest imbalance, and the least torque on the nut."""
+    shares, torques = (np.asarray(values, dtype=float) for values in (power_imbalance, nut_torque))
+    largest = np.max(np.abs(shares), initial=0.0, where=np.isfinite(shares))
+    least = np.min(torques, initial=0.0, where=torques < 0)
+    found = IMBALANCE.finds({"power_imbalance": largest, "nut_torque": least})
+    record = None if found is None else IMBALANCE.record(found, {}, _in_si)
+    return [] if record is None else [record]
 
 
 def warning_records(
@@ -164,17 +212,14 @@ def warning_records(
 
 
 def _record(reason: str, condition: Condition, contacts: Sequence[Contact]) -> Record:
-    return Record(
-        id=f"validity.{reason}",
-        subject=condition.subject,
-        text=condition.text,
-        message=condition.message,
-        severity="warning",
-        holds=False,
-        value=_worst(condition, contacts) if condition.quantity else None,
-        limit=condition.limit,
-        unit=condition.unit,
-    )
+    """The warning of a condition that fails at one of several points, with its worst value."""
+    row = _judgement(reason, condition)
+    found = dict(row.finds({f"validity_{reason}": False}) or {})
+    if condition.quantity:
+        found["value"] = _worst(condition, contacts)
+    record = row.record(found, {}, _in_si)
+    assert record is not None, "a condition that fails is said"
+    return record
 
 
 def _worst(condition: Condition, contacts: Sequence[Contact]) -> float:

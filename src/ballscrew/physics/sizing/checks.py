@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.arrays import as_array
 from ballscrew.basis.errors import Fault, accepts_units, raise_if_any, shown
-from ballscrew.basis.quantities import AngularSpeed, Force, Length, Pressure, Ratio
-from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.judgements import Judgement, at_least, at_most
+from ballscrew.basis.quantities import AngularSpeed, Force, Length, Pressure, Ratio, fields_of
+from ballscrew.basis.records import Measured, Message, Record, Value
 from ballscrew.physics.components.nut import Nut, SingleNut
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.equations import geometry, life, shaft
-from ballscrew.physics.friction.validity import LARGEST_PRESSURE
+from ballscrew.physics.equations import geometry, life
+from ballscrew.physics.sizing.check_table import CHECKS, RUNNING_TIME
+from ballscrew.physics.sizing.check_table import HOUR as HOUR
+from ballscrew.physics.sizing.check_table import NOT_CHECKED as NOT_CHECKED
+from ballscrew.physics.sizing.check_table import NOT_JUDGED as NOT_JUDGED
+from ballscrew.physics.sizing.check_table import UNJUDGED as UNJUDGED
 from ballscrew.physics.sizing.dn_limits import GENERAL, SpeedLimit
 from ballscrew.physics.sizing.installation import Installation, Limits
 from ballscrew.physics.sizing.ratings import RATING_CONFORMITY as RATING_CONFORMITY
@@ -25,26 +28,12 @@ from ballscrew.physics.sizing.ratings import Ratings as Ratings
 from ballscrew.physics.sizing.ratings import ratings_of as ratings_of
 from ballscrew.physics.sizing.sources import Source
 
-HOUR = 3600.0
-
 #: The kind of source of the formulas and limits of each check, where its inputs do not change it.
-SOURCES: Mapping[str, Source] = {
-    "static_safety": "read",  # quotient and least value of THK514E
-    "life": "recalled",  # ISO3408-5
-    "running_time": "recalled",  # the same life over the speed
-    "contact_pressure": "read",  # 4200 MPa and a dent of 1e-4: ISO76, clauses 3.2 and 3.3
-    "shaft_stress": "read",  # force over area, the limit of THK514E
-    "buckling": "read",  # TimoshenkoGere1961, the safety of THK514E
-    "critical_speed": "read",  # Timoshenko1974, the share of THK514E
-    "diameter_speed_product": "read",  # makers' limits; that of another nut is an estimate (SpeedLimit.source)
-}
+SOURCES = cast("Mapping[str, Source]", {row.name: row.source for row in CHECKS})
 
 _SINGLE = SingleNut()
 _USUAL = Limits()
 _PASSES = Message("passes")
-NOT_CHECKED = Message("not checked: give {input}")
-#: A life that no running time is asked of, and what to give for it.
-NOT_JUDGED, UNJUDGED = Message("not judged: give {input}"), Message("{life}; {advice}")
 
 
 @accepts_units("checks")
@@ -104,16 +93,33 @@ class Check(NamedTuple):
         cls, message: Message, name: str, value: Any, limit: Any, unit: str, source: Source | None = None
     ) -> Check:
         """A check that holds up to a limit; its utilisation is the value over the limit."""
-        value, limit = float(value), float(limit)
-        return cls.saying(message, name, value, limit, unit, _ratio(value, limit), value <= limit, source=source)
+        return cls._of(message, name, unit, at_most(float(value), float(limit)), source)
 
     @classmethod
     def at_least(
         cls, message: Message, name: str, value: Any, limit: Any, unit: str, source: Source | None = None
     ) -> Check:
         """A check that holds from a limit on; its utilisation is the limit over the value."""
-        value, limit = float(value), float(limit)
-        return cls.saying(message, name, value, limit, unit, _ratio(limit, value), value >= limit, source=source)
+        return cls._of(message, name, unit, at_least(float(value), float(limit)), source)
+
+    @classmethod
+    def _of(cls, message: Message, name: str, unit: str, found: Mapping[str, Any], source: Source | None) -> Check:
+        """A check that was judged."""
+        value, limit, used = (float(found[one]) for one in ("value", "limit", "utilisation"))
+        return cls.saying(message, name, value, limit, unit, used, bool(found["holds"]), source=source)
+
+    @classmethod
+    def of(cls, row: Judgement, values: Mapping[str, Any], words: Mapping[str, Value], source: Source | None) -> Check:
+        """The row of the table of checks at one point; without a ``source`` of its own it has that of the row."""
+        found = row.finds(values)
+        if found is None:
+            message = NOT_CHECKED.of(input=Message(row.give))
+            return cls.saying(message, row.name, None, None, row.unit, None, None, row.give)
+        message = row.message(found, words)
+        if found.get("judged", True):
+            return cls._of(message, row.name, row.unit, found, source)
+        missing = "" if found["at_rest"] else RUNNING_TIME
+        return cls.saying(message, row.name, float(found["value"]), None, row.unit, None, None, missing)
 
     @property
     def title(self) -> Message:
@@ -134,10 +140,6 @@ class Check(NamedTuple):
             limit=self.limit,
             unit=self.unit,
         )
-
-
-def _ratio(over: float, under: float) -> float:
-    return over / under if under else math.inf if over else 0.0
 
 
 def judged(checks: Sequence[Check]) -> int:
@@ -213,21 +215,53 @@ def checks(
     largest = axial_load if largest_load is None else largest_load
     at_mean = loads_of_halves(nut, axial_load) if half_loads is None else half_loads
     of_most = at_mean if largest_load is None else loads_of_halves(nut, largest)
-    most = of_most[0]
+    half, *other = at_mean
+    most, *relieved = of_most
     # the loads of both halves of a preloaded nut are of a recalled formula, where the contacts have not told them
-    closed = len(of_most) > 1 and (half_loads is None or largest_load is not None)
+    closed = bool(relieved) and (half_loads is None or largest_load is not None)
     recalled = closed or "static_load_rating" in computed_ratings
-    d_r = _groove_bottom(screw) if root_diameter is None else root_diameter
-    with np.errstate(divide="ignore"):
-        return (
-            _static_safety(static_load_rating, most, limits, "recalled" if recalled else None),
-            *_life(dynamic_load_rating, at_mean, screw_speed, limits),
-            _contact_pressure(maximum_pressure),
-            _shaft_stress(largest, d_r, limits),
-            _buckling(screw, largest, d_r, installation, limits),
-            _critical_speed(screw, screw_speed, d_r, installation, limits),
-            _diameter_speed_product(screw, screw_speed, limits, speed_limit),
-        )
+    known = GENERAL if speed_limit is None else speed_limit
+    if limits.diameter_speed_product is not None:
+        known = SpeedLimit(limits.diameter_speed_product, Message("that was given"))
+    values = {
+        "screw_speed": screw_speed,
+        "pitch_circle_diameter": screw.pitch_circle_diameter,
+        "root_diameter": _groove_bottom(screw) if root_diameter is None else root_diameter,
+        "young_modulus": screw.screw_material.young_modulus,
+        "half_load": half,
+        "other_half_load": other[0] if other else 0.0,
+        "largest_half_load": most,
+        "largest_load": largest,
+        "maximum_pressure": maximum_pressure,
+        "dynamic_load_rating": dynamic_load_rating,
+        "static_load_rating": static_load_rating,
+        **values_of_limits(limits),
+        "limits.diameter_speed_product": known.value,
+        **({} if installation is None else values_of_installation(installation)),
+    }
+    words: dict[str, Value] = {"limit_source": known.words}
+    if installation is not None:
+        words["ends"] = Message(installation.ends.words)
+    sources: dict[str, Source | None] = {
+        "static_safety": "recalled" if recalled else None,
+        "diameter_speed_product": known.source,
+    }
+    return tuple(Check.of(row, values, words, sources.get(row.name)) for row in CHECKS)
+
+
+def values_of_limits(limits: Limits) -> dict[str, Any]:
+    """Limits by their names in the table."""
+    return {f"limits.{name}": getattr(limits, name) for name in fields_of(Limits)}
+
+
+def values_of_installation(installation: Installation) -> dict[str, Any]:
+    """Numbers of a mounted shaft by their names in the table."""
+    return {
+        "unsupported_length": installation.unsupported_length,
+        "shaft_density": installation.shaft_density,
+        "buckling_root": installation.ends.buckling_root,
+        "whirling_root": installation.ends.whirling_root,
+    }
 
 
 def _raise_for_nonsense(
@@ -257,107 +291,3 @@ def _groove_bottom(screw: BallScrew) -> Length:
     return geometry.groove_root_diameter(
         screw.pitch_circle_diameter, screw.ball_diameter, screw.screw_conformity, screw.contact_angle
     )
-
-
-def _not_checked(name: str, unit: str, give: str) -> Check:
-    return Check.saying(NOT_CHECKED.of(input=Message(give)), name, None, None, unit, None, None, give)
-
-
-def _static_safety(rated: Force | None, load: Force, limits: Limits, source: Source | None) -> Check:
-    name = "static_safety"
-    if rated is None:
-        return _not_checked(name, "1", "static_load_rating")
-    message = Message("static rating against the largest load, preload included")
-    safety = life.static_safety(rated, as_array(load))
-    return Check.at_least(message, name, safety, limits.static_safety, "1", source)
-
-
-def _life(rated: Force | None, loads: Sequence[Force], speed: AngularSpeed, limits: Limits) -> tuple[Check, Check]:
-    names = ("life", "running_time")
-    if rated is None:
-        give = "dynamic_load_rating"
-        return _not_checked(names[0], "1", give), _not_checked(names[1], "s", give)
-    lives = [life.basic_life(rated, as_array(load)) for load in loads]
-    revolutions = lives[0] if len(lives) == 1 else life.combined_life(*lives)
-    time = life.running_time(revolutions, as_array(speed))
-    endless = not np.isfinite(revolutions)
-    millions = {"turns": Measured(float(revolutions) / 1e6, digits=3)}
-    of_turns = (
-        Message("no load tires it")
-        if endless
-        else Message("basic rating life L10: {turns} million revolutions, preload included", millions)
-    )
-    without_end = of_turns if endless else Message("no turn tires it")
-    of_hours = (
-        Message("{hours} h at this speed", {"hours": Measured(float(time / HOUR), digits=3)})
-        if np.isfinite(time)
-        else without_end
-    )
-    required = limits.running_time
-    at_rest = not endless and not float(as_array(speed))
-    if required is None or at_rest:
-        missing = "" if at_rest else "limits.running_time"
-        advice = Message("not judged: at rest") if at_rest else NOT_JUDGED.of(input=Message(missing))
-        both = [UNJUDGED.of(life=one, advice=advice) for one in (of_turns, of_hours)]
-        return (
-            Check.saying(both[0], names[0], float(revolutions), None, "1", None, None, missing),
-            Check.saying(both[1], names[1], float(time), None, "s", None, None, missing),
-        )
-    turns = required / life.running_time(1.0, as_array(speed))
-    return (
-        Check.at_least(of_turns, names[0], revolutions, turns, "1"),
-        Check.at_least(of_hours, names[1], time, required, "s"),
-    )
-
-
-def _contact_pressure(pressure: Pressure | None) -> Check:
-    name = "contact_pressure"
-    if pressure is None:
-        return _not_checked(name, "Pa", "maximum_pressure")
-    message = Message("largest Hertz pressure against that which leaves a dent of 1e-4 of the ball diameter (ISO 76)")
-    return Check.at_most(message, name, pressure, LARGEST_PRESSURE, "Pa")
-
-
-def _shaft_stress(load: Force, d_r: Length, limits: Limits) -> Check:
-    message = Message("largest load over the core of the shaft, pulled or pushed")
-    return Check.at_most(message, "shaft_stress", shaft.shaft_stress(load, d_r), limits.shaft_stress, "Pa")
-
-
-def _buckling(screw: BallScrew, load: Force, d_r: Length, installation: Installation | None, limits: Limits) -> Check:
-    name = "buckling"
-    if installation is None:
-        return _not_checked(name, "N", "installation")
-    ends, E = installation.ends, screw.screw_material.young_modulus
-    euler = shaft.buckling_load(ends.buckling_root, E, d_r, installation.unsupported_length)
-    message = Message(
-        "largest load, if it pushes, against Euler's over {safety}, ends {ends}",
-        {"safety": Measured(limits.buckling_safety, digits=6), "ends": Message(ends.words)},
-    )
-    return Check.at_most(message, name, load, euler / limits.buckling_safety, "N")
-
-
-def _critical_speed(
-    screw: BallScrew, speed: AngularSpeed, d_r: Length, installation: Installation | None, limits: Limits
-) -> Check:
-    name = "critical_speed"
-    if installation is None:
-        return _not_checked(name, "rad/s", "installation")
-    ends, E, rho = installation.ends, screw.screw_material.young_modulus, installation.shaft_density
-    critical = shaft.critical_speed(ends.whirling_root, E, rho, d_r, installation.unsupported_length)
-    message = Message(
-        "speed against {share} of the critical speed, ends {ends}",
-        {"share": Measured(limits.critical_speed_share, digits=6), "ends": Message(ends.words)},
-    )
-    return Check.at_most(message, name, speed, critical * limits.critical_speed_share, "rad/s")
-
-
-def _diameter_speed_product(screw: BallScrew, speed: AngularSpeed, limits: Limits, of_make: SpeedLimit | None) -> Check:
-    value, given = shaft.diameter_speed_product(screw.pitch_circle_diameter, speed), limits.diameter_speed_product
-    known = GENERAL if of_make is None else of_make
-    limit, words = (known.value, known.words) if given is None else (given, Message("that was given"))
-    source = known.source if given is None else None
-    message = Message(
-        "DN value, pitch circle diameter times speed, which the return of the balls must stand; limit {source}",
-        {"source": words},
-    )
-    return Check.at_most(message, "diameter_speed_product", value, limit, "m rad/s", source)

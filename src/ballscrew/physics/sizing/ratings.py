@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple, Protocol
 
+from ballscrew.basis.errors import plain
 from ballscrew.basis.quantities import Force, Ratio
 from ballscrew.physics.components.ratings import RATING_CONFORMITY as RATING_CONFORMITY
 from ballscrew.physics.components.ratings import dynamic_load_rating
@@ -40,7 +41,7 @@ class Rated(Protocol):
 def ratings_of(row: Rated, rating_conformity: Ratio = RATING_CONFORMITY) -> Ratings:
     """Dynamic and static axial load rating of a row by its geometry; those printed in its catalogue play no part.
 
-    Of a turn with spacer balls half of the balls carry.
+    Of a turn with spacer balls half of the balls carry. Elementwise: numbers, arrays, and values that are recorded.
     """
     balls = row.balls_per_turn / 2 if row.spacer_balls else row.balls_per_turn
     d_m, d_w, alpha = row.ball_circle, row.ball_diameter, row.contact_angle
@@ -48,6 +49,6 @@ def ratings_of(row: Rated, rating_conformity: Ratio = RATING_CONFORMITY) -> Rati
     # the standard leaves the lead out of the curvature
     k_0 = rating.static_load_factor(geometry.curvature_ratio(d_w, d_m, alpha, lead_angle=0.0), f)
     return Ratings(
-        dynamic=float(dynamic_load_rating(d_m, d_w, alpha, phi, balls, row.loaded_turns, f)),
-        static=float(rating.static_load_rating(k_0, balls, row.loaded_turns, d_w, alpha, phi)),
+        dynamic=plain(dynamic_load_rating(d_m, d_w, alpha, phi, balls, row.loaded_turns, f)),
+        static=plain(rating.static_load_rating(k_0, balls, row.loaded_turns, d_w, alpha, phi)),
     )

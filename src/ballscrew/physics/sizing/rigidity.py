@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections.abc import Sequence
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.basis.errors import Fault, accepts_units, is_concrete, raise_if_any, shown, shown_in_si
+from ballscrew.basis.arrays import as_array, namespace, where
+from ballscrew.basis.errors import (
+    Fault,
+    accepts_units,
+    holds_somewhere,
+    is_concrete,
+    plain,
+    raise_if_any,
+    shown,
+    shown_in_si,
+)
 from ballscrew.basis.quantities import Force, Info, Length, Quantity, Ratio, Stiffness
 from ballscrew.basis.records import FilledText, Measured, Message, translatable
 from ballscrew.physics.components.nut import Nut, OversizeBallNut
@@ -66,7 +75,7 @@ class AxialRigidity:
 class _Sizes(NamedTuple):
     """What the widening depends on besides the screw."""
 
-    nut_outer_diameter: float
+    nut_outer_diameter: Length
     assumed: Sequence[str]
 
 
@@ -94,6 +103,9 @@ def rigidity_iso3408(
     default where the shaft gives way most: its whole length held at one end, half of it held at both. The contact
     angle stays that without load.
 
+    The formulas are elementwise: values that are recorded give rigidities that are recorded, and what is assumed
+    because of a value is then not said. Ends, and what is given at all, are no values.
+
     Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
     """
     nut = screw.nut
@@ -102,26 +114,27 @@ def rigidity_iso3408(
     raise_if_any(_faults(screw, nut_outer_diameter, accuracy_factor, axial_load, installation, distance_to_bearing))
     size = _outer_diameter(screw, nut, nut_outer_diameter, nominal_diameter)
     of_make = factor_of_make(make) if accuracy_factor is None else None
-    preload = float(preload_of(screw, nut))
+    preload = as_array(preload_of(screw, nut))
     assumed = list(size.assumed)
-    load = 0.0 if axial_load is None else abs(float(axial_load))
-    R_bt, R_ns = _balls_and_tracks(screw, preload, load), _widening(screw, size.nut_outer_diameter)
-    if R_ns != R_ns:
+    load = abs(as_array(0.0 if axial_load is None else axial_load))
+    with np.errstate(all="ignore"):
+        R_bt, of_body = _balls_and_tracks(screw, preload, load), _widening(screw, size.nut_outer_diameter)
+    R_ns = where(preload > 0, 2 * of_body, of_body)
+    if holds_somewhere(R_ns != R_ns):
         assumed.append(
             translatable(
                 "no rigidity of the nut: the usual one has no wall around these balls, give nut_outer_diameter"
             )
         )
-    if preload > 0:
-        R_ns = 2 * R_ns
+    if holds_somewhere(preload > 0):
         assumed.append(
             translatable("R_b/t up to the load that relieves one half, as ISO 3408-4 is recalled; it was not read")
         )
-        if load > 2**1.5 * preload:
+        if holds_somewhere(load > 2**1.5 * preload):
             assumed.append(
                 translatable("the load is beyond that which relieves one half: there the nut is stiffer than R_nu says")
             )
-    elif not load:
+    elif holds_somewhere((load == 0) & (preload <= 0)):
         assumed.append(translatable("no rigidity of the nut: without preload it takes a load"))
     if isinstance(nut, OversizeBallNut):
         assumed.append(
@@ -130,93 +143,102 @@ def rigidity_iso3408(
                 "a ball on both flanks widens it less under load"
             )
         )
-    R_nu = float(rigidity.series_rigidity(R_bt, R_ns))
-    factor = None if accuracy_factor is None else float(accuracy_factor)
+    R_nu = rigidity.series_rigidity(R_bt, R_ns)
+    factor = None if accuracy_factor is None else plain(accuracy_factor)
     source: Source | None = None
-    if of_make is not None and R_nu == R_nu:
+    if of_make is not None and not holds_somewhere(R_nu != R_nu):
         factor, source = of_make.value, of_make.source
         assumed.append(of_make.words)
-    corrected = math.nan if factor is None else float(rigidity.rigidity_corrected_for_accuracy(factor, R_nu))
+    corrected = np.nan if factor is None else rigidity.rigidity_corrected_for_accuracy(factor, R_nu)
     R_s, R_b, words = _shaft(screw, installation, distance_to_bearing)
     assumed += words
     if factor is None and installation is not None:
         assumed.append(translatable("drive with R_nu, not R_nu,ar: no accuracy factor is given"))
-    compliances = (1 / (R_nu if factor is None else corrected), 1 / R_s, 0.0 if math.isnan(R_b) else 1 / R_b)
+    compliances = (1 / (R_nu if factor is None else corrected), 1 / R_s, 0.0 if R_b is None else 1 / R_b)
     drive = 1 / sum(compliances)
     return AxialRigidity(
-        balls_and_tracks=R_bt,
-        widening=R_ns,
-        nut=R_nu,
-        nut_corrected=corrected,
-        shaft=R_s,
-        bearings=R_b,
-        drive=drive,
-        deflection=math.nan if axial_load is None else float(axial_load) / drive,
+        balls_and_tracks=plain(R_bt),
+        widening=plain(R_ns),
+        nut=plain(R_nu),
+        nut_corrected=plain(corrected),
+        shaft=plain(R_s),
+        bearings=np.nan if R_b is None else plain(R_b),
+        drive=plain(drive),
+        deflection=np.nan if axial_load is None else plain(axial_load / drive),
         accuracy_factor=factor,
         accuracy_factor_source=source,
         assumed=tuple(assumed),
     )
 
 
-def usual_nut_outer_diameter(nominal_diameter: Length, lead: Length) -> float:
+def usual_nut_outer_diameter(nominal_diameter: Length, lead: Length) -> Length:
     """Outer diameter of the nut by DIN 69051-5; between its sizes a line, beyond them the wall of the last one."""
-    column = int(lead >= COARSE_LEAD)
-    sizes = np.array(list(DIN_69051_5))
-    walls = np.array([each[column] for each in DIN_69051_5.values()]) - sizes
-    return float(nominal_diameter) + float(np.interp(float(nominal_diameter), sizes, walls))
+    fine, coarse = ([each[column] - size for size, each in DIN_69051_5.items()] for column in (0, 1))
+    size = as_array(nominal_diameter)
+    return plain(size + where(as_array(lead) >= COARSE_LEAD, _wall(size, coarse), _wall(size, fine)))
 
 
 # -- parts ----------------------------------------------------------------------------------------
 
 
-def loaded_length(screw: BallScrew) -> float:
+def loaded_length(screw: BallScrew) -> Length:
     """Axial length of the thread that the loaded balls of one nut body fill: whole balls in each turn."""
-    turn = math.floor(math.pi * screw.pitch_circle_diameter / (screw.ball_diameter * math.cos(screw.lead_angle)))
-    return float(screw.loaded_balls / turn * screw.lead / screw.starts)
+    phi = screw.lead_angle
+    xp = namespace(screw.pitch_circle_diameter, screw.ball_diameter, phi)
+    turn = xp.floor(xp.pi * screw.pitch_circle_diameter / (screw.ball_diameter * xp.cos(phi)))
+    return screw.loaded_balls / turn * screw.lead / screw.starts
 
 
-def _balls_and_tracks(screw: BallScrew, preload: float, load: float) -> float:
+def _wall(size: Length, walls: Sequence[float]) -> Length:
+    """Twice the wall of a nut of some size, by those of the sizes of :data:`DIN_69051_5`."""
+    sizes = list(DIN_69051_5)
+    wall = walls[-1]
+    for low, high, of_low, of_high in zip(sizes[-2::-1], sizes[:0:-1], walls[-2::-1], walls[:0:-1], strict=True):
+        wall = where(size < high, of_low + (of_high - of_low) / (high - low) * (size - low), wall)
+    return where(size < sizes[0], walls[0], wall)
+
+
+def _balls_and_tracks(screw: BallScrew, preload: Force, load: Force) -> Stiffness:
     """R_b/t of a preloaded nut, or at the load of one without preload; NaN without both."""
-    lever = math.sin(screw.contact_angle) * math.cos(screw.lead_angle)
-    force = preload if preload > 0 else load
-    if not force:
-        return math.nan
-    approach = (force / (screw.carrying_balls * float(pair_load_deflection(screw)) * lever)) ** (2 / 3)
-    if preload > 0:
-        return float(rigidity.preloaded_ball_track_rigidity(preload, approach / lever))
-    return float(rigidity.ball_track_rigidity(load, approach / lever))
+    alpha, phi = screw.contact_angle, screw.lead_angle
+    xp = namespace(alpha, phi)
+    lever = xp.sin(alpha) * xp.cos(phi)
+    force = where(preload > 0, preload, load)
+    approach = (force / (screw.carrying_balls * pair_load_deflection(screw) * lever)) ** (2 / 3)
+    preloaded = rigidity.preloaded_ball_track_rigidity(preload, approach / lever)
+    return where(preload > 0, preloaded, where(load > 0, rigidity.ball_track_rigidity(load, approach / lever), np.nan))
 
 
-def _widening(screw: BallScrew, nut_outer_diameter: float) -> float:
+def _widening(screw: BallScrew, nut_outer_diameter: Length) -> Stiffness:
     """R_n/s of one nut body; NaN for one without a wall around the balls."""
-    if not nut_outer_diameter > _nut_force_diameter(screw):
-        return math.nan
+    inside = _nut_force_diameter(screw)
     compliance = rigidity.radial_compliance(
         nut_outer_diameter,
-        _nut_force_diameter(screw),
+        inside,
         screw.nut_material.young_modulus,
         screw.nut_material.poisson_ratio,
         screw.screw_material.young_modulus,
         screw.screw_material.poisson_ratio,
     )
     stiffness = rigidity.radial_stiffness(compliance, loaded_length(screw))
-    return float(rigidity.widening_rigidity(stiffness, screw.contact_angle, screw.lead_angle))
+    widening = rigidity.widening_rigidity(stiffness, screw.contact_angle, screw.lead_angle)
+    return where(nut_outer_diameter > inside, widening, np.nan)
 
 
-def _nut_force_diameter(screw: BallScrew) -> float:
-    return float(rigidity.nut_force_diameter(screw.pitch_circle_diameter, screw.ball_diameter, screw.contact_angle))
+def _nut_force_diameter(screw: BallScrew) -> Length:
+    return rigidity.nut_force_diameter(screw.pitch_circle_diameter, screw.ball_diameter, screw.contact_angle)
 
 
 def _shaft(
     screw: BallScrew, installation: Installation | None, distance: Length | None
-) -> tuple[float, float, Sequence[str]]:
-    """Rigidity of shaft and of bearings, and what is assumed; NaN where they are not known."""
+) -> tuple[Stiffness, Stiffness | None, Sequence[str]]:
+    """Rigidity of shaft and of bearings, and what is assumed; NaN and None where they are not known."""
     if installation is None:
-        return math.nan, math.nan, ()
-    E, l = float(screw.screw_material.young_modulus), float(installation.unsupported_length)  # noqa: E741  (l is the formula's letter)
-    d_c = float(rigidity.shaft_force_diameter(screw.pitch_circle_diameter, screw.ball_diameter, screw.contact_angle))
+        return np.nan, None, ()
+    E, l = screw.screw_material.young_modulus, installation.unsupported_length  # noqa: E741  (l is the formula's letter)
+    d_c = rigidity.shaft_force_diameter(screw.pitch_circle_diameter, screw.ball_diameter, screw.contact_angle)
     both = installation.ends is Ends.FIXED_FIXED
-    at = float(distance) if distance is not None else l / 2 if both else l
+    at = distance if distance is not None else l / 2 if both else l
     assumed: list[str] = []
     if distance is None:
         assumed.append(
@@ -226,19 +248,19 @@ def _shaft(
         )
     if installation.ends is Ends.SUPPORTED_SUPPORTED:
         assumed.append(translatable("one of the two supports holds the shaft axially"))
-    R_s = float(
+    R_s = (
         rigidity.shaft_rigidity_held_at_both_ends(E, d_c, at, l)
         if both
         else rigidity.shaft_rigidity_held_at_one_end(E, d_c, at)
     )
     if installation.bearing_rigidity is None:
-        return R_s, math.nan, [*assumed, translatable("support bearings rigid: no rigidity of theirs is given")]
-    R_b = float(installation.bearing_rigidity)
+        return R_s, None, [*assumed, translatable("support bearings rigid: no rigidity of theirs is given")]
+    R_b = installation.bearing_rigidity
     if not both:
         return R_s, R_b, assumed
     # each stretch of the shaft with its bearing; what they give more than the shaft alone is that of the bearings
-    stretches = [float(rigidity.shaft_rigidity_held_at_one_end(E, d_c, part)) for part in (at, l - at)]
-    together = sum(float(rigidity.series_rigidity(stretch, R_b)) for stretch in stretches)
+    stretches = [rigidity.shaft_rigidity_held_at_one_end(E, d_c, part) for part in (at, l - at)]
+    together = sum(rigidity.series_rigidity(stretch, R_b) for stretch in stretches)
     return R_s, 1 / (1 / together - 1 / R_s), assumed
 
 
@@ -247,9 +269,11 @@ def _outer_diameter(screw: BallScrew, nut: Nut, given: Length | None, nominal: L
     of_bodies = None if nut.bodies is None else nut.bodies.nut_outer_diameter
     known = of_bodies if given is None else given
     if known is not None:
-        return _Sizes(float(known), ())
-    size = float(screw.pitch_circle_diameter if nominal is None else nominal)
+        return _Sizes(known, ())
+    size = screw.pitch_circle_diameter if nominal is None else nominal
     usual = usual_nut_outer_diameter(size, screw.lead)
+    if not (is_concrete(size) and is_concrete(usual)):
+        return _Sizes(usual, ())
     message = Message("nut {width} wide, DIN 69051-5: none is given")
     if not min(DIN_69051_5) <= size <= max(DIN_69051_5):
         message = Message("nut {width} wide, DIN 69051-5, its last size with the same wall: none is given")
@@ -265,6 +289,11 @@ def _numbers(screw: BallScrew) -> tuple[Any, ...]:
     return *whole, *(number for number in given if number is not None)
 
 
+def _fails(mask: Any) -> bool:
+    """Return whether a condition fails; False for one of a value that is only being recorded."""
+    return holds_somewhere(np.logical_not(mask))
+
+
 def _faults(
     screw: BallScrew,
     outer: Length | None,
@@ -274,11 +303,11 @@ def _faults(
     distance: Length | None,
 ) -> list[Fault]:
     faults: list[Fault] = []
-    if not all(is_concrete(number) and np.ndim(number) == 0 for number in _numbers(screw)):
+    if any(isinstance(number, list | tuple) or getattr(number, "ndim", 0) for number in _numbers(screw)):
         faults.append(Fault("rigidity.screw", "must be one screw", "an array", "call once for each"))
         return faults
     least = _nut_force_diameter(screw)
-    if outer is not None and not outer > least:
+    if outer is not None and _fails(outer > least):
         remedy = Message(
             "more than {least} m, where the balls press on it",
             {"least": Measured(least, digits=6, written=f"{least:.6g}")},
@@ -286,15 +315,17 @@ def _faults(
         faults.append(
             Fault("rigidity.nut_outer_diameter", "leaves no wall around the balls", shown(outer, "m"), remedy)
         )
-    if factor is not None and not 0 < factor <= 1:
+    if factor is not None and (_fails(factor > 0) or _fails(factor <= 1)):
         faults.append(Fault("rigidity.accuracy_factor", "must be above 0 and at most 1", f"{factor:g}", "0.5 to 0.6"))
-    if load is not None and not np.isfinite(load):
+    if load is not None and _fails(np.isfinite(load)):
         faults.append(Fault("rigidity.axial_load", "must be a finite number", f"{load:g}", "give a force"))
     if distance is not None:
         if installation is None:
             faults.append(Fault("rigidity.distance_to_bearing", "has no shaft", "", "give an installation, too"))
-        elif not 0 < distance < installation.unsupported_length and not (
-            distance == installation.unsupported_length and installation.ends is not Ends.FIXED_FIXED
+        elif _fails(distance > 0) or _fails(
+            distance < installation.unsupported_length
+            if installation.ends is Ends.FIXED_FIXED
+            else distance <= installation.unsupported_length
         ):
             length = shown(installation.unsupported_length, "m")
             faults.append(

@@ -26,7 +26,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Sequence
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
@@ -378,6 +378,50 @@ def radial_stiffness(screw: BallScrew, bodies: Bodies) -> Stiffness:
         shaft.poisson_ratio,
     )
     return rigidity.radial_stiffness(compliance, screw.carrying_balls * _step(screw))
+
+
+class ElasticNutNumbers(NamedTuple):
+    """What the loads of balls between elastic bodies depend on besides load and preload, SI.
+
+    The order is that of the structure in ``data/exports/ballscrew_loads.h``, behind its whole numbers.
+    """
+
+    #: Of a ball between screw and nut, N/m^1.5.
+    load_deflection: LoadDeflection
+    centre_distance: Length
+    contact_angle: Angle
+    lead_cosine: Ratio
+    #: Axial distance from ball to ball, and between the halves.
+    step: Length
+    spacing: Length
+    #: Stiffness times length of both bodies in series, N.
+    link: Force
+    #: Share of the load that enters at the first ball.
+    first_share: Ratio
+    #: Zero of bodies that do not swell.
+    radial_stiffness: Stiffness
+
+
+def elastic_nut_numbers(screw: BallScrew, nut: Nut, bodies: Bodies) -> ElasticNutNumbers:
+    """The numbers of a nut and its bodies for a solver of its balls; elementwise, so that they can be recorded.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for a nut that swells and has no wall around its balls.
+    """
+    screw_bar, nut_bar, step = body_stiffness(screw, bodies)
+    link = 1 / (1 / screw_bar + 1 / nut_bar)
+    return ElasticNutNumbers(
+        load_deflection=pair_load_deflection(screw),
+        centre_distance=deflection.groove_centre_distance(
+            screw.screw_conformity, screw.nut_conformity, screw.ball_diameter
+        ),
+        contact_angle=screw.contact_angle,
+        lead_cosine=namespace(screw.lead_angle).cos(screw.lead_angle),
+        step=step,
+        spacing=getattr(nut, "spacing", 0.0),
+        link=link,
+        first_share=1.0 if bodies.same_side else link / screw_bar,
+        radial_stiffness=radial_stiffness(screw, bodies) if bodies.swelling else 0.0,
+    )
 
 
 def _step(screw: BallScrew) -> Length:

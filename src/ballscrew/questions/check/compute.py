@@ -20,6 +20,7 @@ from ballscrew.cases.screw_tables.nut_kinds import LISTED
 from ballscrew.physics.components.nut import Nut, OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.sizing.catalogue import CatalogueRow
+from ballscrew.physics.sizing.check_table import half_loads
 from ballscrew.physics.sizing.checks import Check, all_hold, checks, verdict_of
 from ballscrew.physics.sizing.dn_limits import speed_limit_of
 from ballscrew.physics.sizing.listed_nut import PRELOADED, lists_preload
@@ -326,7 +327,7 @@ def _judged(
         screw_speed=abs(float(case.operation.screw_speed)),
         nut=nut,
         **rated,
-        half_loads=(load + left, left) if left > 0 else (load,),
+        half_loads=half_loads(load, left),
         maximum_pressure=pressure,
         root_diameter=case.listed.get("root_diameter"),
         installation=case.installation,

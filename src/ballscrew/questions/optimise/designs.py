@@ -6,14 +6,14 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.equations import geometry, life, rating, shaft
-from ballscrew.physics.friction.validity import LARGEST_PRESSURE
+from ballscrew.physics.equations import geometry, rating
+from ballscrew.physics.sizing.check_table import CHECKS, RUNNING_TIME, half_loads
+from ballscrew.physics.sizing.checks import values_of_installation, values_of_limits
 from ballscrew.physics.sizing.dn_limits import GENERAL
 from ballscrew.physics.sizing.installation import Installation, Limits
 from ballscrew.physics.sizing.ratings import RATING_CONFORMITY
@@ -82,30 +82,31 @@ class Designs:
 
         ``left`` is the preload that is left under the load, ``pressure`` that of the most loaded contact.
         """
-        load, speed = abs(axial_load), np.abs(screw_speed)
-        pressed = load + left
-        found: dict[str, Any] = {}
-        with np.errstate(all="ignore"):
-            found["static_safety"] = limits.static_safety / life.static_safety(self.static_rating, pressed)
-            if limits.running_time is not None:
-                alone = life.basic_life(self.dynamic_rating, pressed)
-                both = life.combined_life(alone, life.basic_life(self.dynamic_rating, left))
-                lived = life.running_time(np.where(left > 0, both, alone), speed)
-                found["running_time"] = limits.running_time / lived
-            found["contact_pressure"] = pressure / LARGEST_PRESSURE
-            found["shaft_stress"] = shaft.shaft_stress(load, self.root_diameter) / limits.shaft_stress
-            if installation is not None:
-                l, ends = installation.unsupported_length, installation.ends  # noqa: E741  (l is the formula's letter)
-                d_r = self.root_diameter
-                euler = shaft.buckling_load(ends.buckling_root, young_modulus, d_r, l)
-                critical = shaft.critical_speed(ends.whirling_root, young_modulus, installation.shaft_density, d_r, l)
-                found["buckling"] = load * limits.buckling_safety / euler
-                found["critical_speed"] = speed / (critical * limits.critical_speed_share)
-            product = shaft.diameter_speed_product(self.pitch_circle_diameter, speed)
-            # a geometry that is free has no make
-            given = limits.diameter_speed_product
-            found["diameter_speed_product"] = product / (GENERAL.value if given is None else given)
-        return {name: np.broadcast_to(value, load_shape(self)) for name, value in found.items()}
+        half, other = half_loads(axial_load, left)
+        # a geometry that is free has no make
+        limit = GENERAL.value if limits.diameter_speed_product is None else limits.diameter_speed_product
+        values = {
+            "screw_speed": np.abs(screw_speed),
+            "pitch_circle_diameter": self.pitch_circle_diameter,
+            "root_diameter": self.root_diameter,
+            "young_modulus": young_modulus,
+            "half_load": half,
+            "other_half_load": other,
+            "largest_half_load": half,
+            "largest_load": abs(axial_load),
+            "maximum_pressure": pressure,
+            "dynamic_load_rating": self.dynamic_rating,
+            "static_load_rating": self.static_rating,
+            **values_of_limits(limits),
+            "limits.diameter_speed_product": limit,
+            **({} if installation is None else values_of_installation(installation)),
+        }
+        # the life says what the running time does
+        is_asked = limits.running_time is not None
+        rows = [row for row in CHECKS if row.name != "life" and (RUNNING_TIME not in row.takes or is_asked)]
+        found = {row.name: row.finds(values) for row in rows}
+        shape = load_shape(self)
+        return {name: np.broadcast_to(one["utilisation"], shape) for name, one in found.items() if one is not None}
 
 
 def load_shape(designs: Designs) -> tuple[int, ...]:

@@ -14,26 +14,26 @@ import numpy as np
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import InputError
+from ballscrew.basis.judgements import Judgement, said
 from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import Quantity, quantities_of
-from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.records import Message, Record, Value
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.nut_tables import dynamic_rating
-from ballscrew.cases.screw_tables.nut_kinds import LISTED, NUT_FIELDS
 from ballscrew.physics.components.contact import RaceState
 from ballscrew.physics.components.nut import Nut
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.friction import starvation
-from ballscrew.physics.friction.result import QUADRANTS, FrictionResult, Quadrant
+from ballscrew.physics.friction.result import FrictionResult, Quadrant
+from ballscrew.physics.friction.verdicts import PRELOAD_ABOVE_RATING, PRELOAD_LOST, VERDICTS
 from ballscrew.physics.sizing.rigidity import AxialRigidity, rigidity_iso3408
-from ballscrew.physics.solvers.load_distribution import BallLoads, preload_of
+from ballscrew.physics.solvers.load_distribution import preload_of
 from ballscrew.questions.run import makers
 from ballscrew.questions.run.nut_state import Flank, NutState, Touching
 
-_KNOWN = quantities_of(FrictionResult)
-_TORQUE, _DRIVE, _SHARE = (_KNOWN[name] for name in ("holding_torque", "drive_torque", "rolling_share"))
-_LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
+#: Results that verdicts are on, the operating point among them.
+_OF_RESULT = ("axial_load", "screw_speed", "screw_torque", "drive_torque", "holding_torque", "valid")
 #: Results of a single ball. Those of a nut whose balls differ are of its contacts, or of all balls together.
 OF_ONE_BALL = frozenset(
     {
@@ -46,9 +46,6 @@ OF_ONE_BALL = frozenset(
 #: Results of a preloaded nut without load.
 OF_IDLE_NUT = ("preload_torque_coefficient", "diameter_drag_coefficient")
 
-#: The largest share of the dynamic load rating by which vendors preload a nut (Rexroth2006: 2 to 10 %).
-LARGEST_PRELOAD_SHARE = 0.1 * (1 + 1e-9)
-
 
 class Holding(NamedTuple):
     """What holds a load."""
@@ -56,11 +53,6 @@ class Holding(NamedTuple):
     axial_load: float
     holding_torque: float
     valid: bool
-
-    @property
-    def drives(self) -> bool:
-        """The load alone turns the screw."""
-        return self.holding_torque * self.axial_load > 0
 
     @classmethod
     def of(cls, friction: FrictionResult, place: tuple[int, ...] = ()) -> Holding:
@@ -102,183 +94,58 @@ class Run:
         return traits_of(self.case.model.slip).curvature_alone
 
     @property
+    def _judged(self) -> tuple[dict[str, Any], dict[str, Value]]:
+        """The values and the words of the verdicts."""
+        friction, nut = self.friction, self.nut
+        values = {name: getattr(friction, name) for name in _OF_RESULT}
+        values |= {
+            "at_rest.holding_torque": self.at_rest.holding_torque,
+            "at_rest.valid": self.at_rest.valid,
+            "rolling_share": self.rolling_share,
+            "flooded_torque": friction.flooded_torque if friction.may_starve else friction.screw_torque,
+        }
+        if nut is not None:
+            values["preload"] = nut.preload
+            values |= {name: getattr(nut.loads, name) for name in ("remaining_preload", "lift_off_load")}
+        of_maker, words = makers.judged(self.case, nut)
+        return values | of_maker, words
+
+    def _said(self, rows: Sequence[Judgement]) -> list[Record]:
+        return said(rows, *self._judged, units.filled)
+
+    @property
     def verdicts(self) -> list[Record]:
         """Starvation; the quadrant, if not the usual one; whether the load drives; skidding; the rule of the maker, if
         it is far off; loss of the preload.
         """
-        starved = units.in_display_units_of(self.friction.starvation)
-        if float(self.friction.axial_load) == 0:
-            none = Message("no axial load")
-            found = [units.record(none, id="verdict.no_load", subject="axial_load", value=0.0, unit="N")]
-            return [*starved, *found, *self._of_maker(), *self._lost()]
-        moving = bool(self.friction.screw_speed)
-        found = _holding(Holding.of(self.friction), "", self.at_rest.drives) if moving else []
-        return [
-            *starved,
-            *_quadrant(self.friction),
-            *found,
-            *_holding(self.at_rest, "at_rest"),
-            *self._skid(moving),
-            *self._of_maker(),
-            *self._lost(),
-        ]
+        return self._said(VERDICTS)
 
     @property
     def warnings(self) -> list[Record]:
         """The conditions of the model that fail, and the loss of the preload."""
-        return [*self.conditions, *self._lost()]
+        return [*self.conditions, *self._said([PRELOAD_LOST])]
 
     def _heavy_preload(self) -> list[Record]:
         """A preload beyond what vendors give a nut of this rating."""
-        if self.nut is None or self.nut.preload <= 0:
+        if self.nut is None:
             return []
         case = self.case
         try:
             rating, source = dynamic_rating(case.screw, case.row, case.listed)
         except InputError:  # of a geometry that no standard has ratings for
             return []
-        share = self.nut.preload / rating
-        if share <= LARGEST_PRELOAD_SHARE or any(one.subject == "nut.preload" for one in self.case.implausible()):
-            return []
-        message = Message(
-            "preload {preload} is {share} times the dynamic load rating {rating}, {source}: "
-            "vendors give a nut {largest} times that at most; check the number and its unit",
-            {
-                "preload": Measured(self.nut.preload, NUT_FIELDS["preload"]),
-                "share": Measured(share, digits=3),
-                "rating": Measured(rating, LISTED["dynamic_load_rating"]),
-                "source": Message(source),
-                "largest": Measured(LARGEST_PRELOAD_SHARE),
-            },
-        )
-        return [
-            units.record(
-                message, id="run.preload_above_rating", subject="nut.preload", severity="warning", holds=False,
-                value=share, limit=LARGEST_PRELOAD_SHARE,
-            )
-        ]  # fmt: skip
+        values = {
+            "preload": self.nut.preload,
+            "dynamic_load_rating": rating,
+            "implausible_preload": any(one.subject == "nut.preload" for one in case.implausible()),
+        }
+        return said([PRELOAD_ABOVE_RATING], values, {"rating_source": Message(source)}, units.filled)
 
     @property
     def conditions(self) -> list[Record]:
         """The warnings of the friction but starvation, which is a verdict, those of the case, and a heavy preload."""
         found = [record for record in self.friction.warning_records if record.id != starvation.STARVED]
         return [*units.in_display_units_of(found), *self.case.doubts, *self._heavy_preload()]
-
-    def _skid(self, moving: bool) -> list[Record]:
-        share = self.rolling_share
-        if not share < 1 or not math.isfinite(float(self.friction.screw_torque)):
-            return []
-        percent = {"percent": Measured(100 * share, digits=3)}
-        if moving:
-            found = "verdict.skid"
-            message = Message("skids: friction carries only {percent}% of what resists the rolling of a ball", percent)
-        else:
-            found = "verdict.skid.at_rest"
-            message = Message("at rest: friction carries only {percent}% of what resists rolling", percent)
-        return [
-            units.record(
-                message, id=found, subject="rolling_share", severity="warning" if moving else "info", holds=False,
-                value=share, limit=1.0, unit=_SHARE.unit,
-            )
-        ]  # fmt: skip
-
-    def _of_maker(self) -> list[Record]:
-        return makers.verdicts(self.case, self.nut)
-
-    def _lost(self) -> list[Record]:
-        if self.nut is None or not self.nut.preload_is_lost:
-            return []
-        limit = float(self.nut.loads.lift_off_load)
-        message = Message(
-            "preload lost: the balls lift off the other flank; between rigid bodies they do above {load}",
-            {"load": Measured(limit, _LIFT_OFF)},
-        )
-        return [
-            units.record(
-                message, id="verdict.preload_lost", subject="axial_load", severity="warning", holds=False,
-                value=abs(float(self.friction.axial_load)), limit=limit, unit=_LIFT_OFF.unit,
-            )
-        ]  # fmt: skip
-
-
-def _quadrant(friction: FrictionResult) -> list[Record]:
-    """The directions of load and rotation in words; empty at rest, and where both are positive as usual."""
-    load, speed, torque = (float(v) for v in (friction.axial_load, friction.screw_speed, friction.drive_torque))
-    if speed == 0 or (load > 0 and speed > 0) or math.isnan(torque):
-        return []
-    signs = (int(math.copysign(1, load)), int(math.copysign(1, speed)))
-    name = next(words for words, each in QUADRANTS.items() if each == signs)
-    values = {"quadrant": Message(name), "torque": Measured(abs(torque), _DRIVE)}
-    if signs[0] == signs[1]:
-        message = Message(
-            "{quadrant}: the screw moves the nut against the load; {torque} on the shaft drive it", values
-        )
-    elif torque * speed < 0:
-        message = Message(
-            "{quadrant}: the load moves the way the screw turns; {torque} on the shaft hold it back", values
-        )
-    else:
-        message = Message(
-            "{quadrant}: the load moves the way the screw turns, and does not suffice; {torque} on the shaft drive it",
-            values,
-        )
-    return [
-        units.record(
-            message, id="verdict.quadrant", subject="drive_torque", severity="info",
-            value=torque, unit=_DRIVE.unit,
-        )
-    ]  # fmt: skip
-
-
-def _holding(holding: Holding, place: str, drives_at_rest: bool = False) -> list[Record]:
-    """Whether the load drives, and the torque that holds or lowers it; empty where it is NaN.
-
-    What holds a load only while it turns is no self-locking: nobody may leave a brake out because of it.
-    """
-    held = holding.holding_torque
-    if math.isnan(held):
-        return []
-    drives = holding.drives
-    torque = {"torque": Measured(abs(held), _TORQUE)}
-    if drives:
-        name = "back_driving"
-        message = (
-            Message("back-drives: the load turns the screw; {torque} on the shaft hold it at rest", torque)
-            if place
-            else Message("back-drives: the load turns the screw; {torque} on the shaft hold it at this speed", torque)
-        )
-    elif drives_at_rest:
-        name = "held_in_motion"
-        message = Message(
-            "not self-locking: friction holds the load only while the screw turns at this speed; "
-            "at rest the load drives: it needs a brake; {torque} on the shaft lower it at this speed",
-            torque,
-        )
-    else:
-        name = "self_locking"
-        message = (
-            Message(
-                "self-locking: the load alone does not turn the screw at rest; {torque} on the shaft lower it", torque
-            )
-            if place
-            else Message(
-                "self-locking: the load alone does not turn the screw at this speed; {torque} on the shaft lower it",
-                torque,
-            )
-        )
-    if not holding.valid:
-        message = Message("{message} (outside the model's validity)", {"message": message})
-    return [
-        units.record(
-            message,
-            id=".".join(filter(None, ["verdict", name, place])),
-            subject="holding_torque",
-            severity="info" if drives else "warning",
-            holds=True,
-            value=held,
-            unit=_TORQUE.unit,
-        )
-    ]
 
 
 # -- evaluation -----------------------------------------------------------------------------------

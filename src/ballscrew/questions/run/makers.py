@@ -2,30 +2,23 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ballscrew.basis import units
-from ballscrew.basis.quantities import Ratio, fields_of
+from ballscrew.basis.judgements import said
+from ballscrew.basis.quantities import Ratio
 from ballscrew.basis.records import Message, Record, Value
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.makers_rules import BY_RULE, OfRule, by_rules
-from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.friction.verdicts import RULE_OF_MAKER
 from ballscrew.questions.run.nut_state import NutState
 
-#: Model over rule between which nothing is said of the maker's rule: makers state their torques to a fifth or worse.
-NEAR = (0.8, 1.25)
-_SPEED = fields_of(OperatingState)["screw_speed"]
 _LINE = Message("without load and seals {torque}; by the rules of makers: {rules}")
 _OWN = Message("{rule}, its maker, {torque} (model / rule {ratio})")
 _OTHER = Message("{rule} {torque} (model / rule {ratio})")
 _CONTRADICTION = Message(
     "the rules of makers contradict each other here by a factor of {factor}; none of them knows oil, speed or balls"
-)
-_VERDICT = Message(
-    "without load and seals the rule of its maker {rule} gives {drag}, the model {torque} at {speed}, {ratio} times "
-    "that; range of the rule: {range}"
 )
 
 
@@ -75,25 +68,20 @@ def contradiction(found: Sequence[BesideRule]) -> Message:
     return _CONTRADICTION.of(factor=units.fixed(max(torques) / min(torques), 2))
 
 
-def verdicts(case: Case, nut: NutState | None) -> list[Record]:
-    """What the rule of the nut's own maker gives, where the model is not :data:`NEAR` it.
+def judged(case: Case, nut: NutState | None) -> tuple[dict[str, Any], dict[str, Value]]:
+    """The values and the words of the verdict on the rule of the nut's own maker; none with spacer balls.
 
-    None with spacer balls: the rules are of nuts full of balls.
+    The rules are of nuts full of balls.
     """
-    if nut is not None and nut.nut.spacer_balls:
-        return []
     own = next((one for one in beside_rules(case, nut) if one.by_rule.is_own), None)
-    if nut is None or own is None or not math.isfinite(own.ratio) or NEAR[0] <= own.ratio <= NEAR[1]:
-        return []
-    quantity = BY_RULE[own.by_rule.rule.name]
-    drag, torque = (units.measured(value, quantity) for value in (own.by_rule.torque, nut.drag_of_balls))
-    speed = units.measured(case.operation.screw_speed, _SPEED)
-    values = {
-        **own.values, "drag": drag, "torque": torque, "speed": speed, "range": Message(own.by_rule.rule.range),
-    }  # fmt: skip
-    return [
-        units.record(
-            _VERDICT.of(**values), id="verdict.rule_of_maker", subject="preload_drag_of_balls", severity="info",
-            value=own.ratio,
-        )
-    ]  # fmt: skip
+    if nut is None or own is None or nut.nut.spacer_balls:
+        return {}, {}
+    rule, torque = own.by_rule.rule, own.by_rule.torque
+    values = {"rule_of_maker": torque, "preload_drag_of_balls": nut.drag_of_balls}
+    return values, {"rule": rule.label, "range": Message(rule.range)}
+
+
+def verdicts(case: Case, nut: NutState | None) -> list[Record]:
+    """What the rule of the nut's own maker gives, where the model is not near it."""
+    values, words = judged(case, nut)
+    return said([RULE_OF_MAKER], values | {"screw_speed": case.operation.screw_speed}, words, units.filled)

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from ballscrew.physics.components.nut import Nut
+from ballscrew.physics.friction.verdicts import preload_is_lost
 from ballscrew.physics.sizing.rigidity import AxialRigidity
 from ballscrew.physics.solvers.load_distribution import BallLoads
 
@@ -56,4 +57,4 @@ class NutState:
     @property
     def preload_is_lost(self) -> bool:
         """The load has lifted the balls off the other flank."""
-        return self.preload > 0 and float(self.loads.remaining_preload) <= 0
+        return bool(preload_is_lost(self.preload, float(self.loads.remaining_preload)))

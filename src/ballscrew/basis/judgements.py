@@ -1,0 +1,241 @@
+"""Judgements as data: what is compared with what, and the sentence that says it.
+
+A judgement is a row of a table. Its formula is elementwise: from named values in SI it makes masks and numbers, alike
+on plain numbers, on arrays, and on values that are recorded. Its sentences are templates, of which masks choose one.
+Nothing in it branches on a number; what is given at all is not a number but a name, see :attr:`Judgement.needs`.
+
+A formula may give, by name:
+
+- ``said``, a mask: the judgement has something to say; without it, it always has;
+- ``value`` and ``limit`` in the unit of the judgement, and ``utilisation``, demand over capacity;
+- ``holds``, a mask: the truth of the statement, where that is no constant;
+- ``judged``, a mask: there is a limit to hold the value against; without it, there always is;
+- masks that choose a sentence, and numbers that stand in it.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from ballscrew.basis.arrays import as_array, namespace, where
+from ballscrew.basis.quantities import Mask, Quantity, Ratio
+from ballscrew.basis.records import FilledText, Measured, Message, Record, Severity, Value
+
+Formula: TypeAlias = Callable[[Mapping[str, Any]], Mapping[str, Any]]
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Shown:
+    """A number of a formula where it stands in a sentence: its quantity, and its significant digits or decimals."""
+
+    name: str
+    quantity: Quantity | None = None
+    digits: int = 4
+    decimals: int | None = None
+
+    def measured(self, value: Any) -> Measured:
+        """The number for a message."""
+        if self.decimals is None:
+            return Measured(float(value), self.quantity, self.digits)
+        written = f"{float(value):.{self.decimals}f}"
+        return Measured(float(written), self.quantity, 12, written=written)
+
+    def document(self) -> dict[str, Any]:
+        """The place as it stands in JSON: ``number`` is its name."""
+        quantity = self.quantity
+        units = ("1", "1") if quantity is None else (quantity.unit, quantity.shown_in)
+        found = {"number": self.name, "unit": units[0], "shown_in": units[1], "digits": self.digits}
+        return found if self.decimals is None else found | {"decimals": self.decimals}
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Words:
+    """Words where they stand in a sentence, by name: they are given beside the values."""
+
+    name: str
+
+    def document(self) -> dict[str, Any]:
+        """The place as it stands in JSON."""
+        return {"words": self.name}
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Sentence:
+    """A sentence, and the mask under which it is said; without one, wherever none before it is."""
+
+    message: Message
+    said: str = ""
+    #: What stands in the places of the template: a number, words, one of several sentences, or a constant.
+    places: Mapping[str, Shown | Words | tuple[Sentence, ...] | Value] = dataclasses.field(default_factory=dict)
+
+    def filled(self, found: Mapping[str, Any], words: Mapping[str, Value]) -> Message:
+        """The sentence with what a formula found at one point, and words."""
+
+        def one(place: Any) -> Value:
+            if isinstance(place, Shown):
+                return place.measured(found[place.name])
+            if isinstance(place, Words):
+                return words[place.name]
+            return chosen(place, found, words) if isinstance(place, tuple) else place
+
+        return self.message.of(**{name: one(place) for name, place in self.places.items()})
+
+    def document(self) -> dict[str, Any]:
+        """The sentence as it stands in JSON; a constant is ``constant``, a choice of sentences ``sentences``."""
+
+        def one(place: Any) -> Any:
+            if isinstance(place, Shown | Words):
+                return place.document()
+            if isinstance(place, tuple):
+                return {"sentences": [each.document() for each in place]}
+            return {"constant": place if isinstance(place, str) else place.document()}
+
+        places = {name: one(place) for name, place in self.places.items()}
+        return {"template": self.message.template, "said": self.said or None, "places": places}
+
+
+def chosen(sentences: Sequence[Sentence], found: Mapping[str, Any], words: Mapping[str, Value]) -> Message:
+    """The first of the sentences whose mask holds at one point, filled."""
+    return next(one.filled(found, words) for one in sentences if not one.said or bool(found[one.said]))
+
+
+@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
+class Judgement:
+    """One row of a table of verdicts, checks and warnings; see :mod:`ballscrew.basis.judgements`."""
+
+    #: Stable name, unique in its table: ``verdict.back_driving``, ``check.buckling``.
+    id: str
+    #: The quantity or part that it concerns, by its name in the document.
+    subject: str
+    #: From values by name to masks and numbers by name.
+    formula: Formula
+    #: Of these the first is said whose mask holds.
+    sentences: tuple[Sentence, ...]
+    #: Names of the values without which it is left out: what a part that is not there would have.
+    needs: tuple[str, ...] = ()
+    #: Those of them that are truth values: masks, not numbers.
+    truths: tuple[str, ...] = ()
+    #: Names of values that may be left out or NaN.
+    takes: tuple[str, ...] = ()
+    #: What to give where one of its needs is not there; empty where nothing is said then.
+    give: str = ""
+    unit: str = "1"
+    severity: Severity = "info"
+    #: The severity where ``holds`` of the formula is false.
+    severity_of_failure: Severity | None = None
+    #: The truth of the statement where it is a constant.
+    holds: bool | None = None
+    #: The kind of source of its formulas and its limit, where that does not depend on what is given.
+    source: str | None = None
+
+    @property
+    def name(self) -> str:
+        """The last part of the id: ``buckling``."""
+        return self.id.rpartition(".")[2]
+
+    def finds(self, values: Mapping[str, Any]) -> Mapping[str, Any] | None:
+        """The masks and numbers of the formula; None where a value that it needs is not given.
+
+        Numbers follow the rules of IEEE 754, in silence.
+        """
+        if any(values.get(name) is None for name in self.needs):
+            return None
+        of_these = (*self.needs, *self.takes)
+        given = {name: _plain(values[name]) for name in of_these if values.get(name) is not None}
+        with np.errstate(all="ignore"):
+            return self.formula({name: np.float64("nan") for name in self.takes} | given)
+
+    def message(self, found: Mapping[str, Any], words: Mapping[str, Value]) -> Message:
+        """The sentence that is said at one point."""
+        return chosen(self.sentences, found, words)
+
+    def record(
+        self, found: Mapping[str, Any], words: Mapping[str, Value], text: Callable[[Message], str]
+    ) -> Record | None:
+        """What is said at one point, None where nothing is; ``text`` fills a message in English."""
+        if not found.get("said", True):
+            return None
+        message = self.message(found, words)
+        sentence = FilledText(text(message), message)
+        holds = bool(found["holds"]) if "holds" in found else self.holds
+        fails = holds is False and self.severity_of_failure is not None
+        return Record(
+            id=self.id,
+            subject=self.subject,
+            text=str(sentence),
+            message=sentence.message,
+            severity=self.severity_of_failure or self.severity if fails else self.severity,
+            holds=holds,
+            value=float(found["value"]) if "value" in found else None,
+            limit=float(found["limit"]) if "limit" in found else None,
+            unit=self.unit,
+        )
+
+    def document(self) -> dict[str, Any]:
+        """The row as it stands in JSON, without its formula: ``masks`` and ``numbers`` are what that gives, by name."""
+        found = self.finds({name: True if name in self.truths else 1.0 for name in self.needs}) or {}
+        masks = [name for name, value in found.items() if isinstance(value, bool | np.bool_)]
+        return {
+            "id": self.id,
+            "subject": self.subject,
+            "severity": self.severity,
+            "severity_of_failure": self.severity_of_failure,
+            "holds": self.holds,
+            "unit": self.unit,
+            "needs": list(self.needs),
+            "truths": list(self.truths),
+            "takes": list(self.takes),
+            "give": self.give or None,
+            "source": self.source,
+            "masks": masks,
+            "numbers": [name for name in found if name not in masks],
+            "sentences": [sentence.document() for sentence in self.sentences],
+        }
+
+
+def judged(rows: Iterable[Judgement], values: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
+    """The masks and numbers of each row by its id; of those alone whose needs are given, None being not given.
+
+    ``values`` are numbers in SI and masks, arrays of them, or values of a tape that records.
+    """
+    found = ((row.id, row.finds(values)) for row in rows)
+    return {name: one for name, one in found if one is not None}
+
+
+def said(
+    rows: Iterable[Judgement], values: Mapping[str, Any], words: Mapping[str, Value], text: Callable[[Message], str]
+) -> list[Record]:
+    """The records of the rows that have something to say at one point, in their order."""
+    found = ((row, row.finds(values)) for row in rows)
+    records = (row.record(one, words, text) for row, one in found if one is not None)
+    return [record for record in records if record is not None]
+
+
+def utilisation(demand: Any, capacity: Any) -> Ratio:
+    """Demand over capacity: nothing that is asked of nothing is no demand, something asked of nothing beyond all."""
+    of_nothing = where(demand != 0, np.inf, 0.0)
+    return where(capacity != 0, demand / where(capacity != 0, capacity, 1.0), of_nothing)
+
+
+def at_most(value: Any, limit: Any) -> dict[str, Any]:
+    """What a judgement gives that holds up to a limit; its utilisation is the value over the limit."""
+    return {"value": value, "limit": limit, "utilisation": utilisation(value, limit), "holds": value <= limit}
+
+
+def at_least(value: Any, limit: Any) -> dict[str, Any]:
+    """What a judgement gives that holds from a limit on; its utilisation is the limit over the value."""
+    return {"value": value, "limit": limit, "utilisation": utilisation(limit, value), "holds": value >= limit}
+
+
+def is_nan(value: Any) -> Mask:
+    """Mask: the value is no number."""
+    return namespace(value).isnan(value)
+
+
+def _plain(value: Any) -> Any:
+    """A truth value or a number as NumPy has it, of which masks can be made; others as they are."""
+    return np.bool_(value) if isinstance(value, bool) else as_array(value)
