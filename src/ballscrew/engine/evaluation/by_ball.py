@@ -6,14 +6,14 @@ angles are inputs like any other. Sums and greatest values over the balls lead f
 what does not depend on the ball is evaluated once for each point, by NumPy, and what does in one loop over balls and
 points.
 
-All plain numbers of the parts are inputs, so that nothing is recorded again when one changes: they cost nothing at any
-ball. Constants are exponents of laws, which are folded, and materials.
+All plain numbers of the parts are inputs, so that nothing is recorded again when one changes
+(:mod:`ballscrew.engine.evaluation.structures`): they cost nothing at any ball.
 """
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -25,22 +25,25 @@ from ballscrew.compiler.kernels.buffers import aligned_array
 from ballscrew.compiler.kernels.emission import UnknownOperationError, kernel_text, lanes_for
 from ballscrew.compiler.kernels.kernel import Kernel
 from ballscrew.compiler.tracing.grid import Split, split
-from ballscrew.compiler.tracing.merging import merged_program
 from ballscrew.compiler.tracing.program import Program, Source, required_steps
 from ballscrew.compiler.tracing.reductions import Stages, cut_at_reductions, reduced
-from ballscrew.compiler.tracing.steps import COLUMNS, ROWS
-from ballscrew.compiler.tracing.tape import CannotRecordError, Tape
+from ballscrew.compiler.tracing.tape import CannotRecordError
 from ballscrew.engine.evaluation.axes import ends
 from ballscrew.engine.evaluation.engines import ASKED_FOR, PAYS, Engine, why_numpy, worth_compiling
-from ballscrew.engine.evaluation.outputs import NUT_OUTPUTS, OF_LOADS, OPERATION, Output, known_outputs
+from ballscrew.engine.evaluation.outputs import OF_LOADS, OPERATION
 from ballscrew.engine.evaluation.plan import Configuration, Plan, read_input
-from ballscrew.engine.evaluation.recordings import Recording, Structures, UnknownPartError, key_of
-from ballscrew.physics.components.materials import INPUTS_OF_SHEET, TEMPERATURE
+from ballscrew.engine.evaluation.recordings import Recording, Structures
+from ballscrew.engine.evaluation.structures import (
+    OF_BALLS,
+    groups_by_ball,
+    inputs_of_structure,
+    numbers_alone,
+    outputs_of_structure,
+    recorded_structure,
+    structure_key,
+)
 from ballscrew.physics.friction.loaded_balls import loads_of
-from ballscrew.physics.solvers.load_distribution import BallLoads, KindLoads
 
-#: What each ball has of the solved loads.
-OF_BALLS = ("forward_load", "backward_load", "forward_angle", "backward_angle")
 #: Balls at all points that have to be asked for, in one call or in several, before a recording is made; that of balls
 #: with four contacts has ten times as many steps.
 ENOUGH_TO_RECORD, ENOUGH_OF_FOUR_CONTACTS = 100_000, 1_000_000
@@ -49,31 +52,7 @@ TILE = 128
 #: Numbers of balls that are evaluated in a block: large enough for the steps of NumPy at the points, small enough
 #: for the cache.
 BLOCK_OF_BALLS = 2**18
-#: Outputs that are recorded together.
-_USUAL = frozenset({*NUT_OUTPUTS, "drive_torque", "holding_torque", "self_locking", "minimum_film_parameter"})
-#: What sets numbers of the oil, which are inputs themselves.
-_OF_STATE = frozenset({TEMPERATURE.name, *INPUTS_OF_SHEET})
-_USUAL_PARTS = ("contribution_", "validity_")
 _structures = Structures()
-
-
-def inputs_by_ball(subject: Configuration, varying: Sequence[str] = ()) -> tuple[str, ...]:
-    """The names of all numbers of a configuration that are inputs of its recording, the operating point first.
-
-    An exponent of a law is a constant, unless it varies: folded into the powers, it costs nothing.
-    """
-    seen: set[str] = set()
-    found: list[str] = []
-    parts = subject.by_section
-    for name, (part, _) in subject.inputs.items():
-        own = name.removeprefix("nut.") if part == "nut" else name
-        is_exponent = part == "model" and name.rpartition(".")[2].endswith("exponent") and name not in varying
-        if part == "operation" or name in _OF_STATE or own in seen or is_exponent:
-            continue
-        seen.add(own)
-        if read_input(parts[part], name) is not None:
-            found.append(own)
-    return (*OPERATION, *found)
 
 
 class ByBall:
@@ -182,11 +161,11 @@ def by_ball(
     left to the model itself, unless it is ``always`` recorded, until so much of its kind has been asked for that a
     recording pays.
     """
-    names = inputs_by_ball(plan.subject, plan.varying if varying is None else varying)
-    wanted = _recorded_outputs(plan)
+    names = inputs_of_structure(plan.subject, plan.varying if varying is None else varying)
+    wanted = outputs_of_structure(plan.subject, plan.outputs)
     work = plan.total * times * plan.subject.balls
     why = "the model itself, on plain arrays: the work is too short to record it"
-    key = _key(plan.subject, tuple(wanted), names)
+    key = structure_key(plan.subject, tuple(wanted), names)
     made_of = None if key is None else _structures.get(key)
     asked = work if key is None else _structures.asked(key, work)
     enough = ENOUGH_TO_RECORD if plan.subject.nut.contacts_per_ball == 2 else ENOUGH_OF_FOUR_CONTACTS
@@ -194,9 +173,8 @@ def by_ball(
         return why
     try:
         if made_of is None:
-            # a law from outside may ask for the grade of the oil
-            subject = plan.subject if key is None else _without_grade(plan.subject)
-            program = recorded_by_ball(subject, wanted, names)
+            subject = plan.subject if key is None else numbers_alone(plan.subject)
+            program = recorded_structure(subject, wanted, names)
             made_of = Recording(program) if key is None else _structures.add(key, program)
         return _by_an_engine(plan, engine, names, made_of, asked)
     except CannotRecordError as error:
@@ -220,72 +198,9 @@ def _by_an_engine(
     return ByBall(plan, names, made_of, "numpy", why)
 
 
-def _key(subject: Configuration, outputs: tuple[str, ...], names: tuple[str, ...]) -> Hashable | None:
-    """All that a recording depends on; None where a law from outside may compute something else each time."""
-    try:
-        return _structure(subject, names), outputs, names
-    except UnknownPartError:
-        return None
-
-
-def _without_grade(subject: Configuration) -> Configuration:
-    """The same with an oil that is its numbers alone."""
-    oil = dataclasses.replace(subject.lubricant, grade=None, sheet=None, temperature=None)
-    return Configuration(subject.model, subject.screw, oil)
-
-
-def _structure(subject: Configuration, names: Sequence[str]) -> Hashable:
-    """A configuration as a key, without the numbers that are inputs and without what only the loads depend on."""
-    asides = {*names, "bodies", "deviations", "grade", "sheet", "temperature", "made_as"}
-
-    def of(part: Any, prefix: str = "") -> Hashable:
-        laws = [f for f in dataclasses.fields(part) if f"{prefix}{f.name}" not in asides]
-        return type(part), *((f.name, of_field(getattr(part, f.name), f.name)) for f in laws)
-
-    def of_field(value: Any, name: str) -> Hashable:
-        if name == "nut":
-            return of(value)
-        if name == "losses":
-            return tuple((n, of_law(law, f"losses.{n}.")) for n, law in value.items())
-        return of_law(value, f"{name}.") if name in subject.model.laws_with_coefficients else key_of(value)
-
-    def of_law(law: Any, prefix: str) -> Hashable:
-        key_of(law)  # raises for one from outside
-        return of(law, prefix) if dataclasses.is_dataclass(law) else key_of(law)
-
-    return of(subject.model), of(subject.screw), of(subject.lubricant)
-
-
-def _recorded_outputs(plan: Plan) -> Mapping[str, Output]:
-    """The outputs that are recorded: the usual ones, where those of the plan are among them, or just these.
-
-    What a few sums more cost at each ball is saved by having one recording and one kernel for most purposes.
-    """
-    known = known_outputs(plan.subject.nut)
-    usual = {n: output for n, output in known.items() if n in _USUAL or n.startswith(_USUAL_PARTS)}
-    return usual if usual.keys() >= set(plan.outputs) else plan.wanted
-
-
-def recorded_by_ball(subject: Configuration, wanted: Mapping[str, Output], names: Sequence[str]) -> Program:
-    """The outputs wanted as a program of all inputs, the results of the solver for the nut, and those for each ball."""
-    if subject.nut.set_at_rest:
-        raise CannotRecordError("the preload of a nut that was set at rest follows the friction of its balls")
-    groups = [COLUMNS] * (len(names) + len(OF_LOADS)) + [ROWS | COLUMNS] * len(OF_BALLS)
-    nonnegative = [subject.is_nonnegative(name) for name in names] + [False] * len(OF_LOADS) + [True] * len(OF_BALLS)
-    tape = Tape(len(groups), groups, nonnegative, reduces=True)
-    traced = [tape.value(i) for i in range(tape.inputs)]
-    points = dict(zip(names, traced, strict=False))
-    of_nut = dict(zip(OF_LOADS, traced[len(names) :], strict=False))
-    of_balls = dict(zip(OF_BALLS, traced[-len(OF_BALLS) :], strict=True))
-    with subject.recording(by_ball=True):
-        loads = BallLoads(kinds=(KindLoads(balls=1.0, **of_balls),), one_by_one=True, **of_nut)
-        result = subject.under(loads, points)
-        return merged_program(tape, {name: output.read(result) for name, output in wanted.items()})
-
-
 def stages_by_ball(program: Program, names: Sequence[str]) -> tuple[Stages, Split]:
     """Such a program cut at its reductions, and its first part cut along points and balls."""
-    groups = [COLUMNS] * (len(names) + len(OF_LOADS)) + [ROWS | COLUMNS] * len(OF_BALLS)
+    groups = groups_by_ball(names)
     stages = cut_at_reductions(program, groups)
     return stages, split(stages.before, groups)
 
