@@ -305,7 +305,7 @@ static double travel(const chain *c, const double *x)
     return beta * x[0] + (1.0 - beta) * x[c->count - 1] + c->load * beta * (1.0 - beta) * free_bodies(c);
 }
 
-/* Slope of that by the load, inverted; of balls that carry nothing it is zero. The room is for six numbers a ball. */
+/* The load over that, for a small one more; of balls that carry nothing it is zero. The room is for six numbers a ball. */
 static double rigidity(const chain *c, const double *x, double *room)
 {
     const int n = c->count;
@@ -324,7 +324,7 @@ static double rigidity(const chain *c, const double *x, double *room)
         right[i] = 0.0;
     }
     if (!(carries > 0.0))
-        return 0.0;
+        return carries; /* none, or NaN */
     right[0] += beta;
     right[n - 1] += 1.0 - beta;
     tridiagonal(c, slope, right, moved, behind);
@@ -431,7 +431,7 @@ static double solved(const ballscrew_nut *nut, double axial_load, double preload
     }
     if (state) {
         state[0] = travel(&c, x) - at_rest;
-        state[1] = rigidity(&c, x, rest + 2 * n);
+        state[1] = works == 0.0 ? 0.0 : rigidity(&c, x, rest + 2 * n);
         state[2] = load < 0.0 ? on_forward : on_backward;
     }
     for (i = 0; i < n; i++) {
