@@ -162,6 +162,7 @@ class Judgement:
         message = self.message(found, words)
         sentence = FilledText(text(message), message)
         holds = bool(found["holds"]) if "holds" in found else self.holds
+        holds = holds if found.get("judged", True) else None
         fails = holds is False and self.severity_of_failure is not None
         return Record(
             id=self.id,

@@ -237,3 +237,35 @@ CHECKS: tuple[Judgement, ...] = (
         source="read",  # makers' limits; that of another nut is an estimate (SpeedLimit.source)
     ),
 )
+
+
+def _all_checks(of: Mapping[str, Any]) -> Mapping[str, Any]:
+    judged, failing, number = of["checks.judged"], of["checks.failing"], of["checks.all"]
+    fails = failing > 0
+    is_whole = judged == number
+    return {
+        "fails": fails,
+        "fails_of_all": fails & is_whole,
+        "passes": is_whole,
+        "holds": namespace(fails).logical_not(fails),
+        "judged": fails | is_whole,
+        "number_judged": judged,
+        "number": number,
+    }
+
+
+_COUNT = {"judged": Shown("number_judged"), "all": Shown("number")}
+#: All checks in a few words: of ``checks.all`` of them so many judged and so many failing, whose titles are ``names``.
+ALL_CHECKS = Judgement(
+    id="verdict.checks",
+    subject="checks",
+    formula=_all_checks,
+    needs=("checks.judged", "checks.failing", "checks.all"),
+    severity_of_failure="error",
+    sentences=(
+        Sentence(Message("fails: {names}"), "fails_of_all", {"names": Words("names")}),
+        Sentence(Message("fails: {names}; {judged} of {all} judged"), "fails", {"names": Words("names"), **_COUNT}),
+        Sentence(Message("passes"), "passes"),
+        Sentence(Message("{judged} of {all} judged, and these hold"), places=_COUNT),
+    ),
+)
