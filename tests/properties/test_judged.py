@@ -7,15 +7,20 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.basis.judgements import utilisation
+from ballscrew.compiler.kernels import kernel
+from ballscrew.compiler.kernels.buffers import aligned_array
+from ballscrew.compiler.kernels.emission import kernel_text
 from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.tape import Tape
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.physics.sizing.check_table import ALL_CHECKS
 from ballscrew.physics.sizing.judged import JUDGED, judged, outputs
 
 POINTS = 500
 TRUTHS = {name for row in JUDGED for name in row.truths}
-NEEDS = list(dict.fromkeys(name for row in JUDGED for name in (*row.needs, *row.takes)))
+#: Names of all values; how many checks there are is no value but counted.
+NEEDS = list(dict.fromkeys(name for row in JUDGED if row is not ALL_CHECKS for name in (*row.needs, *row.takes)))
 BY_ID = {row.id: row for row in JUDGED}
 #: Values that may have either sign, and that are often zero or no number.
 SIGNED = (
@@ -72,18 +77,23 @@ def run(tape, made, inputs):
     return found, masks
 
 
-def recorded(values):
-    """All that is judged, recorded with every value an input, and run at the points."""
+def recorded():
+    """All that is judged, recorded with every value an input; a truth value is a number that is not zero."""
     tape = Tape(len(NEEDS))
     traced = {name: tape.value(place) for place, name in enumerate(NEEDS)}
     traced |= {name: traced[name] != 0 for name in TRUTHS}
-    return run(tape, outputs(judged(traced)), [values[name].astype(float) for name in NEEDS])
+    return tape, outputs(judged(traced))
+
+
+def columns(values):
+    """The values as inputs of the recording."""
+    return [np.ascontiguousarray(values[name], dtype=float) for name in NEEDS]
 
 
 def test_recorded_as_on_numbers():
     """At random points, zeros of load and speed, all quadrants and missing numbers among them."""
     values = random_values()
-    found, masks = recorded(values)
+    found, masks = run(*recorded(), columns(values))
     held = dict.fromkeys(masks, 0)
     for place in range(POINTS):
         plain = outputs(judged(at(values, place)))
@@ -96,6 +106,24 @@ def test_recorded_as_on_numbers():
                 assert found[name][place] == pytest.approx(float(value), rel=1e-12, nan_ok=True), name
     # each mask holds at some points and not at others: nothing above is true for want of points
     assert {name for name, count in held.items() if not 0 < count < POINTS} == set()
+
+
+@pytest.mark.skipif(not kernel.available(), reason="the compiler is not installed")
+def test_compiled_as_interpreted():
+    """All outputs as numbers, one for a mask that holds: as a program without truth values takes them."""
+    values = random_values(5)
+    tape, made = recorded()
+    expected, masks = run(tape, made, columns(values))
+    program = Program.of(tape, made)
+    sources = ["points"] * len(NEEDS)
+    compiled = kernel.Kernel.of(kernel_text(program, sources, dict.fromkeys(program.outputs, False)), sources)
+    results = [aligned_array(POINTS, float) for _ in program.outputs]
+    compiled(slice(0, 1), slice(0, POINTS), POINTS, columns(values), results)
+    for name, found in zip(program.outputs, results, strict=True):
+        if name in masks:
+            assert np.array_equal(found, expected[name].astype(float)), name
+        else:
+            assert found == pytest.approx(expected[name], rel=1e-12, nan_ok=True), name
 
 
 def test_arrays_as_numbers():
@@ -130,10 +158,29 @@ def named(sentences):
 
 
 def test_without_what_a_row_needs_it_is_left_out():
+    values = at(random_values(), 0)
     for row in JUDGED:
         for name in row.needs:
-            assert row.finds({**at(random_values(), 0), name: None}) is None
+            assert row.finds({**values, name: None}) is None
     assert judged({}) == {}
+
+
+def test_checks_are_counted():
+    """Of three that can be judged one fails; of all of them those count whose masks say so."""
+    values = {
+        "static_load_rating": 4.0, "largest_half_load": 1.0, "limits.static_safety": 5.0, "maximum_pressure": 1e9,
+        "largest_load": 1.0, "root_diameter": 1.0, "limits.shaft_stress": 10.0,
+    }  # fmt: skip
+    found = judged(values)["verdict.checks"]
+    assert [float(found[name]) for name in ("number_judged", "number")] == [3, 8]
+    assert (bool(found["fails"]), bool(found["fails_of_all"]), bool(found["holds"])) == (True, False, False)
+    of_all = judged(random_values(6))
+    rows = [(one.get("judged", True), one["holds"]) for name, one in of_all.items() if name.startswith("check.")]
+    found = of_all["verdict.checks"]
+    assert np.array_equal(
+        found["number_judged"], sum(np.where(is_judged, 1, np.zeros(POINTS)) for is_judged, _ in rows)
+    )
+    assert np.array_equal(found["fails"], np.any([is_judged & ~holds for is_judged, holds in rows], axis=0))
 
 
 def test_at_most_one_thing_is_said_of_a_load():

@@ -21,6 +21,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from ballscrew.basis.arrays import namespace, where
 from ballscrew.basis.judgements import Judgement, Sentence, Shown, Words, at_least, at_most, is_nan
 from ballscrew.basis.quantities import Force
@@ -252,6 +254,18 @@ def _all_checks(of: Mapping[str, Any]) -> Mapping[str, Any]:
         "number_judged": judged,
         "number": number,
     }
+
+
+def counted(found: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+    """How many checks there are, were judged and fail, by what their rows give; nothing where none is judged."""
+    judged: Any = 0.0
+    failing: Any = 0.0
+    for row in found.values():
+        is_judged = row.get("judged", np.bool_(True))
+        judged = judged + where(is_judged, 1.0, 0.0)
+        failing = failing + where(is_judged & namespace(row["holds"]).logical_not(row["holds"]), 1.0, 0.0)
+    numbers = {"checks.judged": judged, "checks.failing": failing, "checks.all": float(len(CHECKS))}
+    return numbers if found else {}
 
 
 _COUNT = {"judged": Shown("number_judged"), "all": Shown("number")}

@@ -18,7 +18,7 @@ from typing import Any
 from ballscrew.basis import judgements
 from ballscrew.basis.judgements import Judgement
 from ballscrew.physics.friction.verdicts import VERDICTS, WARNINGS
-from ballscrew.physics.sizing.check_table import ALL_CHECKS, CHECKS, NOT_CHECKED
+from ballscrew.physics.sizing.check_table import ALL_CHECKS, CHECKS, NOT_CHECKED, counted
 
 #: All rows: verdicts, warnings, checks and the verdict on the checks, each group in the order in which it is said.
 JUDGED: tuple[Judgement, ...] = (*VERDICTS, *WARNINGS, *CHECKS, ALL_CHECKS)
@@ -27,11 +27,13 @@ JUDGED: tuple[Judgement, ...] = (*VERDICTS, *WARNINGS, *CHECKS, ALL_CHECKS)
 def judged(values: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
     """The masks and numbers of each row by its id, of those whose needs are among the values.
 
+    What the verdict on the checks needs is counted, if there are any.
     A value that is None is not given. Numbers are in SI; truth values are masks, and a number that stands for one is to
     be compared with zero first. The ids are those of :data:`JUDGED`, and what a row gives is named in its document,
     ``masks`` and ``numbers``: see :mod:`ballscrew.basis.judgements` for the names that are the same in all rows.
     """
-    return judgements.judged(JUDGED, values)
+    found = judgements.judged(CHECKS, values)
+    return judgements.judged((*VERDICTS, *WARNINGS), values) | found | judgements.judged([ALL_CHECKS], counted(found))
 
 
 def outputs(found: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
