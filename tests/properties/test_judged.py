@@ -251,3 +251,11 @@ def test_verdicts_on_the_tape_of_a_model(model):
             same = bool(one) is bool(value) if name in masks else one == pytest.approx(value, rel=1e-11, nan_ok=True)
             assert same, name
     assert 0 < found["verdict.self_locking.at_rest:said"].sum() + found["verdict.back_driving.at_rest:said"].sum() < 40
+
+
+def test_the_sign_of_a_speed_is_nothing_to_a_check():
+    values = random_values(7)
+    forward, backward = (judged(values | {"screw_speed": sign * values["screw_speed"]}) for sign in (1, -1))
+    for name in (name for name in forward if name.startswith("check.")):
+        for key, value in forward[name].items():
+            assert np.array_equal(value, backward[name][key], equal_nan=np.asarray(value).dtype.kind == "f"), name
