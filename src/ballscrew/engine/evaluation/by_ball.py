@@ -13,6 +13,8 @@ All plain numbers of the parts are inputs, so that nothing is recorded again whe
 from __future__ import annotations
 
 import dataclasses
+import hashlib
+import json
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -22,17 +24,20 @@ from numpy.typing import NDArray
 from ballscrew.basis.arrays import as_array
 from ballscrew.compiler.kernels import kernel as kernels
 from ballscrew.compiler.kernels.buffers import aligned_array
-from ballscrew.compiler.kernels.emission import UnknownOperationError, kernel_text, lanes_for
+from ballscrew.compiler.kernels.emission import UnknownOperationError, kernel_text
 from ballscrew.compiler.kernels.kernel import Kernel
 from ballscrew.compiler.tracing.grid import Split, split
 from ballscrew.compiler.tracing.program import Program, Source, required_steps
-from ballscrew.compiler.tracing.reductions import Stages, cut_at_reductions, reduced
+from ballscrew.compiler.tracing.reductions import Reduction, Stages, cut_at_reductions, reduced, sums_of
+from ballscrew.compiler.tracing.steps import REDUCTIONS
 from ballscrew.compiler.tracing.tape import CannotRecordError
+from ballscrew.compiler.tracing.written import as_document, can_be_written, from_document
 from ballscrew.engine.evaluation.axes import ends
-from ballscrew.engine.evaluation.engines import ASKED_FOR, PAYS, Engine, why_numpy, worth_compiling
+from ballscrew.engine.evaluation.engines import ASKED_FOR, KNOWN, PAYS, Engine, why_numpy, worth_compiling
 from ballscrew.engine.evaluation.outputs import OF_LOADS, OPERATION
 from ballscrew.engine.evaluation.plan import Configuration, Plan, read_input
 from ballscrew.engine.evaluation.recordings import Recording, Structures
+from ballscrew.engine.evaluation.structure_kernels import LANES, keep, kept, name_of
 from ballscrew.engine.evaluation.structures import (
     OF_BALLS,
     groups_by_ball,
@@ -58,26 +63,19 @@ _structures = Structures()
 class ByBall:
     """The outputs of a plan for a nut whose balls differ, made ready by one of the engines."""
 
-    def __init__(self, plan: Plan, names: tuple[str, ...], made_of: Recording, engine: Engine, reason: str) -> None:
+    def __init__(self, plan: Plan, cut: CutByBall, engine: Engine, reason: str) -> None:
         self.engine: Engine = engine
         self.reason = reason
-        self.names = names
-        self._stages, self._cut = made_of.once("stages", lambda: stages_by_ball(made_of.program, names))
-        self._program = made_of.program
-        self._before = None if engine == "compiled" else self._cut.points.interpreter.with_own_buffers()
-        self._of_points = self._cut.columns.interpreter.with_own_buffers()
-        self._behind = made_of.once(
-            f"behind {plan.outputs}", lambda: _of(self._stages.behind, plan.outputs)
-        ).interpreter
-        self._sources: list[Source] = [source for source, _ in self._cut.tables]
-        self._text = "" if engine == "numpy" else _text(made_of, self._stages, self._cut)
-        self._kernel = None if engine == "numpy" else Kernel.of(self._text, self._sources)
-        self._spare = _lanes(self._cut.points)
+        self._cut = cut
+        self._of_points = cut.columns.interpreter.with_own_buffers()
+        self._behind = cut.behind_of(plan.outputs).interpreter
+        self._kernel = None if engine == "numpy" else cut.kernel
+        self._before = None if cut.points is None else cut.points.interpreter.with_own_buffers()
 
     @property
     def formulas(self) -> str:
-        """All formulas as they are evaluated, as text."""
-        return f"{self._text}\n{self._program.text}"
+        """A digest of all formulas as they are evaluated."""
+        return self._cut.formulas
 
     def evaluator_of(self, plan: Plan) -> Callable[..., None]:
         """The evaluator of a slice of the flattened grid, into arrays that begin at the given place; it notes ends."""
@@ -105,7 +103,7 @@ class ByBall:
         with np.errstate(all="ignore"):
             loads = loads_of(changed.screw, as_array(points[OPERATION[0]]), compiled=self.engine == "compiled")
             known, parts = changed.inputs, changed.by_section
-            of_points = [points[n] if n in OPERATION else read_input(parts[known[n][0]], n) for n in self.names]
+            of_points = [points[n] if n in OPERATION else read_input(parts[known[n][0]], n) for n in self._cut.names]
             of_points += [getattr(loads, name) for name in OF_LOADS]
             of_balls = [_balls_first(getattr(loads, name), count) for name in OF_BALLS]
             tables = self._tables(of_points, count)
@@ -114,7 +112,7 @@ class ByBall:
                 for source, name in self._cut.tables
             ]
             values, done = self._over_balls(inputs, len(of_balls[0]), count)
-            found = reduced(self._stages.reductions, values, done)
+            found = reduced(self._cut.reductions, values, done)
             self._behind.run([*of_points, *([None] * len(OF_BALLS)), *found], results)
 
     def _tables(self, of_points: Sequence[Any], count: int) -> dict[str, NDArray[np.float64]]:
@@ -130,10 +128,10 @@ class ByBall:
         self, inputs: Sequence[NDArray[np.float64]], balls: int, count: int
     ) -> tuple[dict[str, NDArray[Any]], dict[str, NDArray[Any]]]:
         """What each ball has, by name, and what is reduced already."""
-        sums = self._stages.sums
-        names = list(self._cut.points.outputs)
+        sums = self._cut.sums
+        names = self._cut.outputs
         if self._kernel is not None:
-            found = {n: aligned_array(count + self._spare if n in sums else balls * count, float) for n in names}
+            found = {n: aligned_array(count + self._cut.lanes if n in sums else balls * count, float) for n in names}
             self._kernel(
                 slice(0, balls), slice(0, count), count, inputs, list(found.values()), past_cache=False, tile=TILE
             )
@@ -161,11 +159,15 @@ def by_ball(
     left to the model itself, unless it is ``always`` recorded, until so much of its kind has been asked for that a
     recording pays.
     """
-    names = inputs_of_structure(plan.subject, plan.varying if varying is None else varying)
+    names = inputs_of_structure(plan.subject, [*plan.axes, *(varying or ())])
     wanted = outputs_of_structure(plan.subject, plan.outputs)
     work = plan.total * times * plan.subject.balls
     why = "the model itself, on plain arrays: the work is too short to record it"
     key = structure_key(plan.subject, tuple(wanted), names)
+    kept_as = None if key is None or engine == "numpy" else name_of("by ball", plan.subject, tuple(wanted), names)
+    cut: CutByBall | None = None if kept_as is None else kept.get(kept_as, _read)
+    if cut is not None:
+        return ByBall(plan, cut, "compiled", ASKED_FOR if engine else KNOWN)
     made_of = None if key is None else _structures.get(key)
     asked = work if key is None else _structures.asked(key, work)
     enough = ENOUGH_TO_RECORD if plan.subject.nut.contacts_per_ball == 2 else ENOUGH_OF_FOUR_CONTACTS
@@ -176,13 +178,13 @@ def by_ball(
             subject = plan.subject if key is None else numbers_alone(plan.subject)
             program = recorded_structure(subject, wanted, names)
             made_of = Recording(program) if key is None else _structures.add(key, program)
-        return _by_an_engine(plan, engine, names, made_of, asked)
+        return _by_an_engine(plan, engine, names, made_of, asked, kept_as)
     except CannotRecordError as error:
         return f"the model itself, on plain arrays: {error}"
 
 
 def _by_an_engine(
-    plan: Plan, engine: Engine | None, names: tuple[str, ...], made_of: Recording, asked: int
+    plan: Plan, engine: Engine | None, names: tuple[str, ...], made_of: Recording, asked: int, kept_as: str | None
 ) -> ByBall | str:
     stages, cut = made_of.once("stages", lambda: stages_by_ball(made_of.program, names))
     why = why_numpy(engine)
@@ -190,12 +192,117 @@ def _by_an_engine(
         if engine != "numpy" and kernels.available():
             text = _text(made_of, stages, cut)
             if engine or worth_compiling(cut.points, asked, text):
-                return ByBall(plan, names, made_of, "compiled", ASKED_FOR if engine else PAYS)
+                found = _compiled(CutByBall.of(stages, cut, names, f"{text}\n{made_of.program.text}"), text, kept_as)
+                return ByBall(plan, found, "compiled", ASKED_FOR if engine else PAYS)
     except UnknownOperationError as unknown:
         why = f"{unknown} is not known to kernels"
         if engine == "compiled":
             return why
-    return ByBall(plan, names, made_of, "numpy", why)
+    found = made_of.once("by NumPy", lambda: CutByBall.of(stages, cut, names, made_of.program.text, cut.points))
+    return ByBall(plan, found, "numpy", why)
+
+
+def _compiled(cut: CutByBall, text: str, kept_as: str | None) -> CutByBall:
+    """The same with its kernel, which is kept under a name where there is one."""
+    if kept_as is None:
+        return cut.with_kernel(Kernel.of(text, cut.sources))
+    with kept.lock:
+        found = kept.get(kept_as, _read)
+        if found is None:
+            machine_code = kernels.code_of(text)
+            if cut.can_be_written:
+                keep(kept_as, cut.header, machine_code)
+            found = kept.add(kept_as, cut.with_kernel(Kernel(machine_code, cut.sources)))
+        return found
+
+
+def _read(header: bytes, machine_code: bytes) -> CutByBall:
+    cut = CutByBall.from_header(json.loads(header))
+    return cut.with_kernel(Kernel(machine_code, cut.sources))
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class CutByBall:
+    """A recording by ball as it is evaluated: what each point has, what each of its balls has, and what is behind."""
+
+    names: tuple[str, ...]
+    columns: Program
+    #: The inputs of what each ball has, and its outputs, some of them reduced over the balls.
+    tables: tuple[tuple[Source, str], ...]
+    outputs: tuple[str, ...]
+    reductions: tuple[Reduction, ...]
+    behind: Program
+    #: Points of a vector.
+    lanes: int
+    #: A digest of all formulas as they are evaluated.
+    formulas: str
+    #: What each ball has, for NumPy, or as a kernel.
+    points: Program | None = None
+    kernel: Kernel | None = None
+    _behind: dict[tuple[str, ...], Program] = dataclasses.field(default_factory=dict[tuple[str, ...], Program])
+
+    @classmethod
+    def of(
+        cls, stages: Stages, cut: Split, names: tuple[str, ...], formulas: str, points: Program | None = None
+    ) -> CutByBall:
+        """Of a recording that was cut; ``points`` for NumPy."""
+        digest = hashlib.sha256(formulas.encode()).hexdigest()
+        outputs = tuple(cut.points.outputs)
+        return cls(names, cut.columns, cut.tables, outputs, stages.reductions, stages.behind, LANES, digest, points)
+
+    def with_kernel(self, kernel: Kernel) -> CutByBall:
+        """The same with the kernel of what each ball has."""
+        return dataclasses.replace(self, kernel=kernel)
+
+    @property
+    def sources(self) -> list[Source]:
+        """Where the inputs of what each ball has are from."""
+        return [source for source, _ in self.tables]
+
+    @property
+    def sums(self) -> dict[str, Any]:
+        """The outputs of each ball of which only the sum or the greatest value is needed, and which."""
+        return sums_of(self.reductions)
+
+    def behind_of(self, outputs: tuple[str, ...]) -> Program:
+        """What is behind the reductions, for some of the outputs."""
+        if outputs not in self._behind:
+            self._behind[outputs] = _of(self.behind, outputs)
+        return self._behind[outputs]
+
+    @property
+    def can_be_written(self) -> bool:
+        """True where all steps are functions that are known by their names."""
+        return all(can_be_written(program) for program in (self.columns, self.behind))
+
+    @property
+    def header(self) -> dict[str, Any]:
+        """All but the kernel, as JSON knows it."""
+        return {
+            "names": self.names,
+            "columns": as_document(self.columns),
+            "tables": self.tables,
+            "outputs": self.outputs,
+            "reductions": [(one.function.__name__, one.values, one.place) for one in self.reductions],
+            "behind": as_document(self.behind),
+            "lanes": self.lanes,
+            "formulas": self.formulas,
+        }
+
+    @classmethod
+    def from_header(cls, held: Mapping[str, Any]) -> CutByBall:
+        """The reverse of :attr:`header`."""
+        functions = {function.__name__: function for function in REDUCTIONS}
+        return cls(
+            tuple(held["names"]),
+            from_document(held["columns"]),
+            tuple((source, name) for source, name in held["tables"]),
+            tuple(held["outputs"]),
+            tuple(Reduction(functions[name], values, place) for name, values, place in held["reductions"]),
+            from_document(held["behind"]),
+            held["lanes"],
+            held["formulas"],
+        )
 
 
 def stages_by_ball(program: Program, names: Sequence[str]) -> tuple[Stages, Split]:
@@ -217,13 +324,7 @@ def _text(made_of: Recording, stages: Stages, cut: Split) -> str:
     """The assembly of what each ball has."""
     sources: list[Source] = [source for source, _ in cut.tables]
     masks = dict.fromkeys(cut.points.outputs, False)
-    lanes = _lanes(cut.points)
-    return made_of.once("text", lambda: kernel_text(cut.points, sources, masks, lanes=lanes, reduced=stages.sums))
-
-
-def _lanes(program: Program) -> int:
-    """The number of points in a vector: most inputs are tables of a tile, which stay in the cache."""
-    return lanes_for(dataclasses.replace(program, inputs=len(OF_BALLS)))
+    return made_of.once("text", lambda: kernel_text(cut.points, sources, masks, lanes=LANES, reduced=stages.sums))
 
 
 def _balls_first(values: NDArray[np.float64], count: int) -> NDArray[np.float64]:

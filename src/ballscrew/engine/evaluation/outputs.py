@@ -141,6 +141,11 @@ def inputs_of(model: FrictionModel, screw: BallScrew, lubricant: Lubricant) -> M
     return found
 
 
+def slope_name(output: str, name: str) -> str:
+    """The name of the derivative of an output by an input."""
+    return f"d_{output}_d_{name.replace('.', '_')}"
+
+
 def attributes_of(quantity: Quantity) -> dict[str, str]:
     """CF attributes of a variable, from its annotation."""
     attributes = {

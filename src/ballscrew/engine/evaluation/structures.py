@@ -12,11 +12,20 @@ import dataclasses
 from collections.abc import Hashable, Mapping, Sequence
 from typing import Any
 
+from ballscrew.compiler.tracing.gradient import partials
 from ballscrew.compiler.tracing.merging import merged_program
 from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.steps import COLUMNS, ROWS
 from ballscrew.compiler.tracing.tape import CannotRecordError, Tape
-from ballscrew.engine.evaluation.outputs import NUT_OUTPUTS, OF_LOADS, OPERATION, Output, known_outputs
+from ballscrew.engine.evaluation.outputs import (
+    DEFAULT_OUTPUTS,
+    NUT_OUTPUTS,
+    OF_LOADS,
+    OPERATION,
+    Output,
+    known_outputs,
+    slope_name,
+)
 from ballscrew.engine.evaluation.plan import Configuration, read_input
 from ballscrew.engine.evaluation.recordings import UnknownPartError, key_of
 from ballscrew.physics.components.materials import INPUTS_OF_SHEET, TEMPERATURE
@@ -31,27 +40,34 @@ _OF_STATE = frozenset({TEMPERATURE.name, *INPUTS_OF_SHEET})
 _ASIDE = frozenset({"bodies", "deviations", "grade", "sheet", "temperature", "made_as"})
 #: Outputs that are recorded together.
 _USUAL = frozenset({*NUT_OUTPUTS, "drive_torque", "holding_torque", "self_locking", "minimum_film_parameter"})
+_USUAL_OF_ROWS = frozenset({*DEFAULT_OUTPUTS, "screw_maximum_pressure", "nut_maximum_pressure"})
 _USUAL_PARTS = ("contribution_", "validity_")
 
 
 def inputs_of_structure(subject: Configuration, varying: Sequence[str] = ()) -> tuple[str, ...]:
     """The names of all numbers of a configuration that are inputs of its recording, the operating point first.
 
-    An exponent of a law is a constant, unless it varies: folded into the powers, it costs nothing. A number that is
-    None is left out.
+    An exponent of a law is a constant, unless it varies: folded into the powers, it costs nothing. A number that
+    is None is left out, unless it varies.
     """
+    varied = set(map(own_name, varying))
     seen: set[str] = set()
     found: list[str] = []
     parts = subject.by_section
     for name, (part, _) in subject.inputs.items():
-        own = name.removeprefix("nut.") if part == "nut" else name
-        is_exponent = part == "model" and name.rpartition(".")[2].endswith("exponent") and name not in varying
+        own = own_name(name)
+        is_exponent = part == "model" and name.rpartition(".")[2].endswith("exponent") and name not in varied
         if part == "operation" or name in _OF_STATE or own in seen or is_exponent:
             continue
         seen.add(own)
-        if read_input(parts[part], name) is not None:
+        if own in varied or read_input(parts[part], name) is not None:
             found.append(own)
     return (*OPERATION, *found)
+
+
+def own_name(name: str) -> str:
+    """The name of an input without the section of the nut, which may be left out."""
+    return name.removeprefix("nut.")
 
 
 def outputs_of_structure(subject: Configuration, outputs: Sequence[str]) -> Mapping[str, Output]:
@@ -60,7 +76,8 @@ def outputs_of_structure(subject: Configuration, outputs: Sequence[str]) -> Mapp
     What a few outputs more cost is saved by having one recording and one kernel for most purposes.
     """
     known = known_outputs(subject.nut)
-    usual = {n: output for n, output in known.items() if n in _USUAL or n.startswith(_USUAL_PARTS)}
+    of_kind = _USUAL | _USUAL_OF_ROWS if subject.nut.is_row else _USUAL
+    usual = {n: output for n, output in known.items() if n in of_kind or n.startswith(_USUAL_PARTS)}
     return usual if usual.keys() >= set(outputs) else {name: known[name] for name in outputs}
 
 
@@ -104,18 +121,33 @@ def numbers_alone(subject: Configuration) -> Configuration:
     return Configuration(subject.model, subject.screw, oil)
 
 
-def recorded_structure(subject: Configuration, wanted: Mapping[str, Output], names: Sequence[str]) -> Program:
+def recorded_structure(
+    subject: Configuration, wanted: Mapping[str, Output], names: Sequence[str], by: Sequence[str] = ()
+) -> Program:
     """The outputs wanted as a program of the inputs of these names, in their order.
+
+    Each output is followed by its derivatives ``by`` inputs, where balls are alike.
 
     That of a nut whose balls differ has the results of the solver as further inputs, for the nut (``OF_LOADS``) and for
     each ball (:data:`OF_BALLS`), and reductions over the balls. Raises
     :class:`~ballscrew.compiler.tracing.tape.CannotRecordError` for laws that cannot be recorded, and for a nut whose
-    balls differ and that was set at rest.
+    balls differ and that was set at rest; :class:`~ballscrew.compiler.tracing.gradient.UnknownDerivativeError` for
+    functions whose derivative is not known.
     """
     if subject.nut.one_by_one:
         return _recorded_by_ball(subject, wanted, names)
     tape = Tape(len(names), None, [subject.is_nonnegative(name) for name in names])
-    return subject.recorded(tape, {name: tape.value(i) for i, name in enumerate(names)}, wanted)
+    points = {name: tape.value(i) for i, name in enumerate(names)}
+    if not by:
+        return subject.recorded(tape, points, wanted)
+    found: dict[str, Any] = {}
+    with subject.recording():
+        result = subject.at(points)
+        for name, output in wanted.items():
+            found[name] = output.read(result)
+            slopes = partials(tape, found[name], [names.index(own_name(x)) for x in by])
+            found |= {slope_name(name, x): slope for x, slope in zip(by, slopes, strict=True)}
+    return merged_program(tape, found)
 
 
 def _recorded_by_ball(subject: Configuration, wanted: Mapping[str, Output], names: Sequence[str]) -> Program:
