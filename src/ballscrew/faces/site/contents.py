@@ -12,6 +12,7 @@ from ballscrew.engine.evaluation.outputs import OPERATION, known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.faces.site import kinds
 from ballscrew.faces.site.modules import Function, Module
+from ballscrew.faces.site.texts import texts
 from ballscrew.faces.web.vocabulary import vocabulary
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.sizing.catalogue import catalogue
@@ -34,7 +35,7 @@ def contents(modules: Mapping[tuple[str, str], Module], oils: Module, grades: tu
     results = {name: _described(output.quantity) for s in subjects.values() for name, output in _outputs(s).items()}
     given = {name for module in modules.values() for function in module.functions for name in function.outputs}
     of_oils = zip(grades, oils.functions, strict=True)
-    return {
+    found = {
         "format": FORMAT,
         "version": __version__,
         "models": {model: _values(subjects, model) for model in dict.fromkeys(model for model, _ in modules)},
@@ -54,6 +55,7 @@ def contents(modules: Mapping[tuple[str, str], Module], oils: Module, grades: tu
         "symbols": words["symbols"],
         "starts": {name: _start(name) for name in kinds.start_tables()},
     }
+    return {**found, "texts": texts(found)}
 
 
 def _function(function: Function) -> dict[str, Any]:

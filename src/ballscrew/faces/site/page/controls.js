@@ -148,7 +148,7 @@ export class Controls {
     field.addEventListener("input", () => this.#take(name, numberIn(field.value), field));
     field.addEventListener("change", () => this.show(name));
     this.#rows.set(name, { slider, field, fault, range });
-    const words = element("label", { for: id, title: meaning }, label, " ", symbolElement(symbol));
+    const words = element("label", { for: id, title: sayNamed(`field.${path}.help`, meaning) }, label, " ", symbolElement(symbol));
     const entry = element("span", { class: "entry" }, field, element("span", { class: "unit" }, sign));
     return element("div", { class: "control" }, words, entry, slider, fault);
   }
