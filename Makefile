@@ -103,7 +103,7 @@ mutate-check: $(READY)
 	$(BIN)/python tools/mutation/mutate.py --check --sample 12 --seed 1 --rooms sizing
 
 # the prebuilt interpreter and FMU of exports: for Linux on x86-64 by gcc, for other platforms cross-compiled by zig, and
-# never run. The same sources and the same compilers give the same bytes
+# never run; and the solver of the balls for the static page. The same sources and the same compilers give the same bytes
 C_SOURCES := src/ballscrew/data/exports
 C_FILES := $(C_SOURCES)/ballscrew_*.c $(C_SOURCES)/fmi*.c
 C_FLAGS := -std=c99 -O2 -Wall -Wextra -pedantic -Werror -shared -fvisibility=hidden -s
@@ -115,17 +115,19 @@ out/zig:
 # where its libraries go
 INTO := $(C_SOURCES)
 LIBRARIES := linux64/ballscrew.so aarch64-linux/ballscrew.so win64/ballscrew.dll darwin64/ballscrew.dylib \
-	aarch64-darwin/ballscrew.dylib
+	aarch64-darwin/ballscrew.dylib wasm32/loads.wasm
 
 interpreter: out/zig
-	mkdir -p $(INTO)/linux64 $(INTO)/win64 $(INTO)/darwin64 $(INTO)/aarch64-darwin $(INTO)/aarch64-linux
+	mkdir -p $(INTO)/linux64 $(INTO)/win64 $(INTO)/darwin64 $(INTO)/aarch64-darwin $(INTO)/aarch64-linux $(INTO)/wasm32
 	gcc $(C_FLAGS) -fPIC -Wl,--build-id=none -include tools/exports/old_glibc.h $(C_FILES) -o $(INTO)/linux64/ballscrew.so -lm
 	$(ZIG) $(C_FLAGS) -fPIC -target aarch64-linux-gnu.2.17 $(C_FILES) -o $(INTO)/aarch64-linux/ballscrew.so -lm
 	$(ZIG) $(C_FLAGS) -target x86_64-windows-gnu $(C_FILES) -o $(INTO)/win64/ballscrew.dll
 	$(ZIG) $(C_FLAGS) -target x86_64-macos -Wl,-install_name,@rpath/ballscrew.dylib $(C_FILES) -o $(INTO)/darwin64/ballscrew.dylib
 	$(ZIG) $(C_FLAGS) -target aarch64-macos -Wl,-install_name,@rpath/ballscrew.dylib $(C_FILES) -o $(INTO)/aarch64-darwin/ballscrew.dylib
 	rm -f $(INTO)/win64/*.lib $(INTO)/win64/*.pdb
-	cat $(C_FILES) $(C_SOURCES)/ballscrew_*.h $(C_SOURCES)/fmi*.h | sha256sum | cut -d " " -f 1 > $(INTO)/sources.sha256
+	$(ZIG) -std=c99 -O2 -Wall -Wextra -pedantic -Werror -s -target wasm32-wasi -mexec-model=reactor -Wl,--import-memory \
+		-Wl,-z,stack-size=65536 -Wl,--export=loads -Wl,--export=__heap_base $(C_SOURCES)/site_loads.c $(C_SOURCES)/ballscrew_loads.c -o $(INTO)/wasm32/loads.wasm
+	cat $(C_FILES) $(C_SOURCES)/site_*.c $(C_SOURCES)/ballscrew_*.h $(C_SOURCES)/fmi*.h | sha256sum | cut -d " " -f 1 > $(INTO)/sources.sha256
 
 # the libraries built once more, and compared byte by byte with those of the package
 interpreter-check:

@@ -1,7 +1,6 @@
 """Ratings, rigidities and the numbers of an elastic nut are formulas: recorded, they give what plain numbers give."""
 
 import dataclasses
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,7 +11,7 @@ from ballscrew.compiler.tracing.tape import Tape
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.physics.components.nut import Bodies
 from ballscrew.physics.sizing.installation import Ends, Installation
-from ballscrew.physics.sizing.ratings import ratings_of
+from ballscrew.physics.sizing.ratings import RatedGeometry, ratings_of
 from ballscrew.physics.sizing.rigidity import rigidity_iso3408, usual_nut_outer_diameter
 from ballscrew.physics.solvers.load_distribution import elastic_nut_numbers
 
@@ -89,7 +88,7 @@ def test_ratings_of_a_geometry(spacer_balls):
     names = ("ball_circle", "ball_diameter", "contact_angle", "lead_angle", "balls_per_turn", "loaded_turns")
 
     def ratings(values):
-        return ratings_of(SimpleNamespace(**values, spacer_balls=spacer_balls))._asdict()
+        return ratings_of(RatedGeometry(**values, spacer_balls=spacer_balls))._asdict()
 
     compare(ratings, around({name: float(getattr(ROW, name)) for name in names}, seed=2))
     assert type(ratings_of(ROW).dynamic) is float

@@ -137,6 +137,11 @@ class Judgement:
         """The last part of the id: ``buckling``."""
         return self.id.rpartition(".")[2]
 
+    @property
+    def title(self) -> Message:
+        """The name as people read it."""
+        return Message(self.name.replace("_", " "))
+
     def finds(self, values: Mapping[str, Any]) -> Mapping[str, Any] | None:
         """The masks and numbers of the formula; None where a value that it needs is not given.
 
@@ -162,6 +167,7 @@ class Judgement:
         message = self.message(found, words)
         sentence = FilledText(text(message), message)
         holds = bool(found["holds"]) if "holds" in found else self.holds
+        holds = holds if found.get("judged", True) else None
         fails = holds is False and self.severity_of_failure is not None
         return Record(
             id=self.id,
@@ -182,6 +188,7 @@ class Judgement:
         return {
             "id": self.id,
             "subject": self.subject,
+            "title": self.title.template,
             "severity": self.severity,
             "severity_of_failure": self.severity_of_failure,
             "holds": self.holds,

@@ -14,6 +14,7 @@ import dataclasses
 import functools
 import math
 import operator
+import sys
 import types
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, TypeAlias, Union, get_args, get_origin, get_type_hints
@@ -220,6 +221,20 @@ def within_bounds(info: Info, value: Array) -> Mask:
     """The mask of the elements of an array that are finite and within the declared bounds."""
     finite = namespace(value).isfinite(value)
     return functools.reduce(operator.and_, (holds for holds, _, _ in _conditions(info, value)), finite)
+
+
+def ends_within(info: Info) -> tuple[float, float]:
+    """The least and the greatest finite number within the declared bounds, whole or not."""
+    least, greatest = -sys.float_info.max, sys.float_info.max
+    if info.above is not None:
+        least = max(least, math.nextafter(info.above, math.inf))
+    if info.at_least is not None:
+        least = max(least, info.at_least)
+    if info.below is not None:
+        greatest = min(greatest, math.nextafter(info.below, -math.inf))
+    if info.at_most is not None:
+        greatest = min(greatest, info.at_most)
+    return least, greatest
 
 
 def out_of_bounds(info: Info, value: float) -> tuple[str, float | None] | None:

@@ -19,9 +19,8 @@ from ballscrew.compiler.tracing.gradient import UnknownDerivativeError, partials
 from ballscrew.compiler.tracing.merging import merged_program
 from ballscrew.compiler.tracing.program import Interpreter, Program
 from ballscrew.compiler.tracing.tape import CannotRecordError, Tape
-from ballscrew.engine.evaluation.derivatives import slope_name
 from ballscrew.engine.evaluation.evaluator import Evaluator, evaluator
-from ballscrew.engine.evaluation.outputs import OPERATION, Output, known_outputs
+from ballscrew.engine.evaluation.outputs import OPERATION, Output, known_outputs, slope_name
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.evaluation.recordings import recording
 

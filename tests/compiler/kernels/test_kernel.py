@@ -242,7 +242,7 @@ def test_compiling_that_takes_long_is_logged_before_it_starts(caplog, monkeypatc
     started = []
     # counts what is compiled
     whole = kernels._compile
-    monkeypatch.setattr(kernels, "_compile", lambda text: started.append(len(caplog.messages)) or whole(text))
+    monkeypatch.setattr(kernels, "_compile", lambda *how: started.append(len(caplog.messages)) or whole(*how))
 
     def long(x, y):
         for place in range(1, 3000):

@@ -1,9 +1,11 @@
 """A program as a kernel in LLVM's assembly: one fused loop over the points of a rectangle of a grid.
 
 A result goes to place ``row · columns + column`` of its array; points without a grid are one row. An input is an array
-over the points or over the columns, or one number for each row. Rows are walked through a tile of columns at a time, so
-that what is read of the columns stays in the cache. The last points of a row run through the same instructions as all
-others, with room to spare, so that a point's result does not depend on where blocks begin and end.
+over the points or over the columns, or one number for each row; or it has a stride, 1 or 0, that stands behind the
+table of the addresses: an input of stride 0 is a vector that is read again at all points. Rows are walked through a
+tile of columns at a time, so that what is read of the columns stays in the cache. The last points of a row run through
+the same instructions as all others, with room to spare, so that a point's result does not depend on where blocks begin
+and end.
 """
 
 from __future__ import annotations
@@ -111,6 +113,7 @@ def kernel_text(
             *([] if parts is None else parts.table(w)),
             *pointers("input", len(sources)),
             *pointers("output", len(program.outputs)),
+            *_strides(sources),
             *(line for i in seen for line in _ends_of_nothing(w, i)),
             *lines,
             "}",
@@ -131,6 +134,16 @@ def pointers(name: str, count: int) -> list[str]:
     for i in range(count):
         lines.append(f"  %{name}_entry{i} = getelementptr ptr, ptr %{name}s, i64 {i}")
         lines.append(f"  %{name}{i} = load ptr, ptr %{name}_entry{i}")
+    return lines
+
+
+def _strides(sources: Sequence[Source]) -> list[str]:
+    """The strides behind the table of the addresses of the inputs: ``%stride0``, ``%stride1``, …"""
+    lines: list[str] = []
+    for i, source in enumerate(sources):
+        if source == "strided":
+            lines.append(f"  %stride_entry{i} = getelementptr i64, ptr %inputs, i64 {len(sources) + i}")
+            lines.append(f"  %stride{i} = load i64, ptr %stride_entry{i}")
     return lines
 
 
@@ -194,6 +207,9 @@ def _emit_loops_and_loads(w: Writer, sources: Sequence[Source], seen: Sequence[i
     w.lines.append(f"  %is_full = icmp sge i64 %points_left, {w.lanes}")
     w.lines.append("  %bytes_left = shl i64 %points_left, 3")
     from_arrays = {i: "%column" if s == "columns" else "%place" for i, s in enumerate(sources) if s in _ARRAYS}
+    for i, source in enumerate(sources):
+        if source == "strided":
+            from_arrays[i] = str(w.instruction(f"mul i64 %place, %stride{i}"))
     addresses = {i: w.instruction(f"getelementptr double, ptr %input{i}, i64 {at}") for i, at in from_arrays.items()}
     w.lines += ["  br i1 %is_full, label %load_all, label %load_some", "load_all:"]
     whole = {i: w.instruction(f"load {w.doubles}, ptr {address}, align 8") for i, address in addresses.items()}
@@ -211,7 +227,7 @@ def _emit_loops_and_loads(w: Writer, sources: Sequence[Source], seen: Sequence[i
 
 
 #: Sources that are arrays, read a vector at a time.
-_ARRAYS = ("points", "columns")
+_ARRAYS = ("points", "columns", "strided")
 
 
 def _emit_reduction(w: Writer, output: int, function: Any, value: Value) -> None:

@@ -40,6 +40,8 @@ ASSEMBLY_OPTIMISATION, CODE_OPTIMISATION = 0, 2
 #: Seconds of one processor that a line of assembly takes to compile, about, and those from which it is logged before
 #: it starts: whoever waits is to know what for.
 LINE_SECONDS, LOGGED_SECONDS = 2e-4, 1.0
+#: The share of that which code without optimisation takes.
+UNOPTIMISED_SHARE = 0.15
 
 #: Version of the calling convention of kernels.
 FORMAT = 2
@@ -76,10 +78,7 @@ class Kernel:
             if name not in _kernels:
                 machine_code = _load(name)
                 if machine_code is None:
-                    lines = text.count("\n")
-                    if lines * LINE_SECONDS > LOGGED_SECONDS:
-                        _log.info("compiling a kernel of %d lines: some %.0f s, once", lines, lines * LINE_SECONDS)
-                    machine_code = _compile(text)
+                    machine_code = code_of(text)
                     _save(name, machine_code)
                 _kernels[name] = cls(machine_code, sources)
                 if len(_kernels) > MOST_IN_MEMORY:
@@ -145,15 +144,50 @@ class Kernel:
         tables = [(ctypes.c_void_p * len(arrays))(*(_address(a, 0) for a in arrays)) for arrays in (inputs, results)]
         self._function(rows.start, rows.stop, columns.start, columns.stop, row_length, tile, False, *tables)
 
+    def strided(
+        self,
+        count: int,
+        inputs: Sequence[NDArray[np.float64]],
+        strides: Sequence[int],
+        results: Sequence[NDArray[Any]],
+    ) -> None:
+        """Evaluate so many points, where all inputs have strides: of 1 an array, of 0 a vector of one number."""
+        ends = [_address(array, 0) for array in results]
+        aligned = all(
+            end % ALIGNMENT == 0 for end, array in zip(ends, results, strict=True) if array.dtype == np.float64
+        )
+        past_cache = aligned and sum(array.nbytes for array in results) > LARGEST_CACHED
+        places = [_address(array, 0) for array in inputs]
+        table = (ctypes.c_void_p * (2 * len(places)))(*places, *strides)
+        self._function(0, 1, 0, count, count, count, past_cache, table, (ctypes.c_void_p * len(ends))(*ends))
+
     def at_one_point(self, inputs: NDArray[np.float64], results: Sequence[NDArray[Any]]) -> Callable[[], None]:
         """A call that reads one point from ``inputs`` and writes it into ``results``, with next to nothing left to do.
 
-        ``inputs`` holds a number for each input, all of them over points; the arrays must outlive the call.
+        ``inputs`` holds a number for each input, all of them over points or with strides; the arrays must outlive the
+        call.
         """
         start, item = _address(inputs, 0), inputs.itemsize
-        places = (ctypes.c_void_p * inputs.size)(*(start + i * item for i in range(inputs.size)))
+        strides = [0] * inputs.size if "strided" in self.sources else []
+        places = (ctypes.c_void_p * (inputs.size + len(strides)))(
+            *(start + i * item for i in range(inputs.size)), *strides
+        )
         ends = (ctypes.c_void_p * len(results))(*(_address(array, 0) for array in results))
         return functools.partial(self._function, 0, 1, 0, 1, 1, 1, False, places, ends)
+
+
+def kept(name: str) -> tuple[bytes, bytes] | None:
+    """What was kept on disk for this processor and this compiler under a name: a header, and machine code."""
+    found = _load(_digest(name))
+    if found is None:
+        return None
+    header, newline, machine_code = found.partition(b"\n")
+    return (header, machine_code) if newline else None
+
+
+def keep(name: str, header: bytes, machine_code: bytes) -> None:
+    """Keep machine code on disk under a name, with a header of one line."""
+    _save(_digest(name), header + b"\n" + machine_code)
 
 
 def is_cached(text: str) -> bool:
@@ -180,11 +214,12 @@ def _llvm() -> Any:
     return llvm
 
 
-def _machine() -> Any:
+def _machine(optimisation: int | None = None) -> Any:
     """A new target machine for this processor; an execution engine takes ownership of it."""
     llvm = _llvm()
+    level = CODE_OPTIMISATION if optimisation is None else min(optimisation, CODE_OPTIMISATION)
     return llvm.Target.from_default_triple().create_target_machine(
-        cpu=llvm.get_host_cpu_name(), features=llvm.get_host_cpu_features().flatten(), opt=CODE_OPTIMISATION, jit=True
+        cpu=llvm.get_host_cpu_name(), features=llvm.get_host_cpu_features().flatten(), opt=level, jit=True
     )
 
 
@@ -202,17 +237,28 @@ def _digest(text: str) -> str:
     return hashlib.sha256(f"{_processor()}\n{text}".encode()).hexdigest()
 
 
-def _compile(text: str) -> bytes:
-    machine, module = _optimise(text)
+def code_of(text: str, optimisation: int | None = None) -> bytes:
+    """The machine code of an assembly, compiled now; what takes long is logged before.
+
+    No bit of a result depends on the ``optimisation``, 0 to 2, which is quicker code against quicker compiling.
+    """
+    expected = text.count("\n") * LINE_SECONDS * (UNOPTIMISED_SHARE if optimisation == 0 else 1)
+    if expected > LOGGED_SECONDS:
+        _log.info("compiling a kernel of %d lines: some %.0f s, once", text.count("\n"), expected)
+    return _compile(text, optimisation)
+
+
+def _compile(text: str, optimisation: int | None) -> bytes:
+    machine, module = _optimise(text, optimisation)
     return machine.emit_object(module)
 
 
-def _optimise(text: str) -> tuple[Any, Any]:
+def _optimise(text: str, optimisation: int | None = None) -> tuple[Any, Any]:
     """The processor, and the module ready to be made into its code."""
     llvm = _llvm()
     module = llvm.parse_assembly(text)
     module.verify()
-    machine = _machine()
+    machine = _machine(optimisation)
     tuning = llvm.create_pipeline_tuning_options(speed_level=ASSEMBLY_OPTIMISATION)
     tuning.loop_vectorization = tuning.slp_vectorization = tuning.loop_unrolling = False  # vectors are explicit
     passes = llvm.create_pass_builder(machine, tuning)

@@ -21,8 +21,9 @@ from numpy.typing import NDArray
 from ballscrew.compiler.tracing.steps import Operand, Step
 from ballscrew.compiler.tracing.tape import Tape, Traced
 
-#: The origin of the values of an input: one for each point, column or row of a grid.
-Source = Literal["points", "columns", "rows"]
+#: The origin of the values of an input: one for each point, column or row of a grid; or as a call says by a stride, one
+#: for each point or one for all.
+Source = Literal["points", "columns", "rows", "strided"]
 
 #: Most sizes of blocks whose buffers a thread keeps.
 MOST_WORKSPACES = 4

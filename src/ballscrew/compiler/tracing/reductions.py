@@ -34,7 +34,12 @@ class Stages(NamedTuple):
     @property
     def sums(self) -> dict[str, Any]:
         """The outputs of the first program of which only the sum or the greatest value is needed, and which."""
-        return {one.values: one.function for one in self.reductions if one.function in (np.sum, np.max)}
+        return sums_of(self.reductions)
+
+
+def sums_of(reductions: Sequence[Reduction]) -> dict[str, Any]:
+    """The values of which reductions need only the sum or the greatest value, and which."""
+    return {one.values: one.function for one in reductions if one.function in (np.sum, np.max)}
 
 
 def cut_at_reductions(program: Program, groups: Sequence[int]) -> Stages:

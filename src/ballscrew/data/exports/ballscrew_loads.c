@@ -288,7 +288,78 @@ static double excess_of(const ballscrew_nut *nut, double preload)
     return pow(preload / (nut->balls * sine * nut->lead_cosine * nut->load_deflection), 2.0 / 3.0) + opened;
 }
 
-double ballscrew_loads(const ballscrew_nut *nut, double axial_load, double preload, double *room, double *found)
+/* Compliance of one body along the balls, and of the other. */
+static double free_bodies(const chain *c)
+{
+    double compliance = 0.0;
+    int i;
+    for (i = 0; i + 1 < c->count; i++)
+        compliance += 1.0 / c->bars[i];
+    return compliance;
+}
+
+/* How far the loaded end of the screw moves against that of the nut, at displacements x of the balls. */
+static double travel(const chain *c, const double *x)
+{
+    const double beta = c->first_share;
+    return beta * x[0] + (1.0 - beta) * x[c->count - 1] + c->load * beta * (1.0 - beta) * free_bodies(c);
+}
+
+/* The load over that, for a small one more; of balls that carry nothing it is zero. The room is for six numbers a ball. */
+static double rigidity(const chain *c, const double *x, double *room)
+{
+    const int n = c->count;
+    double *const slope = room, *const cross = room + n, *const right = room + 2 * n, *const moved = room + 3 * n;
+    double *const by_gap = room + 4 * n, *const behind = room + 5 * n;
+    const double beta = c->first_share;
+    double own[2] = {0.0, 0.0}, now[2] = {0.0, 0.0}, m[2][2] = {{0.0, 0.0}, {0.0, 0.0}}, gap[2] = {0.0, 0.0};
+    double answer[2] = {0.0, 0.0}, carries = 0.0, compliance;
+    int i, b, other;
+    for (i = 0; i < n; i++) {
+        const ball here = ball_at(c, i, x[i]);
+        slope[i] = here.slope;
+        cross[i] = here.cross;
+        own[c->bodies == 2 && i >= n / 2] += here.push_slope;
+        carries += here.slope;
+        right[i] = 0.0;
+    }
+    if (!(carries > 0.0))
+        return carries; /* none, or NaN */
+    right[0] += beta;
+    right[n - 1] += 1.0 - beta;
+    tridiagonal(c, slope, right, moved, behind);
+    compliance = beta * moved[0] + (1.0 - beta) * moved[n - 1];
+    if (c->nut->swells) { /* the gaps follow, and move the balls in turn */
+        for (i = 0; i < n; i++)
+            now[c->bodies == 2 && i >= n / 2] += cross[i] * moved[i];
+        for (b = 0; b < c->bodies; b++) {
+            for (i = 0; i < n; i++)
+                right[i] = (c->bodies == 2 && i >= n / 2) == b ? cross[i] : 0.0;
+            tridiagonal(c, slope, right, by_gap, behind);
+            answer[b] = beta * by_gap[0] + (1.0 - beta) * by_gap[n - 1];
+            for (i = 0; i < n; i++)
+                m[c->bodies == 2 && i >= n / 2][b] -= cross[i] * by_gap[i];
+        }
+        for (b = 0; b < c->bodies; b++)
+            m[b][b] += c->nut->radial_stiffness - own[b];
+        if (c->bodies == 1)
+            gap[0] = now[0] / m[0][0];
+        else {
+            const double d = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+            for (b = 0; b < 2; b++) {
+                other = 1 - b;
+                gap[b] = (now[b] * m[other][other] - now[other] * m[b][other]) / d;
+            }
+        }
+        for (b = 0; b < c->bodies; b++)
+            compliance += answer[b] * gap[b];
+    }
+    return 1.0 / (compliance + beta * (1.0 - beta) * free_bodies(c));
+}
+
+/* The balls, and if there is room for it the state of the nut. */
+static double solved(const ballscrew_nut *nut, double axial_load, double preload, double *room, double *found,
+                     double *state)
 {
     const int half = nut->balls, n = nut->halves * half;
     double *const facing = room, *const offset = room + n, *const rest = room + 2 * n;
@@ -299,7 +370,7 @@ double ballscrew_loads(const ballscrew_nut *nut, double axial_load, double prelo
     const double K = nut->load_deflection, axial = sin(nut->contact_angle) * nut->lead_cosine;
     const double scale = fmax(works, half * K * pow(PICOMETRE, 1.5));
     const double guess = pow(scale / (half * axial * K), 2.0 / 3.0) / axial;
-    double on_forward = 0.0, on_backward = 0.0, braced = 0.0, left, imbalanced, size;
+    double on_forward = 0.0, on_backward = 0.0, braced = 0.0, at_rest = 0.0, left, imbalanced, size;
     chain c;
     int i;
     c.nut = nut;
@@ -325,6 +396,7 @@ double ballscrew_loads(const ballscrew_nut *nut, double axial_load, double prelo
         for (i = 0; i < half; i++)
             braced += ball_at(&c, i, x[i]).force;
         gap = 2.0 * x[half - 1] + preload / bars[half - 1];
+        at_rest = nut->first_share * x[0] + (1.0 - nut->first_share) * (gap - x[0]);
         for (i = half; i < n; i++)
             offset[i] = gap * nut->lead_cosine;
         c.scale = scale;
@@ -357,6 +429,11 @@ double ballscrew_loads(const ballscrew_nut *nut, double axial_load, double prelo
             *(is_forward ? &on_forward : &on_backward) += works > 0.0 ? fabs(f.force) : 0.0;
         }
     }
+    if (state) {
+        state[0] = travel(&c, x) - at_rest;
+        state[1] = works == 0.0 ? 0.0 : rigidity(&c, x, rest + 2 * n);
+        state[2] = load < 0.0 ? on_forward : on_backward;
+    }
     for (i = 0; i < n; i++) {
         forward_angle[i] = rest[i];
         backward_angle[i] = rest[n + i];
@@ -367,4 +444,15 @@ double ballscrew_loads(const ballscrew_nut *nut, double axial_load, double prelo
     if (!(works > 0.0))
         return 0.0;
     return left / scale > LARGEST_OF_A_BALL ? left / scale : imbalanced / scale;
+}
+
+double ballscrew_loads(const ballscrew_nut *nut, double axial_load, double preload, double *room, double *found)
+{
+    return solved(nut, axial_load, preload, room, found, 0);
+}
+
+double ballscrew_loads_and_state(const ballscrew_nut *nut, double axial_load, double preload, double *room,
+                                 double *found, double *state)
+{
+    return solved(nut, axial_load, preload, room, found, state);
 }

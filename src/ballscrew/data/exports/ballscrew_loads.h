@@ -23,4 +23,9 @@ typedef struct {
 /* Solves the balls of all halves under an axial load and a preload; returns the imbalance relative to both. */
 double ballscrew_loads(const ballscrew_nut *nut, double load, double preload, double *room, double *found);
 
+/* The same, and three numbers of the nut: how far the load moves the screw against the nut, from where both are without
+   load; the slope of the load by that; and the axial force of the balls that the load relieves. */
+double ballscrew_loads_and_state(const ballscrew_nut *nut, double load, double preload, double *room, double *found,
+                                 double *state);
+
 #endif

@@ -6,14 +6,16 @@ angles are inputs like any other. Sums and greatest values over the balls lead f
 what does not depend on the ball is evaluated once for each point, by NumPy, and what does in one loop over balls and
 points.
 
-All plain numbers of the parts are inputs, so that nothing is recorded again when one changes: they cost nothing at any
-ball. Constants are exponents of laws, which are folded, and materials.
+All plain numbers of the parts are inputs, so that nothing is recorded again when one changes
+(:mod:`ballscrew.engine.evaluation.structures`): they cost nothing at any ball.
 """
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Hashable, Mapping, Sequence
+import hashlib
+import json
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -22,25 +24,31 @@ from numpy.typing import NDArray
 from ballscrew.basis.arrays import as_array
 from ballscrew.compiler.kernels import kernel as kernels
 from ballscrew.compiler.kernels.buffers import aligned_array
-from ballscrew.compiler.kernels.emission import UnknownOperationError, kernel_text, lanes_for
+from ballscrew.compiler.kernels.emission import UnknownOperationError, kernel_text
 from ballscrew.compiler.kernels.kernel import Kernel
 from ballscrew.compiler.tracing.grid import Split, split
-from ballscrew.compiler.tracing.merging import merged_program
 from ballscrew.compiler.tracing.program import Program, Source, required_steps
-from ballscrew.compiler.tracing.reductions import Stages, cut_at_reductions, reduced
-from ballscrew.compiler.tracing.steps import COLUMNS, ROWS
-from ballscrew.compiler.tracing.tape import CannotRecordError, Tape
+from ballscrew.compiler.tracing.reductions import Reduction, Stages, cut_at_reductions, reduced, sums_of
+from ballscrew.compiler.tracing.steps import REDUCTIONS
+from ballscrew.compiler.tracing.tape import CannotRecordError
+from ballscrew.compiler.tracing.written import as_document, can_be_written, from_document
 from ballscrew.engine.evaluation.axes import ends
-from ballscrew.engine.evaluation.engines import ASKED_FOR, PAYS, Engine, why_numpy, worth_compiling
-from ballscrew.engine.evaluation.outputs import NUT_OUTPUTS, OF_LOADS, OPERATION, Output, known_outputs
+from ballscrew.engine.evaluation.engines import ASKED_FOR, KNOWN, PAYS, Engine, why_numpy, worth_compiling
+from ballscrew.engine.evaluation.outputs import OF_LOADS, OPERATION
 from ballscrew.engine.evaluation.plan import Configuration, Plan, read_input
-from ballscrew.engine.evaluation.recordings import Recording, Structures, UnknownPartError, key_of
-from ballscrew.physics.components.materials import INPUTS_OF_SHEET, TEMPERATURE
+from ballscrew.engine.evaluation.recordings import Recording, Structures
+from ballscrew.engine.evaluation.structure_kernels import LANES, keep, kept, name_of
+from ballscrew.engine.evaluation.structures import (
+    OF_BALLS,
+    groups_by_ball,
+    inputs_of_structure,
+    numbers_alone,
+    outputs_of_structure,
+    recorded_structure,
+    structure_key,
+)
 from ballscrew.physics.friction.loaded_balls import loads_of
-from ballscrew.physics.solvers.load_distribution import BallLoads, KindLoads
 
-#: What each ball has of the solved loads.
-OF_BALLS = ("forward_load", "backward_load", "forward_angle", "backward_angle")
 #: Balls at all points that have to be asked for, in one call or in several, before a recording is made; that of balls
 #: with four contacts has ten times as many steps.
 ENOUGH_TO_RECORD, ENOUGH_OF_FOUR_CONTACTS = 100_000, 1_000_000
@@ -49,56 +57,25 @@ TILE = 128
 #: Numbers of balls that are evaluated in a block: large enough for the steps of NumPy at the points, small enough
 #: for the cache.
 BLOCK_OF_BALLS = 2**18
-#: Outputs that are recorded together.
-_USUAL = frozenset({*NUT_OUTPUTS, "drive_torque", "holding_torque", "self_locking", "minimum_film_parameter"})
-#: What sets numbers of the oil, which are inputs themselves.
-_OF_STATE = frozenset({TEMPERATURE.name, *INPUTS_OF_SHEET})
-_USUAL_PARTS = ("contribution_", "validity_")
 _structures = Structures()
-
-
-def inputs_by_ball(subject: Configuration, varying: Sequence[str] = ()) -> tuple[str, ...]:
-    """The names of all numbers of a configuration that are inputs of its recording, the operating point first.
-
-    An exponent of a law is a constant, unless it varies: folded into the powers, it costs nothing.
-    """
-    seen: set[str] = set()
-    found: list[str] = []
-    parts = subject.by_section
-    for name, (part, _) in subject.inputs.items():
-        own = name.removeprefix("nut.") if part == "nut" else name
-        is_exponent = part == "model" and name.rpartition(".")[2].endswith("exponent") and name not in varying
-        if part == "operation" or name in _OF_STATE or own in seen or is_exponent:
-            continue
-        seen.add(own)
-        if read_input(parts[part], name) is not None:
-            found.append(own)
-    return (*OPERATION, *found)
 
 
 class ByBall:
     """The outputs of a plan for a nut whose balls differ, made ready by one of the engines."""
 
-    def __init__(self, plan: Plan, names: tuple[str, ...], made_of: Recording, engine: Engine, reason: str) -> None:
+    def __init__(self, plan: Plan, cut: CutByBall, engine: Engine, reason: str) -> None:
         self.engine: Engine = engine
         self.reason = reason
-        self.names = names
-        self._stages, self._cut = made_of.once("stages", lambda: stages_by_ball(made_of.program, names))
-        self._program = made_of.program
-        self._before = None if engine == "compiled" else self._cut.points.interpreter.with_own_buffers()
-        self._of_points = self._cut.columns.interpreter.with_own_buffers()
-        self._behind = made_of.once(
-            f"behind {plan.outputs}", lambda: _of(self._stages.behind, plan.outputs)
-        ).interpreter
-        self._sources: list[Source] = [source for source, _ in self._cut.tables]
-        self._text = "" if engine == "numpy" else _text(made_of, self._stages, self._cut)
-        self._kernel = None if engine == "numpy" else Kernel.of(self._text, self._sources)
-        self._spare = _lanes(self._cut.points)
+        self._cut = cut
+        self._of_points = cut.columns.interpreter.with_own_buffers()
+        self._behind = cut.behind_of(plan.outputs).interpreter
+        self._kernel = None if engine == "numpy" else cut.kernel
+        self._before = None if cut.points is None else cut.points.interpreter.with_own_buffers()
 
     @property
     def formulas(self) -> str:
-        """All formulas as they are evaluated, as text."""
-        return f"{self._text}\n{self._program.text}"
+        """A digest of all formulas as they are evaluated."""
+        return self._cut.formulas
 
     def evaluator_of(self, plan: Plan) -> Callable[..., None]:
         """The evaluator of a slice of the flattened grid, into arrays that begin at the given place; it notes ends."""
@@ -126,7 +103,7 @@ class ByBall:
         with np.errstate(all="ignore"):
             loads = loads_of(changed.screw, as_array(points[OPERATION[0]]), compiled=self.engine == "compiled")
             known, parts = changed.inputs, changed.by_section
-            of_points = [points[n] if n in OPERATION else read_input(parts[known[n][0]], n) for n in self.names]
+            of_points = [points[n] if n in OPERATION else read_input(parts[known[n][0]], n) for n in self._cut.names]
             of_points += [getattr(loads, name) for name in OF_LOADS]
             of_balls = [_balls_first(getattr(loads, name), count) for name in OF_BALLS]
             tables = self._tables(of_points, count)
@@ -135,7 +112,7 @@ class ByBall:
                 for source, name in self._cut.tables
             ]
             values, done = self._over_balls(inputs, len(of_balls[0]), count)
-            found = reduced(self._stages.reductions, values, done)
+            found = reduced(self._cut.reductions, values, done)
             self._behind.run([*of_points, *([None] * len(OF_BALLS)), *found], results)
 
     def _tables(self, of_points: Sequence[Any], count: int) -> dict[str, NDArray[np.float64]]:
@@ -151,10 +128,10 @@ class ByBall:
         self, inputs: Sequence[NDArray[np.float64]], balls: int, count: int
     ) -> tuple[dict[str, NDArray[Any]], dict[str, NDArray[Any]]]:
         """What each ball has, by name, and what is reduced already."""
-        sums = self._stages.sums
-        names = list(self._cut.points.outputs)
+        sums = self._cut.sums
+        names = self._cut.outputs
         if self._kernel is not None:
-            found = {n: aligned_array(count + self._spare if n in sums else balls * count, float) for n in names}
+            found = {n: aligned_array(count + self._cut.lanes if n in sums else balls * count, float) for n in names}
             self._kernel(
                 slice(0, balls), slice(0, count), count, inputs, list(found.values()), past_cache=False, tile=TILE
             )
@@ -182,11 +159,15 @@ def by_ball(
     left to the model itself, unless it is ``always`` recorded, until so much of its kind has been asked for that a
     recording pays.
     """
-    names = inputs_by_ball(plan.subject, plan.varying if varying is None else varying)
-    wanted = _recorded_outputs(plan)
+    names = inputs_of_structure(plan.subject, [*plan.axes, *(varying or ())])
+    wanted = outputs_of_structure(plan.subject, plan.outputs)
     work = plan.total * times * plan.subject.balls
     why = "the model itself, on plain arrays: the work is too short to record it"
-    key = _key(plan.subject, tuple(wanted), names)
+    key = structure_key(plan.subject, tuple(wanted), names)
+    kept_as = None if key is None or engine == "numpy" else name_of("by ball", plan.subject, tuple(wanted), names)
+    cut: CutByBall | None = None if kept_as is None else kept.get(kept_as, _read)
+    if cut is not None:
+        return ByBall(plan, cut, "compiled", ASKED_FOR if engine else KNOWN)
     made_of = None if key is None else _structures.get(key)
     asked = work if key is None else _structures.asked(key, work)
     enough = ENOUGH_TO_RECORD if plan.subject.nut.contacts_per_ball == 2 else ENOUGH_OF_FOUR_CONTACTS
@@ -194,17 +175,16 @@ def by_ball(
         return why
     try:
         if made_of is None:
-            # a law from outside may ask for the grade of the oil
-            subject = plan.subject if key is None else _without_grade(plan.subject)
-            program = recorded_by_ball(subject, wanted, names)
+            subject = plan.subject if key is None else numbers_alone(plan.subject)
+            program = recorded_structure(subject, wanted, names)
             made_of = Recording(program) if key is None else _structures.add(key, program)
-        return _by_an_engine(plan, engine, names, made_of, asked)
+        return _by_an_engine(plan, engine, names, made_of, asked, kept_as)
     except CannotRecordError as error:
         return f"the model itself, on plain arrays: {error}"
 
 
 def _by_an_engine(
-    plan: Plan, engine: Engine | None, names: tuple[str, ...], made_of: Recording, asked: int
+    plan: Plan, engine: Engine | None, names: tuple[str, ...], made_of: Recording, asked: int, kept_as: str | None
 ) -> ByBall | str:
     stages, cut = made_of.once("stages", lambda: stages_by_ball(made_of.program, names))
     why = why_numpy(engine)
@@ -212,80 +192,122 @@ def _by_an_engine(
         if engine != "numpy" and kernels.available():
             text = _text(made_of, stages, cut)
             if engine or worth_compiling(cut.points, asked, text):
-                return ByBall(plan, names, made_of, "compiled", ASKED_FOR if engine else PAYS)
+                found = _compiled(CutByBall.of(stages, cut, names, f"{text}\n{made_of.program.text}"), text, kept_as)
+                return ByBall(plan, found, "compiled", ASKED_FOR if engine else PAYS)
     except UnknownOperationError as unknown:
         why = f"{unknown} is not known to kernels"
         if engine == "compiled":
             return why
-    return ByBall(plan, names, made_of, "numpy", why)
+    found = made_of.once("by NumPy", lambda: CutByBall.of(stages, cut, names, made_of.program.text, cut.points))
+    return ByBall(plan, found, "numpy", why)
 
 
-def _key(subject: Configuration, outputs: tuple[str, ...], names: tuple[str, ...]) -> Hashable | None:
-    """All that a recording depends on; None where a law from outside may compute something else each time."""
-    try:
-        return _structure(subject, names), outputs, names
-    except UnknownPartError:
-        return None
+def _compiled(cut: CutByBall, text: str, kept_as: str | None) -> CutByBall:
+    """The same with its kernel, which is kept under a name where there is one."""
+    if kept_as is None:
+        return cut.with_kernel(Kernel.of(text, cut.sources))
+    with kept.lock:
+        found = kept.get(kept_as, _read)
+        if found is None:
+            machine_code = kernels.code_of(text)
+            if cut.can_be_written:
+                keep(kept_as, cut.header, machine_code)
+            found = kept.add(kept_as, cut.with_kernel(Kernel(machine_code, cut.sources)))
+        return found
 
 
-def _without_grade(subject: Configuration) -> Configuration:
-    """The same with an oil that is its numbers alone."""
-    oil = dataclasses.replace(subject.lubricant, grade=None, sheet=None, temperature=None)
-    return Configuration(subject.model, subject.screw, oil)
+def _read(header: bytes, machine_code: bytes) -> CutByBall:
+    cut = CutByBall.from_header(json.loads(header))
+    return cut.with_kernel(Kernel(machine_code, cut.sources))
 
 
-def _structure(subject: Configuration, names: Sequence[str]) -> Hashable:
-    """A configuration as a key, without the numbers that are inputs and without what only the loads depend on."""
-    asides = {*names, "bodies", "deviations", "grade", "sheet", "temperature", "made_as"}
+@dataclasses.dataclass(frozen=True, eq=False)
+class CutByBall:
+    """A recording by ball as it is evaluated: what each point has, what each of its balls has, and what is behind."""
 
-    def of(part: Any, prefix: str = "") -> Hashable:
-        laws = [f for f in dataclasses.fields(part) if f"{prefix}{f.name}" not in asides]
-        return type(part), *((f.name, of_field(getattr(part, f.name), f.name)) for f in laws)
+    names: tuple[str, ...]
+    columns: Program
+    #: The inputs of what each ball has, and its outputs, some of them reduced over the balls.
+    tables: tuple[tuple[Source, str], ...]
+    outputs: tuple[str, ...]
+    reductions: tuple[Reduction, ...]
+    behind: Program
+    #: Points of a vector.
+    lanes: int
+    #: A digest of all formulas as they are evaluated.
+    formulas: str
+    #: What each ball has, for NumPy, or as a kernel.
+    points: Program | None = None
+    kernel: Kernel | None = None
+    _behind: dict[tuple[str, ...], Program] = dataclasses.field(default_factory=dict[tuple[str, ...], Program])
 
-    def of_field(value: Any, name: str) -> Hashable:
-        if name == "nut":
-            return of(value)
-        if name == "losses":
-            return tuple((n, of_law(law, f"losses.{n}.")) for n, law in value.items())
-        return of_law(value, f"{name}.") if name in subject.model.laws_with_coefficients else key_of(value)
+    @classmethod
+    def of(
+        cls, stages: Stages, cut: Split, names: tuple[str, ...], formulas: str, points: Program | None = None
+    ) -> CutByBall:
+        """Of a recording that was cut; ``points`` for NumPy."""
+        digest = hashlib.sha256(formulas.encode()).hexdigest()
+        outputs = tuple(cut.points.outputs)
+        return cls(names, cut.columns, cut.tables, outputs, stages.reductions, stages.behind, LANES, digest, points)
 
-    def of_law(law: Any, prefix: str) -> Hashable:
-        key_of(law)  # raises for one from outside
-        return of(law, prefix) if dataclasses.is_dataclass(law) else key_of(law)
+    def with_kernel(self, kernel: Kernel) -> CutByBall:
+        """The same with the kernel of what each ball has."""
+        return dataclasses.replace(self, kernel=kernel)
 
-    return of(subject.model), of(subject.screw), of(subject.lubricant)
+    @property
+    def sources(self) -> list[Source]:
+        """Where the inputs of what each ball has are from."""
+        return [source for source, _ in self.tables]
 
+    @property
+    def sums(self) -> dict[str, Any]:
+        """The outputs of each ball of which only the sum or the greatest value is needed, and which."""
+        return sums_of(self.reductions)
 
-def _recorded_outputs(plan: Plan) -> Mapping[str, Output]:
-    """The outputs that are recorded: the usual ones, where those of the plan are among them, or just these.
+    def behind_of(self, outputs: tuple[str, ...]) -> Program:
+        """What is behind the reductions, for some of the outputs."""
+        if outputs not in self._behind:
+            self._behind[outputs] = _of(self.behind, outputs)
+        return self._behind[outputs]
 
-    What a few sums more cost at each ball is saved by having one recording and one kernel for most purposes.
-    """
-    known = known_outputs(plan.subject.nut)
-    usual = {n: output for n, output in known.items() if n in _USUAL or n.startswith(_USUAL_PARTS)}
-    return usual if usual.keys() >= set(plan.outputs) else plan.wanted
+    @property
+    def can_be_written(self) -> bool:
+        """True where all steps are functions that are known by their names."""
+        return all(can_be_written(program) for program in (self.columns, self.behind))
 
+    @property
+    def header(self) -> dict[str, Any]:
+        """All but the kernel, as JSON knows it."""
+        return {
+            "names": self.names,
+            "columns": as_document(self.columns),
+            "tables": self.tables,
+            "outputs": self.outputs,
+            "reductions": [(one.function.__name__, one.values, one.place) for one in self.reductions],
+            "behind": as_document(self.behind),
+            "lanes": self.lanes,
+            "formulas": self.formulas,
+        }
 
-def recorded_by_ball(subject: Configuration, wanted: Mapping[str, Output], names: Sequence[str]) -> Program:
-    """The outputs wanted as a program of all inputs, the results of the solver for the nut, and those for each ball."""
-    if subject.nut.set_at_rest:
-        raise CannotRecordError("the preload of a nut that was set at rest follows the friction of its balls")
-    groups = [COLUMNS] * (len(names) + len(OF_LOADS)) + [ROWS | COLUMNS] * len(OF_BALLS)
-    nonnegative = [subject.is_nonnegative(name) for name in names] + [False] * len(OF_LOADS) + [True] * len(OF_BALLS)
-    tape = Tape(len(groups), groups, nonnegative, reduces=True)
-    traced = [tape.value(i) for i in range(tape.inputs)]
-    points = dict(zip(names, traced, strict=False))
-    of_nut = dict(zip(OF_LOADS, traced[len(names) :], strict=False))
-    of_balls = dict(zip(OF_BALLS, traced[-len(OF_BALLS) :], strict=True))
-    with subject.recording(by_ball=True):
-        loads = BallLoads(kinds=(KindLoads(balls=1.0, **of_balls),), one_by_one=True, **of_nut)
-        result = subject.under(loads, points)
-        return merged_program(tape, {name: output.read(result) for name, output in wanted.items()})
+    @classmethod
+    def from_header(cls, held: Mapping[str, Any]) -> CutByBall:
+        """The reverse of :attr:`header`."""
+        functions = {function.__name__: function for function in REDUCTIONS}
+        return cls(
+            tuple(held["names"]),
+            from_document(held["columns"]),
+            tuple((source, name) for source, name in held["tables"]),
+            tuple(held["outputs"]),
+            tuple(Reduction(functions[name], values, place) for name, values, place in held["reductions"]),
+            from_document(held["behind"]),
+            held["lanes"],
+            held["formulas"],
+        )
 
 
 def stages_by_ball(program: Program, names: Sequence[str]) -> tuple[Stages, Split]:
     """Such a program cut at its reductions, and its first part cut along points and balls."""
-    groups = [COLUMNS] * (len(names) + len(OF_LOADS)) + [ROWS | COLUMNS] * len(OF_BALLS)
+    groups = groups_by_ball(names)
     stages = cut_at_reductions(program, groups)
     return stages, split(stages.before, groups)
 
@@ -302,13 +324,7 @@ def _text(made_of: Recording, stages: Stages, cut: Split) -> str:
     """The assembly of what each ball has."""
     sources: list[Source] = [source for source, _ in cut.tables]
     masks = dict.fromkeys(cut.points.outputs, False)
-    lanes = _lanes(cut.points)
-    return made_of.once("text", lambda: kernel_text(cut.points, sources, masks, lanes=lanes, reduced=stages.sums))
-
-
-def _lanes(program: Program) -> int:
-    """The number of points in a vector: most inputs are tables of a tile, which stay in the cache."""
-    return lanes_for(dataclasses.replace(program, inputs=len(OF_BALLS)))
+    return made_of.once("text", lambda: kernel_text(cut.points, sources, masks, lanes=LANES, reduced=stages.sums))
 
 
 def _balls_first(values: NDArray[np.float64], count: int) -> NDArray[np.float64]:

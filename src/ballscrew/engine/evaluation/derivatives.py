@@ -19,7 +19,7 @@ from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.tape import CannotRecordError
 from ballscrew.engine.evaluation.engines import Engine, engine_faults
 from ballscrew.engine.evaluation.evaluation import Evaluation
-from ballscrew.engine.evaluation.outputs import OPERATION, Output, known_outputs
+from ballscrew.engine.evaluation.outputs import OPERATION, Output, known_outputs, slope_name
 from ballscrew.engine.evaluation.plan import Configuration, Plan
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
@@ -170,11 +170,6 @@ class Slopes(Plan):
                 Fault("derivatives", Message("a law cannot be recorded: {why}", {"why": str(why)}), "", JAX_INSTEAD)
             ) from None
         return merged_program(tape, found)
-
-
-def slope_name(output: str, name: str) -> str:
-    """The name of the derivative of an output by an input."""
-    return f"d_{output}_d_{name.replace('.', '_')}"
 
 
 def _unreadable(_: Any) -> Any:

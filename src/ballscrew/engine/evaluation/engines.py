@@ -23,6 +23,9 @@ FEW_POINTS = 4096
 #: Only the choice of an engine depends on these numbers, so that they need not be exact.
 NUMPY_STEP_SECONDS, STEPS_IN_CACHE = 2.5e-10, 5000
 COMPILING_SECONDS, COMPILING_STEP_SECONDS = 0.05, 1.2e-4
+#: Points of a structure that have to be asked for, in one call or in several, before a kernel is compiled for it; and
+#: points of one call beyond which a kernel of just this call pays, whose constants are folded.
+ENOUGH_TO_COMPILE, ENOUGH_TO_FOLD = 20_000, 4_000_000
 #: What NumPy does in less than this is left to it: as long takes it to load the compiler.
 SHORT_SECONDS = 0.1
 
@@ -47,6 +50,7 @@ def engine_faults(section: str, engine: str | None, engines: Sequence[str] = ENG
 #: Why an engine evaluates: see :func:`why_numpy`.
 ASKED_FOR = "it was asked for"
 PAYS = "that is sooner done than by NumPy, compiling included"
+KNOWN = "a kernel for all numbers of such a screw is there"
 
 
 def why_numpy(engine: Engine | None) -> str:

@@ -33,6 +33,9 @@ from ballscrew.engine.evaluation.axes import ends
 from ballscrew.engine.evaluation.by_ball import BLOCK_OF_BALLS, ByBall, by_ball
 from ballscrew.engine.evaluation.engines import (
     ASKED_FOR,
+    ENOUGH_TO_COMPILE,
+    ENOUGH_TO_FOLD,
+    KNOWN,
     PAYS,
     SWEEP_ENGINES,
     Engine,
@@ -46,6 +49,7 @@ from ballscrew.engine.evaluation.fingerprint import Fingerprint, fingerprint_of,
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.engine.evaluation.plan import Configuration, Plan
 from ballscrew.engine.evaluation.recordings import Recording, recording
+from ballscrew.engine.evaluation.structure_kernels import BLOCK_OF_POINTS, Structure, StructureKernel
 
 #: Fewest columns of a grid: a short row is mostly its beginning and its end.
 FEWEST_COLUMNS = 256
@@ -103,7 +107,7 @@ class Evaluation:
         """Make a plan ready; the engine is chosen by the size of the work and by what is compiled already.
 
         ``times`` says how often all of it will be evaluated (see :meth:`at`). ``recorded`` records balls that differ
-        however little work it is. Faults stand under ``section``.
+        however little work it is, and no kernel that is there by chance counts. Faults stand under ``section``.
 
         Raises :class:`~ballscrew.basis.errors.InputError` for an engine that cannot be had.
         """
@@ -124,6 +128,10 @@ class Evaluation:
                     )
                 )
             return _by_numpy(plan, None, ready)
+        if engine is None and not recorded:
+            known = _of_structure(plan, times)
+            if known is not None:
+                return _by_structure(plan, known)
         program: Program | None = None
         try:
             made_of = recording_of(plan)
@@ -225,6 +233,35 @@ def _by_ball(plan: Plan, ready: ByBall) -> Evaluation:
     # whole vectors need no copies with room for the last one
     block = max(1, BLOCK_OF_BALLS // plan.subject.balls // LANES) * LANES
     return Evaluation(plan, ready.engine, ready.reason, identify, ready.evaluator_of, block, 1)
+
+
+def _of_structure(plan: Plan, times: int) -> StructureKernel | None:
+    """The kernel for all numbers of such a screw, where it is there, or so much is asked for that it pays."""
+    points = plan.total * times
+    if not plan.bounded or points > ENOUGH_TO_FOLD:
+        return None
+    by: tuple[str, ...] = getattr(plan, "by", ())
+    structure = Structure(plan.subject, plan.outputs, list(plan.axes), by)
+    if structure.asked(points) >= ENOUGH_TO_COMPILE:
+        return structure.kernel()
+    return structure.known()
+
+
+def _by_structure(plan: Plan, known: StructureKernel) -> Evaluation:
+    def evaluator_of(plan: Plan) -> _BlockEvaluator:
+        at = known.at(plan)
+
+        def evaluate(part: slice, results: Mapping[str, NDArray[Any]], first: int, found: _Ends) -> None:
+            points = plan.points(part)
+            for name, noted in found.items():
+                noted.append(ends(points[name]))
+            at(points, {name: values[part.start - first : part.stop - first] for name, values in results.items()})
+
+        return evaluate
+
+    # the numbers of the parts are inputs
+    identify = functools.partial(_fingerprint, plan, "compiled", None, lambda: known.layout.formulas)
+    return Evaluation(plan, "compiled", KNOWN, identify, evaluator_of, BLOCK_OF_POINTS, 1)
 
 
 def _by_numpy(plan: Plan, program: Program | None, reason: str) -> Evaluation:

@@ -17,6 +17,7 @@ import functools
 import hashlib
 import importlib
 import secrets
+import sys
 import types
 from collections.abc import Iterable, Mapping
 from dis import get_instructions, opmap
@@ -48,6 +49,9 @@ _GENERATED = frozenset({
     "__init__", "__repr__", "__eq__", "__lt__", "__le__", "__gt__", "__ge__", "__setattr__", "__delattr__",
     "__replace__",
 })  # fmt: skip
+#: The folder of the package, and the folders in it whose source a recording follows from.
+_FOLDER = Path(__file__).parents[2]
+_OF_RECORDINGS = ("basis", "compiler", "physics", "engine")
 _PLAIN = frozenset({type(None), bool, int, float, complex, str, bytes, type(...)})
 _SLOTS = types.MemberDescriptorType, types.GetSetDescriptorType
 _COMPILED = types.MethodDescriptorType, types.WrapperDescriptorType, types.ClassMethodDescriptorType
@@ -88,11 +92,21 @@ def fingerprint_of(values: Mapping[str, Any]) -> Fingerprint:
 @functools.cache
 def package_digest() -> str:
     """A digest of the source and the data of this package, as installed."""
-    folder = Path(__file__).parents[2]
+    return _digest_of(path for kind in ("py", "toml") for path in _FOLDER.rglob(f"*.{kind}"))
+
+
+@functools.cache
+def recorder_digest() -> str:
+    """A digest of what a recording and its kernel follow from: the source of four folders, Python and NumPy."""
+    found = _digest_of(path for name in _OF_RECORDINGS for path in (_FOLDER / name).rglob("*.py"))
+    return f"{found} {sys.version} {np.__version__}"
+
+
+def _digest_of(paths: Iterable[Path]) -> str:
     found = hashlib.sha256()
-    for path in sorted(path for kind in ("py", "toml") for path in folder.rglob(f"*.{kind}")):
+    for path in sorted(paths):
         content = path.read_bytes()
-        found.update(f"{path.relative_to(folder).as_posix()} {len(content)}\n".encode() + content)
+        found.update(f"{path.relative_to(_FOLDER).as_posix()} {len(content)}\n".encode() + content)
     return found.hexdigest()
 
 

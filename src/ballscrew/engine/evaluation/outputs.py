@@ -12,7 +12,7 @@ from ballscrew.physics.components.contact import Contact, RaceState
 from ballscrew.physics.components.materials import INPUTS_OF_SHEET, TEMPERATURE, Lubricant
 from ballscrew.physics.components.nut import Nut
 from ballscrew.physics.components.operating_state import OperatingState
-from ballscrew.physics.components.screw import SINGLE_NUT, BallScrew
+from ballscrew.physics.components.screw import MATERIALS, SINGLE_NUT, BallScrew
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
 from ballscrew.physics.friction.validity import NUT_REASONS, REASONS
@@ -118,12 +118,14 @@ def inputs_of(model: FrictionModel, screw: BallScrew, lubricant: Lubricant) -> M
     """All inputs that a sweep can vary: name to (part, quantity).
 
     Names are those of the fields; a coefficient of a law is ``law.field``, for example
-    ``friction.boundary_friction_coefficient``. Fields of the nut are ``nut.preload`` or ``preload``; those of what it
-    loses ``losses.seals.seal_torque``. ``temperature`` is that of an oil made from a grade or
-    from a data sheet, whose viscosities and density are inputs, too.
+    ``friction.boundary_friction_coefficient``, a number of a material ``ball_material.young_modulus``. Fields of the
+    nut are ``nut.preload`` or ``preload``; those of what it loses ``losses.seals.seal_torque``. ``temperature`` is that
+    of an oil made from a grade or from a data sheet, whose viscosities and density are inputs, too.
     """
     parts = {"operation": OperatingState, "screw": screw, "lubricant": lubricant, "model": model}
     found = {name: (part, quantity) for part, value in parts.items() for name, quantity in fields_of(value).items()}
+    for body, material in zip(MATERIALS, screw.materials, strict=True):
+        found |= {f"{body}.{name}": ("screw", quantity) for name, quantity in fields_of(material).items()}
     of_nut = fields_of(screw.nut)
     found |= {name: ("nut", quantity) for name, quantity in of_nut.items()}
     found |= {f"nut.{name}": ("nut", quantity) for name, quantity in of_nut.items()}
@@ -137,6 +139,11 @@ def inputs_of(model: FrictionModel, screw: BallScrew, lubricant: Lubricant) -> M
     for slot, law in model.laws_with_coefficients.items():
         found |= {f"{slot}.{name}": ("model", quantity) for name, quantity in fields_of(law).items()}
     return found
+
+
+def slope_name(output: str, name: str) -> str:
+    """The name of the derivative of an output by an input."""
+    return f"d_{output}_d_{name.replace('.', '_')}"
 
 
 def attributes_of(quantity: Quantity) -> dict[str, str]:

@@ -34,7 +34,7 @@ from ballscrew.engine.evaluation.outputs import (
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import Nut, NutParts
 from ballscrew.physics.components.operating_state import OperatingState
-from ballscrew.physics.components.screw import MATERIALS, BallScrew
+from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.friction import starvation
 from ballscrew.physics.friction.model import SLOTS, FrictionModel
@@ -205,8 +205,6 @@ class Configuration(ByValue):
             if part not in ("operation", "nut") and name not in varied and (value := self.value_of(name)) is not None
         }
         fixed |= self._attributes_of_nut(varied)
-        for name, material in zip(MATERIALS, self.screw.materials, strict=True):
-            fixed |= {f"screw_{name}_{field}": getattr(material, field) for field in fields_of(material)}
         slots = {field.name: getattr(self.model, field.name) for field in dataclasses.fields(self.model)}
         fixed |= {f"model_{slot}": law.__name__ for slot, law in slots.items() if hasattr(law, "__name__")}
         return {
@@ -498,7 +496,7 @@ def _sizes(section: str, axes: Mapping[str, xr.DataArray], wanted: Sequence[str]
 
 
 def read_input(part: Any, name: str) -> Any:
-    """A field of a part, or ``law.field`` of one of its laws."""
+    """A field of a part, or ``law.field`` of one of its laws or materials."""
     if isinstance(part, NutParts | Lubricant):
         return part.value_of(name)
     law, _, field = name.rpartition(".")

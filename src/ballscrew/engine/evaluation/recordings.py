@@ -179,6 +179,50 @@ class _Kept:
 _kept = _Kept()
 
 
+class _AsImported:
+    """Whether the functions and constants that recordings follow from are still those that were imported."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        #: By module and name, what stood there first: kept, so that its identity is not used again.
+        self._first: dict[tuple[str, str], Any] = {}
+        self._count, self._modules = 0, list[types.ModuleType]()
+        self._identities: tuple[int, ...] = ()
+        self._holds = True
+
+    def holds(self) -> bool:
+        """False where a function or a constant was replaced, as by a test; by its source it is another package."""
+        with self._lock:
+            if len(sys.modules) != self._count:
+                self._count = len(sys.modules)
+                self._modules = [module for name, module in list(sys.modules.items()) if name.startswith(_ROOMS)]
+            identities = tuple(map(id, chain.from_iterable([vars(module).values() for module in self._modules])))
+            if identities != self._identities:
+                self._holds = True
+                for module in self._modules:
+                    for name, value in list(vars(module).items()):  # all of them, as some are new
+                        self._holds &= self._is_first(module.__name__, name, value)
+                self._identities = identities
+            return self._holds
+
+    def _is_first(self, module: str, name: str, value: Any) -> bool:
+        if name.startswith("__"):
+            return True
+        first = self._first.setdefault((module, name), value)
+        return first is value
+
+
+_as_imported = _AsImported()
+
+
+def is_as_imported() -> bool:
+    """True where the package computes what its source says, so that what other processes kept holds here."""
+    return _as_imported.holds()
+
+
+is_as_imported()  # what is imported by now stood there first
+
+
 def forget() -> None:
     """Drop all recordings that are kept."""
     _kept.clear()

@@ -16,8 +16,9 @@ from ballscrew.compiler.tracing.grid import Split
 from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.reductions import Stages
 from ballscrew.compiler.tracing.tape import CannotRecordError
-from ballscrew.engine.evaluation.by_ball import recorded_by_ball, stages_by_ball
+from ballscrew.engine.evaluation.by_ball import stages_by_ball
 from ballscrew.engine.evaluation.outputs import OF_LOADS, OPERATION
+from ballscrew.engine.evaluation.structures import recorded_structure
 from ballscrew.exports.subject import PRELOADS, HandOver
 from ballscrew.physics.solvers.load_distribution import elastic_nut_numbers
 
@@ -104,7 +105,7 @@ def _two_levels(handed: HandOver) -> TwoLevels:
     names = [name for name in handed.input_names if handed.has_effect[name]]
     wanted = {output.name: output for output in handed.outputs}
     try:
-        program = recorded_by_ball(subject, wanted, names)
+        program = recorded_structure(subject, wanted, names)
         stages, cut = stages_by_ball(program, names)
     except CannotRecordError as error:
         problem = Message("needs a model that can be recorded: {error}", {"error": str(error)})

@@ -10,12 +10,14 @@ from ballscrew.basis.quantities import Quantity
 from ballscrew.basis.version import __version__
 from ballscrew.engine.evaluation.outputs import OPERATION, known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.evaluation.structures import inputs_of_structure
 from ballscrew.faces.site import kinds
-from ballscrew.faces.site.modules import Function, Module
+from ballscrew.faces.site.modules import NUT_DIAMETER, OF_POINT, TILE, ByBall, Function, Module
 from ballscrew.faces.site.texts import texts
 from ballscrew.faces.web.vocabulary import vocabulary
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.sizing.catalogue import catalogue
+from ballscrew.physics.solvers.load_distribution import ElasticNutNumbers
 
 #: Format of what follows, for a page of another version.
 FORMAT = 1
@@ -25,10 +27,13 @@ _SECTIONS: Mapping[str, str] = {
 }  # fmt: skip
 
 
-def contents(modules: Mapping[tuple[str, str], Module], oils: Module, grades: tuple[str, ...]) -> dict[str, Any]:
+def contents(
+    modules: Mapping[tuple[str, str], Module], oils: Module, grades: tuple[str, ...], solver: str
+) -> dict[str, Any]:
     """The contents as one JSON document; numbers are in SI.
 
-    ``modules`` are those of models and kinds of nut, ``oils`` that of the ``grades``.
+    ``modules`` are those of models and kinds of nut, ``oils`` that of the ``grades``, ``solver`` the file of that of
+    the balls.
     """
     words = vocabulary()
     subjects = {pair: kinds.subject_of(kinds.case_of(kinds.PAPER, *pair)) for pair in modules}
@@ -44,9 +49,10 @@ def contents(modules: Mapping[tuple[str, str], Module], oils: Module, grades: tu
             for name, kind in kinds.KINDS.items()
         },
         "structures": {
-            f"{model}/{kind}": {"file": module.file, **_function(module.functions[0])}
+            f"{model}/{kind}": {"file": module.file, **_function(module.functions[0]), **_parted(module.by_ball)}
             for (model, kind), module in modules.items()
         },
+        "solver": solver,
         "oils": {"file": oils.file, "grades": {grade: _function(function) for grade, function in of_oils}},
         "fields": _fields(subjects),
         "results": {name: described for name, described in results.items() if name in given},
@@ -65,6 +71,29 @@ def _function(function: Function) -> dict[str, Any]:
         "outputs": list(function.outputs),
         "constants": dict(function.constants),
     }
+
+
+def _parted(parts: ByBall | None) -> dict[str, Any]:
+    """A nut whose balls are solved one by one, where it is one."""
+    if parts is None:
+        return {}
+    ball = parts.ball
+    found = {
+        "halves": parts.halves,
+        "four_contacts": parts.four_contacts,
+        "swells": parts.swells,
+        "numbers": _function(parts.numbers),
+        "points": _function(parts.points),
+        "ball": {
+            "function": ball.name,
+            **{name: list(getattr(ball, name)) for name in ("inputs", "outputs", "reduced")},
+        },
+        "reductions": list(parts.reductions),
+        "behind": _function(parts.behind),
+        "tile": TILE,
+        "solver": [*ElasticNutNumbers._fields, *OF_POINT],
+    }
+    return {"by_ball": found}
 
 
 def _outputs(subject: Configuration) -> Mapping[str, Any]:
@@ -89,14 +118,14 @@ def _values(subjects: Mapping[tuple[str, str], Configuration], model: str) -> di
     for (of, _), subject in subjects.items():
         if of == model:
             found |= {
-                n: float(subject.value_of(n)) for n in kinds.inputs_of(subject) if subject.inputs[n][0] == "model"
+                n: float(subject.value_of(n)) for n in inputs_of_structure(subject) if subject.inputs[n][0] == "model"
             }
     return {"values": found}
 
 
 def _fields(subjects: Mapping[tuple[str, str], Configuration]) -> dict[str, Any]:
     """The inputs of all modules by name: where they stand in a case file, their units and bounds."""
-    known = {name: subject.inputs[name] for subject in subjects.values() for name in kinds.inputs_of(subject)} | {
+    known = {name: subject.inputs[name] for subject in subjects.values() for name in inputs_of_structure(subject)} | {
         TEMPERATURE.name: ("lubricant", TEMPERATURE)
     }
     return {name: _field(name, part, quantity) for name, (part, quantity) in known.items()}
@@ -118,19 +147,22 @@ def _field(name: str, part: str, quantity: Quantity) -> dict[str, Any]:
 def _start(name: str) -> dict[str, Any]:
     """A case to start from: its tables, its numbers, and those of each kind of nut."""
     row = catalogue().get(name) if name != kinds.PAPER else None
-    nuts: dict[str, Any] = {}
+    nuts: dict[str, Any] = {}  # null stands for a diameter of the usual size
     values: dict[str, float] = {}
     temperature: Any = None
     for kind in kinds.KINDS:
         case = kinds.case_of(name, kinds.MODELS[0], kind)
         subject, temperature = kinds.subject_of(case), case.lubricant.temperature
-        parts = {n: subject.inputs[n][0] for n in kinds.inputs_of(subject) if n not in OPERATION}
+        parts = {n: subject.inputs[n][0] for n in inputs_of_structure(subject) if n not in OPERATION}
         values |= {n: float(subject.value_of(n)) for n, part in parts.items() if part in ("screw", "lubricant")}
         values |= {n: float(getattr(case.operation, n)) for n in OPERATION}
         tables = kinds.tables_of(name, kinds.MODELS[0], kind)
+        of_nut = {n: float(subject.value_of(n)) for n, part in parts.items() if part == "nut"}
+        if subject.nut.bodies is not None:
+            of_nut[NUT_DIAMETER] = subject.nut.bodies.nut_outer_diameter
         nuts[kind] = {
-            "values": {n: float(subject.value_of(n)) for n, part in parts.items() if part == "nut"},
-            "tables": {section: tables[section] for section in ("nut", "losses") if section in tables},
+            "values": of_nut,
+            "tables": {section: tables[section] for section in ("nut", "bodies", "losses") if section in tables},
         }
     oil = kinds.start_tables()[name]["lubricant"]
     return {

@@ -6,7 +6,6 @@ that every screw with such a nut is computed by the same one.
 
 from __future__ import annotations
 
-import dataclasses
 import functools
 from collections.abc import Mapping
 from typing import Any, NamedTuple
@@ -16,8 +15,8 @@ from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.screw_tables.catalogue import EXAMPLE_PRELOADS
-from ballscrew.engine.evaluation.by_ball import inputs_by_ball
 from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.evaluation.structures import numbers_alone
 from ballscrew.faces.web.starts import starts
 from ballscrew.physics.components.nut_losses import Seals
 from ballscrew.physics.components.operating_state import OperatingState
@@ -36,10 +35,11 @@ _LOAD = 0.1
 
 
 class Kind(NamedTuple):
-    """A kind of nut: its name in a case file, empty for balls alone; whether its bodies are elastic."""
+    """A kind of nut: its name in a case file, empty for balls alone, and whether its bodies are elastic."""
 
     nut: str
     words: str
+    elastic: bool = False
     spacer_balls: bool = False
 
     @property
@@ -48,14 +48,21 @@ class Kind(NamedTuple):
         return self.nut in EXAMPLE_PRELOADS
 
 
-#: The kinds by name.
+_NUTS: Mapping[str, str] = {
+    "single": "single nut, not preloaded",
+    "double": "double nut, preloaded",
+    "offset-lead": "one nut body, preloaded by an offset of its lead",
+    "oversize-balls": "one nut body, preloaded by oversize balls",
+}
+#: The kinds by name: rigid bodies, elastic ones, and every second ball a spacer.
 KINDS: Mapping[str, Kind] = {
     "row": Kind("", "loaded balls alone, as in the paper"),
-    "single": Kind("single", "single nut, not preloaded"),
-    "double": Kind("double", "double nut, preloaded"),
-    "offset-lead": Kind("offset-lead", "one nut body, preloaded by an offset of the lead"),
-    "oversize-balls": Kind("oversize-balls", "one nut body, preloaded by oversize balls"),
+    **{nut: Kind(nut, words) for nut, words in _NUTS.items()},
+    **{f"{nut}+elastic": Kind(nut, f"{words}, elastic bodies", elastic=True) for nut, words in _NUTS.items()},
+    **{f"{nut}+spacers": Kind(nut, f"{words}, spacer balls", spacer_balls=True) for nut, words in _NUTS.items()},
 }
+#: What only the reference model has modules of: balls with four contacts, which the others do not know, and spacers.
+_OF_REFERENCE = "reference"
 
 
 def structures() -> tuple[tuple[str, str], ...]:
@@ -64,7 +71,8 @@ def structures() -> tuple[tuple[str, str], ...]:
 
 
 def _go_together(model: str, kind: str) -> bool:
-    return model == "reference" or kind != "oversize-balls"
+    chosen = KINDS[kind]
+    return model == _OF_REFERENCE or not (chosen.nut == "oversize-balls" or chosen.spacer_balls)
 
 
 @functools.cache
@@ -93,7 +101,10 @@ def tables_of(start: str, model: str, kind: str) -> dict[str, Any]:
     nut: dict[str, Any] = {"type": chosen.nut}
     if chosen.is_preloaded:
         nut["preload"] = _preload(start, chosen.nut)
-    return {**tables, "nut": nut, "losses": {"seals": {"seal_torque": _seals(start)}}}
+    if chosen.spacer_balls:
+        nut["spacer_balls"] = True
+    bodies: dict[str, Any] = {"bodies": {}} if chosen.elastic else {}
+    return {**tables, "nut": nut, **bodies, "losses": {"seals": {"seal_torque": _seals(start)}}}
 
 
 def case_of(start: str, model: str, kind: str) -> Case:
@@ -103,13 +114,7 @@ def case_of(start: str, model: str, kind: str) -> Case:
 
 def subject_of(case: Case) -> Configuration:
     """What is evaluated in a case, with an oil that is its numbers alone."""
-    oil = dataclasses.replace(case.lubricant, grade=None, sheet=None, temperature=None)
-    return Configuration(case.model, case.screw, oil)
-
-
-def inputs_of(subject: Configuration) -> tuple[str, ...]:
-    """The names of the inputs of the module of a case, the operating point first."""
-    return inputs_by_ball(subject)
+    return numbers_alone(Configuration(case.model, case.screw, case.lubricant))
 
 
 def _preload(start: str, nut: str) -> str:

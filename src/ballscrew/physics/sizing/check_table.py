@@ -1,11 +1,12 @@
 """The table of checks: life, strength and speed of a screw against their limits, as formulas of named values.
 
-The values, SI, by name; loads and speeds are magnitudes, see :func:`ballscrew.physics.sizing.checks.checks`:
+The values, SI, by name; see :func:`ballscrew.physics.sizing.checks.checks`:
 
-- ``screw_speed``, ``pitch_circle_diameter``, ``root_diameter``, ``young_modulus`` of the shaft;
-- ``half_load`` and ``other_half_load``: the axial forces on the loaded and on the relieved flanks at the mean load,
-  which tire the screw, the other zero where they carry none (:func:`half_loads`); ``largest_half_load`` at the largest;
-- ``largest_load`` on the shaft, ``maximum_pressure`` of the most loaded contact;
+- ``screw_speed`` of either sign, ``pitch_circle_diameter``, ``root_diameter``, ``young_modulus`` of the shaft;
+- magnitudes of loads, at one operating point those of :func:`loads_at_point`: ``half_load`` and ``other_half_load``,
+  the axial forces on the loaded and on the relieved flanks at the mean load, which tire the screw, the other zero where
+  they carry none; ``largest_half_load`` at the largest load, and ``largest_load`` on the shaft;
+- ``maximum_pressure`` of the most loaded contact;
 - ``dynamic_load_rating`` and ``static_load_rating`` of one nut body;
 - ``unsupported_length``, ``shaft_density``, and the least roots of the ends of the shaft, ``buckling_root`` and
   ``whirling_root`` (:class:`~ballscrew.physics.sizing.installation.Ends`);
@@ -20,6 +21,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
+
+import numpy as np
 
 from ballscrew.basis.arrays import namespace, where
 from ballscrew.basis.judgements import Judgement, Sentence, Shown, Words, at_least, at_most, is_nan
@@ -46,6 +49,17 @@ def half_loads(axial_load: Force, remaining_preload: Force) -> tuple[Force, Forc
     return abs(axial_load) + left, left
 
 
+def loads_at_point(axial_load: Force, remaining_preload: Force) -> dict[str, Any]:
+    """The loads that the checks need, by name, at an operating point that is the mean load and the largest in one."""
+    half, other = half_loads(axial_load, remaining_preload)
+    return {
+        "half_load": half,
+        "other_half_load": other,
+        "largest_half_load": half,
+        "largest_load": abs(axial_load),
+    }
+
+
 def _static_safety(of: Mapping[str, Any]) -> Mapping[str, Any]:
     safety = life.static_safety(of["static_load_rating"], of["largest_half_load"])
     return at_least(safety, of["limits.static_safety"])
@@ -53,7 +67,7 @@ def _static_safety(of: Mapping[str, Any]) -> Mapping[str, Any]:
 
 def _lives(of: Mapping[str, Any]) -> dict[str, Any]:
     """Turns and time that nine of ten nuts live, and what is to be said of them."""
-    rated, other, speed = of["dynamic_load_rating"], of["other_half_load"], of["screw_speed"]
+    rated, other, speed = of["dynamic_load_rating"], of["other_half_load"], abs(of["screw_speed"])
     alone = life.basic_life(rated, of["half_load"])
     turns = where(other > 0, life.combined_life(alone, life.basic_life(rated, other)), alone)
     time = life.running_time(turns, speed)
@@ -75,7 +89,7 @@ def _lives(of: Mapping[str, Any]) -> dict[str, Any]:
 def _life(of: Mapping[str, Any]) -> Mapping[str, Any]:
     found = _lives(of)
     turns = found.pop("turns")
-    required = of[RUNNING_TIME] / life.running_time(1.0, of["screw_speed"])
+    required = of[RUNNING_TIME] / life.running_time(1.0, abs(of["screw_speed"]))
     del found["time"], found["lasts"]
     return {**at_least(turns, required), **found, "million_turns": turns / 1e6}
 
@@ -106,11 +120,11 @@ def _critical_speed(of: Mapping[str, Any]) -> Mapping[str, Any]:
     critical = shaft.critical_speed(
         of["whirling_root"], of["young_modulus"], of["shaft_density"], of["root_diameter"], of["unsupported_length"]
     )
-    return {**at_most(of["screw_speed"], critical * share), "share": share}
+    return {**at_most(abs(of["screw_speed"]), critical * share), "share": share}
 
 
 def _diameter_speed_product(of: Mapping[str, Any]) -> Mapping[str, Any]:
-    value = shaft.diameter_speed_product(of["pitch_circle_diameter"], of["screw_speed"])
+    value = shaft.diameter_speed_product(of["pitch_circle_diameter"], abs(of["screw_speed"]))
     return at_most(value, of["limits.diameter_speed_product"])
 
 
@@ -235,5 +249,49 @@ CHECKS: tuple[Judgement, ...] = (
             ),
         ),
         source="read",  # makers' limits; that of another nut is an estimate (SpeedLimit.source)
+    ),
+)
+
+
+def _all_checks(of: Mapping[str, Any]) -> Mapping[str, Any]:
+    judged, failing, number = of["checks.judged"], of["checks.failing"], of["checks.all"]
+    fails = failing > 0
+    is_whole = judged == number
+    return {
+        "fails": fails,
+        "fails_of_all": fails & is_whole,
+        "passes": is_whole,
+        "holds": namespace(fails).logical_not(fails),
+        "judged": fails | is_whole,
+        "number_judged": judged,
+        "number": number,
+    }
+
+
+def counted(found: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+    """How many checks there are, were judged and fail, by what their rows give; nothing where none is judged."""
+    judged: Any = 0.0
+    failing: Any = 0.0
+    for row in found.values():
+        is_judged = row.get("judged", np.bool_(True))
+        judged = judged + where(is_judged, 1.0, 0.0)
+        failing = failing + where(is_judged & namespace(row["holds"]).logical_not(row["holds"]), 1.0, 0.0)
+    numbers = {"checks.judged": judged, "checks.failing": failing, "checks.all": float(len(CHECKS))}
+    return numbers if found else {}
+
+
+_COUNT = {"judged": Shown("number_judged"), "all": Shown("number")}
+#: All checks in a few words: of ``checks.all`` of them so many judged and so many failing, whose titles are ``names``.
+ALL_CHECKS = Judgement(
+    id="verdict.checks",
+    subject="checks",
+    formula=_all_checks,
+    needs=("checks.judged", "checks.failing", "checks.all"),
+    severity_of_failure="error",
+    sentences=(
+        Sentence(Message("fails: {names}"), "fails_of_all", {"names": Words("names")}),
+        Sentence(Message("fails: {names}; {judged} of {all} judged"), "fails", {"names": Words("names"), **_COUNT}),
+        Sentence(Message("passes"), "passes"),
+        Sentence(Message("{judged} of {all} judged, and these hold"), places=_COUNT),
     ),
 )

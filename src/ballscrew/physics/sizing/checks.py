@@ -16,7 +16,7 @@ from ballscrew.physics.components.nut import Nut, SingleNut
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import geometry, life
-from ballscrew.physics.sizing.check_table import CHECKS, RUNNING_TIME
+from ballscrew.physics.sizing.check_table import ALL_CHECKS, CHECKS, RUNNING_TIME
 from ballscrew.physics.sizing.check_table import HOUR as HOUR
 from ballscrew.physics.sizing.check_table import NOT_CHECKED as NOT_CHECKED
 from ballscrew.physics.sizing.check_table import NOT_JUDGED as NOT_JUDGED
@@ -160,12 +160,11 @@ def verdict_of(checks: Sequence[Check], *, passes: Message = _PASSES, by_how_muc
     Elsewhere the words say how many were judged; ``by_how_much`` adds the utilisation of those that fail.
     """
     names = [failing(check, by_how_much=by_how_much) for check in checks if check.holds is False]
-    count = {"judged": Measured(judged(checks)), "all": Measured(len(checks))}
-    if judged(checks) == len(checks):
-        return Message("fails: {names}", {"names": names}) if names else passes
-    if names:
-        return Message("fails: {names}; {judged} of {all} judged", {"names": names, **count})
-    return Message("{judged} of {all} judged, and these hold", count)
+    count = judged(checks)
+    if not names and count == len(checks):
+        return passes
+    values = {"checks.judged": count, "checks.failing": len(names), "checks.all": len(checks)}
+    return ALL_CHECKS.message(ALL_CHECKS.finds(values) or {}, {"names": names})
 
 
 def failing(check: Check, *, by_how_much: bool = True) -> Message:

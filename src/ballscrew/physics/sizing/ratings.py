@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple, Protocol
 
 from ballscrew.basis.errors import plain
-from ballscrew.basis.quantities import Force, Ratio
+from ballscrew.basis.quantities import Angle, Count, Force, Length, Ratio
 from ballscrew.physics.components.ratings import RATING_CONFORMITY as RATING_CONFORMITY
 from ballscrew.physics.components.ratings import dynamic_load_rating
 from ballscrew.physics.equations import geometry, rating
@@ -36,6 +36,19 @@ class Rated(Protocol):
     def loaded_turns(self) -> Any: ...
     @property
     def spacer_balls(self) -> Any: ...
+
+
+class RatedGeometry(NamedTuple):
+    """A geometry that is no row: numbers, arrays, or values that are recorded."""
+
+    ball_circle: Length
+    ball_diameter: Length
+    contact_angle: Angle
+    lead_angle: Angle
+    #: Balls that find room in a turn, spacer balls counted, too.
+    balls_per_turn: Count
+    loaded_turns: Ratio
+    spacer_balls: bool = False
 
 
 def ratings_of(row: Rated, rating_conformity: Ratio = RATING_CONFORMITY) -> Ratings:

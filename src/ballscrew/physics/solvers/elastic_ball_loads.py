@@ -137,6 +137,7 @@ def solved(case: NutCase, *numbers: Field) -> tuple[Field, ...]:
     at_rest = rest.displacement
     # without load and preload balls just touch; what rounding makes of that is no load
     works = np.abs(point.load) + point.preload > 0
+    is_idle = (point.load == 0) & (point.preload == 0)
     if case.compiled:
         carried = compiled_loads(springs, found, works.astype(float), swells=case.swells)
     else:
@@ -157,7 +158,7 @@ def solved(case: NutCase, *numbers: Field) -> tuple[Field, ...]:
     return (
         *carried[:4],
         _travel(case, point, bars, found, point.load) - _travel(case, point, bars, at_rest, 0 * point.load),
-        1 / _compliance(case, point, springs, bars, swelling, found, carried),
+        np.where(is_idle, 0.0, 1 / _compliance(case, point, springs, bars, swelling, found, carried)),
         np.where(point.load < 0, carried.on_forward, carried.on_backward),
         _lift_off_load(case, point, without_load),
         np.where(works, relative, 0.0),

@@ -41,7 +41,7 @@ from ballscrew.physics.equations import deflection, geometry, hertz, rigidity
 from ballscrew.physics.solvers.ball_springs import Field
 from ballscrew.physics.solvers.compiled_chain import FEWEST_POINTS
 from ballscrew.physics.solvers.elastic_ball_loads import NutCase, solved
-from ballscrew.physics.solvers.rigid_ball_loads import KindLoads, RigidLoads, RigidNut, rigid_loads
+from ballscrew.physics.solvers.rigid_ball_loads import KindLoads, RigidLoads, RigidNut, rigid_lift_off_load, rigid_loads
 
 #: Imbalance, in units of load and preload, that counts as balanced.
 TOLERANCE = 1e-10
@@ -153,20 +153,36 @@ def ball_loads(
     otherwise.
     Raises :class:`~ballscrew.basis.errors.InputError` for balls that cannot be counted one by one.
     """
-    c_phi = namespace(screw.lead_angle).cos(screw.lead_angle)
-    A = deflection.groove_centre_distance(screw.screw_conformity, screw.nut_conformity, screw.ball_diameter)
-    point = RigidNut(
-        load=as_array(axial_load),
-        preload=as_array(preload_of_rigid_bodies(screw, nut)),
-        contact_angle=screw.contact_angle,
-        lead_cosine=c_phi,
-        centre_distance=A,
-        load_deflection=pair_load_deflection(screw),
-        loaded_balls=screw.carrying_balls,
-    )
+    point = _rigid_nut(screw, nut, as_array(axial_load))
     if bodies is None and deviations is None:
         return _alike(nut, point, constant_contact_angle)
     return _one_by_one(screw, nut, point, bodies, deviations, constant_contact_angle, compiled)
+
+
+def _rigid_nut(screw: BallScrew, nut: Nut, axial_load: Force) -> RigidNut:
+    """The nut as it is between rigid bodies."""
+    return RigidNut(
+        load=axial_load,
+        preload=as_array(preload_of_rigid_bodies(screw, nut)),
+        contact_angle=screw.contact_angle,
+        lead_cosine=namespace(screw.lead_angle).cos(screw.lead_angle),
+        centre_distance=deflection.groove_centre_distance(
+            screw.screw_conformity, screw.nut_conformity, screw.ball_diameter
+        ),
+        load_deflection=pair_load_deflection(screw),
+        loaded_balls=screw.carrying_balls,
+    )
+
+
+def lift_off_load(screw: BallScrew, nut: Nut) -> Force:
+    """The load that lifts the balls of a preloaded nut between rigid bodies off their other flanks; elementwise.
+
+    Zero for a nut whose balls nothing braces.
+    """
+    oversize = isinstance(nut, OversizeBallNut)
+    if not (oversize or nut.halves == 2):
+        return 0.0
+    return rigid_lift_off_load(_rigid_nut(screw, nut, 0.0), oversize=oversize, constant_angle=False)
 
 
 def _alike(nut: Nut, point: RigidNut, constant_angle: bool) -> BallLoads:

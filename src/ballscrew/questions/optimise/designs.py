@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.equations import geometry, rating
-from ballscrew.physics.sizing.check_table import CHECKS, RUNNING_TIME, half_loads
+from ballscrew.physics.equations import geometry
+from ballscrew.physics.sizing.check_table import CHECKS, RUNNING_TIME, loads_at_point
 from ballscrew.physics.sizing.checks import values_of_installation, values_of_limits
 from ballscrew.physics.sizing.dn_limits import GENERAL
 from ballscrew.physics.sizing.installation import Installation, Limits
-from ballscrew.physics.sizing.ratings import RATING_CONFORMITY
+from ballscrew.physics.sizing.ratings import RatedGeometry, ratings_of
 
 Numbers = NDArray[np.float64]
 
@@ -48,18 +48,11 @@ class Designs:
         per_turn = np.floor(np.pi * (d_m / d_w) / np.cos(phi))
         balls = np.maximum(1.0, np.round(per_turn * columns["loaded_turns"]))
         turns = balls / per_turn
-        carrying = per_turn / 2 if screw.nut.spacer_balls else per_turn
-        gamma = geometry.curvature_ratio(d_w, d_m, alpha, lead_angle=0.0)
-        f = RATING_CONFORMITY
         with np.errstate(all="ignore"):
-            f_c = rating.geometry_factor(rating.contact_angle_factor(alpha), rating.curvature_factor(gamma), f)
-            C_s = rating.screw_turn_rating(f_c, alpha, carrying, d_w, phi)
-            C_i = rating.turn_rating(C_s, rating.turn_rating_ratio(gamma, f, f))
-            C_a = rating.dynamic_load_rating(C_i, turns)
-            C_0a = rating.static_load_rating(rating.static_load_factor(gamma, f), carrying, turns, d_w, alpha, phi)
+            rated = ratings_of(RatedGeometry(d_m, d_w, alpha, phi, per_turn, turns, screw.nut.spacer_balls))
         d_r = geometry.groove_root_diameter(d_m, d_w, screw.screw_conformity, alpha)
-        preload = columns["preload"] * C_a if "preload" in columns else np.zeros_like(d_m)
-        return cls(d_m, P_h, d_w, balls, turns, C_a, C_0a, d_r, preload)
+        preload = columns["preload"] * rated.dynamic if "preload" in columns else np.zeros_like(d_m)
+        return cls(d_m, P_h, d_w, balls, turns, rated.dynamic, rated.static, d_r, preload)
 
     @property
     def room(self) -> Numbers:
@@ -82,18 +75,14 @@ class Designs:
 
         ``left`` is the preload that is left under the load, ``pressure`` that of the most loaded contact.
         """
-        half, other = half_loads(axial_load, left)
         # a geometry that is free has no make
         limit = GENERAL.value if limits.diameter_speed_product is None else limits.diameter_speed_product
         values = {
-            "screw_speed": np.abs(screw_speed),
+            "screw_speed": screw_speed,
             "pitch_circle_diameter": self.pitch_circle_diameter,
             "root_diameter": self.root_diameter,
             "young_modulus": young_modulus,
-            "half_load": half,
-            "other_half_load": other,
-            "largest_half_load": half,
-            "largest_load": abs(axial_load),
+            **loads_at_point(axial_load, left),
             "maximum_pressure": pressure,
             "dynamic_load_rating": self.dynamic_rating,
             "static_load_rating": self.static_rating,

@@ -94,7 +94,7 @@ class Run:
         return traits_of(self.case.model.slip).curvature_alone
 
     @property
-    def _judged(self) -> tuple[dict[str, Any], dict[str, Value]]:
+    def judged(self) -> tuple[dict[str, Any], dict[str, Value]]:
         """The values and the words of the verdicts."""
         friction, nut = self.friction, self.nut
         values = {name: getattr(friction, name) for name in _OF_RESULT}
@@ -111,7 +111,7 @@ class Run:
         return values | of_maker, words
 
     def _said(self, rows: Sequence[Judgement]) -> list[Record]:
-        return said(rows, *self._judged, units.filled)
+        return said(rows, *self.judged, units.filled)
 
     @property
     def verdicts(self) -> list[Record]:

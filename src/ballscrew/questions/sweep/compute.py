@@ -19,7 +19,7 @@ from ballscrew.basis import units
 from ballscrew.basis.atomic_files import check_writable
 from ballscrew.basis.errors import Fault, InputError, either, fault_of, nearest, raise_if_any
 from ballscrew.basis.overflow import overflow_as_input_error
-from ballscrew.basis.quantities import Quantity, fields_of
+from ballscrew.basis.quantities import Quantity
 from ballscrew.basis.records import Message, Record
 from ballscrew.cases.case_files.case_file import Case
 from ballscrew.cases.schema.case_schema import name_of_law
@@ -39,8 +39,7 @@ from ballscrew.engine.sweeps.cluster import cluster_client
 from ballscrew.engine.sweeps.stream import stream
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.engine.uncertainty.bands import ENDS
-from ballscrew.physics.components.materials import TEMPERATURE, Material, nominal_oil
-from ballscrew.physics.components.screw import MATERIALS
+from ballscrew.physics.components.materials import TEMPERATURE, nominal_oil
 from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.friction.law_names import coefficients
 from ballscrew.physics.friction.validity import NUT_REASONS, REASONS
@@ -242,11 +241,8 @@ def _faults_of_size(asked: _Asked) -> list[Fault]:
 
 
 def _units_of(known: Mapping[str, tuple[str, Quantity]]) -> dict[str, str]:
-    """The SI units of the inputs by section_field, with those of materials and of starved torques."""
+    """The SI units of the inputs by section_field, with those of starved torques."""
     si = {f"{part}_{name.replace('.', '_')}": quantity.unit for name, (part, quantity) in known.items()}
-    si |= {
-        f"screw_{part}_{name}": quantity.unit for part in MATERIALS for name, quantity in fields_of(Material).items()
-    }
     return si | dict.fromkeys(STARVED, "N m")
 
 

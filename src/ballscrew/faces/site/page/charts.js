@@ -1,6 +1,6 @@
 // The charts of the page.
 
-import { colourOf, rounded, spanOf, spread, spreadLog } from "./plot.js";
+import { colourOf, evenly, evenlyLog, rounded, spanOf } from "./plot.js";
 import { inShownUnit, inSiUnit, reasonsIn, View } from "./view.js";
 import { digitsOf, element, say, sayNamed, signOf, withUnit } from "./words.js";
 
@@ -92,7 +92,7 @@ export class Parts extends View {
     const { fields, results, mechanisms } = scene.case.contents;
     const field = fields[this.over];
     const end = endOf(scene, this.over);
-    this.xs = spread(end * BEGIN, end, scene.count(POINTS, LEAST));
+    this.xs = evenly(end * BEGIN, end, scene.count(POINTS, LEAST));
     this.found = scene.evaluate({ [this.over]: inSiUnit(this.xs, field) }, this.xs.length);
     const { xs, found } = this;
     const torque = inShownUnit(found[TORQUE], results[TORQUE]);
@@ -205,7 +205,7 @@ export class OverSpeed extends View {
     const field = scene.case.contents.fields[SPEED];
     const sign = signIn(scene, SPEED);
     const end = Math.abs(endOf(scene, SPEED));
-    this.xs = spreadLog(end * BEGIN * BEGIN, end, scene.count(POINTS, LEAST));
+    this.xs = evenlyLog(end * BEGIN * BEGIN, end, scene.count(POINTS, LEAST));
     const signed = this.xs.map((value) => sign * value);
     this.found = scene.evaluate({ [SPEED]: inSiUnit(signed, field) }, signed.length);
     const { xs, found } = this;
@@ -282,8 +282,8 @@ export class EfficiencyMap extends View {
     const { fields } = scene.case.contents;
     const count = scene.count(CELLS * CELLS, 49) < CELLS * CELLS ? 7 : CELLS;
     const ends = [endOf(scene, LOAD), endOf(scene, SPEED)];
-    this.loads = spread(ends[0] / (2 * count), ends[0] - ends[0] / (2 * count), count);
-    this.speeds = spread(ends[1] / (2 * count), ends[1] - ends[1] / (2 * count), count);
+    this.loads = evenly(ends[0] / (2 * count), ends[0] - ends[0] / (2 * count), count);
+    this.speeds = evenly(ends[1] / (2 * count), ends[1] - ends[1] / (2 * count), count);
     const whole = Array.from({ length: count * count }, (_, place) => place);
     const loads = whole.map((place) => this.loads[(place - (place % count)) / count]);
     const speeds = whole.map((place) => this.speeds[place % count]);
@@ -366,7 +366,7 @@ export class Temperatures extends View {
     const { fields, results } = scene.case.contents;
     const end = endOf(scene, SPEED);
     const count = scene.count(3 * POINTS, 3 * LEAST) / 3;
-    this.xs = spread(end * BEGIN, end, Math.floor(count));
+    this.xs = evenly(end * BEGIN, end, Math.floor(count));
     const speeds = inSiUnit(this.xs, fields[SPEED]);
     const colours = ["accent", "ink", "second"].map(colourOf);
     const present = scene.case.shown("temperature");

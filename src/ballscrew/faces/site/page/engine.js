@@ -1,92 +1,292 @@
 // The model: modules of WebAssembly, each the recording of a model and a kind of nut with all its numbers as inputs.
-// Nothing is computed here but places in memory.
+// Nothing is computed here but places in memory, and which ball is the greatest.
 
 /**
  * A function of a module, as the contents name it.
  * @typedef {{function: string, inputs: string[], outputs: string[], constants: Record<string, number>}} Spec
+ * Numbers by name: one for all points, or one for each; null is none.
+ * @typedef {Record<string, number | ArrayLike<number> | null>} Values
+ * @typedef {Record<string, Float64Array>} Found
+ * A nut whose balls are solved one by one.
+ * @typedef {{
+ *   halves: number, four_contacts: boolean, swells: boolean, numbers: Spec, points: Spec, behind: Spec,
+ *   ball: {function: string, inputs: [string, string][], outputs: string[], reduced: string[]},
+ *   reductions: [string, string, number | null][], tile: number, solver: string[],
+ * }} ByBall
+ * @typedef {{file: string, by_ball?: ByBall} & Spec} Structure
  */
 
 /** Bytes of a page of memory, of a number, and of the stack of a module. */
 const PAGE = 65536;
 const NUMBER = 8;
 const STACK = 4 * PAGE;
+/** Room of the solver, numbers for each ball. */
+const ROOM_OF_BALL = 16;
+/** What each ball has of the solved loads, and what the nut has, in the order of the solver. */
+const OF_BALLS = ["forward_load", "backward_load", "forward_angle", "backward_angle"];
+const OF_STATE = ["deflection", "rigidity", "remaining_preload"];
+
+/**
+ * A whole number that is no less than this one, and a multiple.
+ * @param {number} number
+ * @param {number} multiple
+ */
+function upTo(number, multiple) {
+  return multiple * Math.floor((number + multiple - 1) / multiple);
+}
 
 /** One module, ready to run. */
 export class Kernel {
   /**
    * @param {WebAssembly.Instance} instance
    * @param {WebAssembly.Memory} memory
+   * @param {number} free the first byte that the module leaves alone
    */
-  constructor(instance, memory) {
+  constructor(instance, memory, free) {
     this.instance = instance;
     this.memory = memory;
+    this.free = free;
   }
 
   /**
+   * A module of the compiler of the model.
    * @param {WebAssembly.Module} module
    */
   static async of(module) {
     const memory = new WebAssembly.Memory({ initial: STACK / PAGE });
     const stack = new WebAssembly.Global({ value: "i32", mutable: true }, STACK);
     const env = { __linear_memory: memory, __stack_pointer: stack };
-    return new Kernel(await WebAssembly.instantiate(module, { env }), memory);
+    return new Kernel(await WebAssembly.instantiate(module, { env }), memory, STACK);
   }
 
   /**
-   * The outputs of a function at so many points. An input is a number, or an array with one for each point.
-   * @param {Spec} spec
-   * @param {Record<string, number | ArrayLike<number>>} values
-   * @param {number} count
-   * @returns {Record<string, Float64Array>}
+   * The solver of the balls, which has a stack of its own.
+   * @param {WebAssembly.Module} module
    */
-  evaluate(spec, values, count) {
-    const { inputs, outputs } = spec;
-    const tables = STACK;
-    const arrays = tables + 4 * (inputs.length + outputs.length + 2);
-    const first = (arrays + NUMBER - 1 - ((arrays + NUMBER - 1) % NUMBER)) / NUMBER;
-    const end = NUMBER * (first + count * (inputs.length + outputs.length));
+  static async ofSolver(module) {
+    const memory = new WebAssembly.Memory({ initial: STACK / PAGE });
+    const instance = await WebAssembly.instantiate(module, { env: { memory } });
+    const base = /** @type {WebAssembly.Global} */ (instance.exports.__heap_base);
+    return new Kernel(instance, memory, upTo(base.value, NUMBER));
+  }
+
+  /**
+   * Call a function with tables of arrays: inputs that are numbers are spread over the points.
+   * @param {string} name
+   * @param {(number | ArrayLike<number>)[]} inputs
+   * @param {number[]} sizes of the outputs
+   * @param {number} count of the points
+   * @param {(inputs: number, outputs: number, room: number) => number[]} argumentsOf by the addresses of tables and room
+   * @param {number} room numbers of work space
+   */
+  call(name, inputs, sizes, count, argumentsOf, room = 0) {
+    const tables = this.free;
+    const lengths = [...inputs.map((value) => (typeof value === "number" ? count : value.length)), ...sizes, room];
+    let end = upTo(tables + 4 * lengths.length, 2 * NUMBER);
+    const addresses = lengths.map((length) => {
+      const start = end;
+      end += NUMBER * length;
+      return start;
+    });
     const missing = end - this.memory.buffer.byteLength;
-    if (missing > 0) this.memory.grow((missing + PAGE - 1 - ((missing + PAGE - 1) % PAGE)) / PAGE);
+    if (missing > 0) this.memory.grow(upTo(missing, PAGE) / PAGE);
     // views are made after the memory has grown, which detaches those before
     const numbers = new Float64Array(this.memory.buffer);
-    const addresses = new Uint32Array(this.memory.buffer);
-    const places = [...inputs, ...outputs].map((_, i) => first + i * count);
-    places.forEach((place, i) => {
-      addresses[tables / 4 + i] = NUMBER * place;
+    new Uint32Array(this.memory.buffer, tables, lengths.length).set(addresses);
+    inputs.forEach((value, i) => {
+      const place = addresses[i] / NUMBER;
+      if (typeof value === "number") numbers.fill(value, place, place + count);
+      else numbers.set(value, place);
     });
-    inputs.forEach((name, i) => {
-      const value = values[name];
-      if (value === undefined) throw new Error(`no value of ${name}`);
-      if (typeof value === "number") numbers.fill(value, places[i], places[i] + count);
-      else numbers.set(value, places[i]);
+    const run = /** @type {Function} */ (this.instance.exports[name]);
+    run(...argumentsOf(tables, tables + 4 * inputs.length, addresses[lengths.length - 1]));
+    return sizes.map((size, i) => {
+      const place = addresses[inputs.length + i] / NUMBER;
+      return numbers.slice(place, place + size);
     });
-    const run = /** @type {Function} */ (this.instance.exports[spec.function]);
-    run(count, 1, count, tables, tables + 4 * inputs.length);
-    /** @type {Record<string, Float64Array>} */
+  }
+
+  /**
+   * The outputs of a function at so many points.
+   * @param {Spec} spec
+   * @param {Values} values
+   * @param {number} count
+   * @returns {Found}
+   */
+  evaluate(spec, values, count) {
+    const inputs = spec.inputs.map((name) => valueOf(values, name));
+    const sizes = spec.outputs.map(() => count);
+    const arrays = this.call(spec.function, inputs, sizes, count, (i, o) => [count, 1, count, i, o]);
+    /** @type {Found} */
     const found = {};
-    outputs.forEach((name, i) => {
-      const place = places[inputs.length + i];
-      found[name] = numbers.slice(place, place + count);
+    spec.outputs.forEach((name, i) => {
+      found[name] = arrays[i];
     });
     for (const [name, value] of Object.entries(spec.constants)) found[name] = new Float64Array(count).fill(value);
     return found;
   }
 }
 
+/**
+ * @param {Values} values
+ * @param {string} name
+ */
+function valueOf(values, name) {
+  const value = values[name];
+  if (value === undefined) throw new Error(`no value of ${name}`);
+  return value ?? Number.NaN; // what is not given
+}
+
+/**
+ * A nut whose balls are solved one by one: its numbers, the loads of its balls, what each point has, what each ball has,
+ * and what follows from sums over the balls.
+ * @param {Kernel} kernel
+ * @param {Kernel} solver
+ * @param {ByBall} parts
+ * @param {Values} values
+ * @param {number} count
+ * @returns {Found}
+ */
+export function evaluateByBall(kernel, solver, parts, values, count) {
+  const { ball, behind, points } = parts;
+  const loads = loadsOf(kernel, solver, parts, values, count);
+  const ofPoints = { ...values, ...loads.ofNut };
+  const tables = kernel.evaluate(points, ofPoints, count);
+  const inputs = ball.inputs.map(([source, name]) => (source === "columns" ? tables[name] : loads.ofBalls[name]));
+  // a sum has room for a vector more
+  const sizes = ball.outputs.map((name) => (ball.reduced.includes(name) ? count + 2 : loads.balls * count));
+  const arrays = kernel.call(ball.function, inputs, sizes, count, (i, o) => [count, loads.balls, parts.tile, i, o]);
+  const results = Object.fromEntries(ball.outputs.map((name, i) => [name, arrays[i]]));
+  /** @type {Float64Array[]} */
+  const reduced = [];
+  for (const [what, name, place] of parts.reductions) {
+    const array = results[name];
+    if (what === "argmax") reduced.push(placesOfGreatest(array, loads.balls, count));
+    else if (what === "take") reduced.push(taken(array, reduced[place ?? 0], count));
+    else reduced.push(array.subarray(0, count));
+  }
+  const named = Object.fromEntries(reduced.map((array, i) => [`reduced_${i}`, array]));
+  return kernel.evaluate(behind, { ...ofPoints, ...named }, count);
+}
+
+/**
+ * The loads of the balls: solved once where points differ in nothing that they depend on.
+ * @param {Kernel} kernel
+ * @param {Kernel} solver
+ * @param {ByBall} parts
+ * @param {Values} values
+ * @param {number} count
+ */
+function loadsOf(kernel, solver, parts, values, count) {
+  const varying = parts.numbers.inputs.filter((name) => typeof valueOf(values, name) !== "number");
+  /** @type {Map<string, number>} */
+  const known = new Map();
+  /** @type {number[]} */
+  const first = [];
+  const places = Array.from({ length: count }, (_, point) => {
+    const key = varying.map((name) => /** @type {ArrayLike<number>} */ (values[name])[point]).join(" ");
+    const place = known.get(key) ?? known.size;
+    if (place === known.size) {
+      known.set(key, place);
+      first.push(point);
+    }
+    return place;
+  });
+  const those = first.length;
+  const some = { ...values };
+  for (const name of varying) {
+    some[name] = first.map((point) => /** @type {ArrayLike<number>} */ (values[name])[point]);
+  }
+  const numbers = kernel.evaluate(parts.numbers, some, those);
+  const ofHalf = Math.round(numbers.balls[0]);
+  const balls = parts.halves * ofHalf;
+  const given = parts.solver.map((name) => numbers[name]);
+  const sizes = [...OF_BALLS.map(() => balls * those), ...OF_STATE.map(() => those), those];
+  const flags = [parts.halves, ofHalf, parts.four_contacts ? 1 : 0, parts.swells ? 1 : 0];
+  const found = solver.call(
+    "loads",
+    given,
+    sizes,
+    those,
+    (i, o, room) => [those, ...flags, i, o, room],
+    ROOM_OF_BALL * balls,
+  );
+  /** @type {Found} */
+  const ofBalls = {};
+  OF_BALLS.forEach((name, k) => {
+    ofBalls[name] = spread(found[k], places, those, balls, count);
+  });
+  /** @type {Found} */
+  const ofNut = {};
+  [...OF_STATE, "residual"].forEach((name, k) => {
+    ofNut[name] = spread(found[OF_BALLS.length + k], places, those, 1, count);
+  });
+  ofNut.lift_off_load = spread(numbers.lift_off_load, places, those, 1, count);
+  return { balls, ofBalls, ofNut };
+}
+
+/**
+ * Rows over some points as rows over all of them.
+ * @param {Float64Array} array
+ * @param {number[]} places of all points among these
+ * @param {number} those
+ * @param {number} rows
+ * @param {number} count
+ */
+function spread(array, places, those, rows, count) {
+  const found = new Float64Array(rows * count);
+  for (let row = 0; row < rows; row++) {
+    if (those === 1) found.fill(array[row], row * count, (row + 1) * count);
+    else for (let point = 0; point < count; point++) found[row * count + point] = array[row * those + places[point]];
+  }
+  return found;
+}
+
+/**
+ * The row of the greatest number at each point, the first of several; of a NaN before all others.
+ * @param {Float64Array} array
+ * @param {number} rows
+ * @param {number} count
+ */
+function placesOfGreatest(array, rows, count) {
+  const found = new Float64Array(count);
+  for (let point = 0; point < count; point++) {
+    let greatest = array[point];
+    for (let row = 1; row < rows && !Number.isNaN(greatest); row++) {
+      const value = array[row * count + point];
+      if (!(value <= greatest)) {
+        greatest = value;
+        found[point] = row;
+      }
+    }
+  }
+  return found;
+}
+
+/**
+ * The number at a row of each point.
+ * @param {Float64Array} array
+ * @param {Float64Array} rows
+ * @param {number} count
+ */
+function taken(array, rows, count) {
+  return Float64Array.from({ length: count }, (_, point) => array[rows[point] * count + point]);
+}
+
 /** All modules of the page: loaded when they are first asked for, and kept. */
 export class Engine {
   /** @type {Map<string, Promise<Kernel>>} */
-  #kernels = new Map();
+  #loading = new Map();
   /** @type {Map<string, Kernel>} */
   #ready = new Map();
 
   /**
-   * @param {{structures: Record<string, Spec & {file: string}>, oils: {file: string, grades: Record<string, Spec>}}} contents
-   * @param {(file: string) => Promise<WebAssembly.Module>} module the compiled module of a file
+   * @param {{structures: Record<string, Structure>, oils: {file: string, grades: Record<string, Spec>}, solver: string}} contents
+   * @param {(file: string) => Promise<WebAssembly.Module>} moduleOf the compiled module of a file
    */
-  constructor(contents, module) {
+  constructor(contents, moduleOf) {
     this.contents = contents;
-    this.module = module;
+    this.moduleOf = moduleOf;
   }
 
   /**
@@ -94,24 +294,28 @@ export class Engine {
    * @param {string} structure
    */
   async load(structure) {
-    const files = [this.contents.structures[structure].file, this.contents.oils.file];
-    await Promise.all(files.map((file) => this.#kernel(file)));
+    const { structures, oils, solver } = this.contents;
+    const { file, by_ball } = structures[structure];
+    await Promise.all([file, oils.file, ...(by_ball ? [solver] : [])].map((each) => this.#kernel(each)));
   }
 
   /** @param {string} structure */
   isReady(structure) {
-    return this.#ready.has(this.contents.structures[structure].file);
+    const { file, by_ball } = this.contents.structures[structure];
+    return this.#ready.has(file) && (!by_ball || this.#ready.has(this.contents.solver));
   }
 
   /**
    * The outputs of a model with a kind of nut at so many points; all numbers in SI.
    * @param {string} structure
-   * @param {Record<string, number | ArrayLike<number>>} values
+   * @param {Values} values
    * @param {number} count
    */
   evaluate(structure, values, count) {
-    const spec = this.contents.structures[structure];
-    return this.#loaded(spec.file).evaluate(spec, values, count);
+    const one = this.contents.structures[structure];
+    const kernel = this.#loaded(one.file);
+    if (one.by_ball === undefined) return kernel.evaluate(one, values, count);
+    return evaluateByBall(kernel, this.#loaded(this.contents.solver), one.by_ball, values, count);
   }
 
   /**
@@ -134,16 +338,16 @@ export class Engine {
 
   /** @param {string} file */
   #kernel(file) {
-    const known = this.#kernels.get(file);
+    const known = this.#loading.get(file);
     if (known !== undefined) return known;
-    const made = this.module(file)
-      .then((module) => Kernel.of(module))
+    const made = this.moduleOf(file)
+      .then((module) => (file === this.contents.solver ? Kernel.ofSolver(module) : Kernel.of(module)))
       .then((kernel) => {
         this.#ready.set(file, kernel);
         return kernel;
       });
-    this.#kernels.set(file, made);
-    made.catch(() => this.#kernels.delete(file)); // asked for again, it may be there
+    this.#loading.set(file, made);
+    made.catch(() => this.#loading.delete(file)); // asked for again, it may be there
     return made;
   }
 }

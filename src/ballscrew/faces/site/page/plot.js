@@ -36,13 +36,13 @@ export function colourOf(name) {
  * @param {number} to
  * @param {number} count
  */
-export function spread(from, to, count) {
+export function evenly(from, to, count) {
   return Float64Array.from({ length: count }, (_, place) => from + ((to - from) * place) / (count - 1));
 }
 
 /** Numbers at equal ratios. @param {number} from @param {number} to @param {number} count */
-export function spreadLog(from, to, count) {
-  return spread(Math.log10(from), Math.log10(to), count).map((exponent) => 10 ** exponent);
+export function evenlyLog(from, to, count) {
+  return evenly(Math.log10(from), Math.log10(to), count).map((exponent) => 10 ** exponent);
 }
 
 /** The least and the greatest of finite numbers, and zero. @param {ArrayLike<number>[]} rows */
