@@ -88,7 +88,9 @@ export class Case {
   fields() {
     const { grade } = this.state;
     const ofGrade = grade ? Object.keys(this.contents.fields).filter((name) => name === "temperature") : [];
-    return [...this.spec.inputs.filter((name) => !(grade && name === "viscosity")), ...ofGrade];
+    const isShown = (/** @type {string} */ name) =>
+      Object.hasOwn(this.contents.fields, name) && !(grade && name === "viscosity");
+    return [...this.spec.inputs.filter(isShown), ...ofGrade];
   }
 
   /** The oil's temperature, K. */
@@ -124,7 +126,9 @@ export class Case {
   inputs() {
     const values = this.unchanged();
     for (const [name, shown] of Object.entries(this.state.edits)) values[name] = this.inSi(name, shown);
-    return Object.fromEntries(this.spec.inputs.map((name) => [name, values[name]]));
+    // a nut may have more than its inputs: what follows from others where it is not given
+    const names = [...this.spec.inputs, ...Object.keys(this.start.nuts[this.state.kind].values)];
+    return Object.fromEntries(names.map((name) => [name, values[name]]));
   }
 
   /** @param {string} name @param {number} shown */
@@ -210,7 +214,7 @@ export class Case {
     const { screw, ...others } = this.tables();
     const { screw: begun } = this.start.tables;
     /** @type {Tables} */
-    const sections = { nut: null, losses: null, ...others };
+    const sections = { nut: null, bodies: null, losses: null, ...others };
     const parameters = new URLSearchParams({ A: this.state.start, "A.tables": JSON.stringify(sections) });
     for (const [field, value] of Object.entries(screw)) {
       if (value !== begun[field]) parameters.set(`A.screw.${field}`, String(value));
@@ -281,7 +285,8 @@ function tomlOf(tables, above = "") {
   const plain = entries.filter(([, value]) => typeof value !== "object");
   const lines = plain.map(([name, value]) => `${name} = ${JSON.stringify(value)}`);
   const sections = entries.filter(([, value]) => typeof value === "object");
-  const head = above && lines.length ? [`[${above}]`] : [];
+  const hasHead = lines.length > 0 || sections.length === 0;
+  const head = above && hasHead ? [`[${above}]`] : [];
   const inner = sections.map(([name, value]) => tomlOf(value, above ? `${above}.${name}` : name));
-  return [...(lines.length ? [[...head, ...lines, ""].join("\n")] : []), ...inner].join("\n");
+  return [...(hasHead ? [[...head, ...lines, ""].join("\n")] : []), ...inner].join("\n");
 }

@@ -12,11 +12,13 @@ const SPEED = "screw_speed";
 const LOAD = "axial_load";
 /** Points along an axis, and the least of them while a slider moves. */
 const POINTS = 161;
-const LEAST = 21;
+const LEAST = 15;
 /** Where an axis begins that cannot begin at zero, as a share of its end. */
 const BEGIN = 1 / 400;
 /** Rows and columns of the map. */
 const CELLS = 21;
+const SOME_CELLS = 11;
+const FEW_CELLS = 5;
 /** Film parameters between which film and asperities share the load. */
 const MIXED = [1, 3];
 /** Temperatures beside the present one, degC. */
@@ -280,7 +282,8 @@ export class EfficiencyMap extends View {
     const { scene, plot } = this;
     if (!plot) return;
     const { fields } = scene.case.contents;
-    const count = scene.count(CELLS * CELLS, 49) < CELLS * CELLS ? 7 : CELLS;
+    const most = scene.count(CELLS * CELLS, FEW_CELLS * FEW_CELLS);
+    const count = [CELLS, SOME_CELLS].find((each) => each * each <= most) ?? FEW_CELLS;
     const ends = [endOf(scene, LOAD), endOf(scene, SPEED)];
     this.loads = evenly(ends[0] / (2 * count), ends[0] - ends[0] / (2 * count), count);
     this.speeds = evenly(ends[1] / (2 * count), ends[1] - ends[1] / (2 * count), count);

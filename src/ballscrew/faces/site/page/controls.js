@@ -29,9 +29,30 @@ const GROUPS = [
   },
   { id: "nut", words: "Nut and thread", names: ["starts", "spacing", "axial_play"] },
   { id: "surfaces", words: "Surfaces", names: ["ball_roughness", "screw_roughness", "nut_roughness"] },
+  {
+    id: "materials",
+    words: "Materials",
+    names: [
+      "ball_material.young_modulus",
+      "screw_material.young_modulus",
+      "nut_material.young_modulus",
+      "ball_material.poisson_ratio",
+      "screw_material.poisson_ratio",
+      "nut_material.poisson_ratio",
+    ],
+  },
   { id: "oil", words: "Oil", path: "lubricant." },
   { id: "law", words: "Friction law", path: "model." },
 ];
+/** Labels of fields whose names do not say of what they are. @type {Record<string, string>} */
+const LABELS = {
+  "ball_material.young_modulus": "Young's modulus of the balls",
+  "screw_material.young_modulus": "Young's modulus of the screw",
+  "nut_material.young_modulus": "Young's modulus of the nut",
+  "ball_material.poisson_ratio": "Poisson's ratio of the balls",
+  "screw_material.poisson_ratio": "Poisson's ratio of the screw",
+  "nut_material.poisson_ratio": "Poisson's ratio of the nut",
+};
 /** Groups that stand open at first. */
 const OPEN = ["operation", "geometry"];
 /** Ranges of fields that begin at zero, in the unit they are shown in. */
@@ -44,7 +65,7 @@ const STEPS = 400;
 
 /** The name of a field for everybody. @param {Case} one @param {string} name */
 export function labelOf(one, name) {
-  return sayNamed(`field.${one.contents.fields[name].path}.label`, spaced(name));
+  return sayNamed(`field.${one.contents.fields[name].path}.label`, LABELS[name] ?? spaced(name));
 }
 
 /**
@@ -148,7 +169,13 @@ export class Controls {
     field.addEventListener("input", () => this.#take(name, numberIn(field.value), field));
     field.addEventListener("change", () => this.show(name));
     this.#rows.set(name, { slider, field, fault, range });
-    const words = element("label", { for: id, title: sayNamed(`field.${path}.help`, meaning) }, label, " ", symbolElement(symbol));
+    const words = element(
+      "label",
+      { for: id, title: sayNamed(`field.${path}.help`, meaning) },
+      label,
+      " ",
+      symbolElement(symbol),
+    );
     const entry = element("span", { class: "entry" }, field, element("span", { class: "unit" }, sign));
     return element("div", { class: "control" }, words, entry, slider, fault);
   }

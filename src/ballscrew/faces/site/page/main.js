@@ -12,8 +12,11 @@ import { byId, element, keep, kept, languageOf, say, sayNamed, speak, useWords }
 
 /** Milliseconds after the last change that the hand is at rest. */
 const REST = 160;
-/** Milliseconds of computing for one chart while a slider moves. */
+/** Milliseconds of computing for one chart while a slider moves, and when it rests. */
 const BUDGET = 8;
+const BUDGET_AT_REST = 150;
+/** Milliseconds of a point that was not measured yet: of a nut whose balls are solved one by one, and of others. */
+const USUAL_PACE = [2, 0.01];
 const SCHEME_KEPT = "ballscrew-site-scheme";
 const SCHEMES = ["light", "dark"];
 
@@ -24,6 +27,8 @@ const shownCase = new Case(contents, (grade, kelvin) => engine.oil(grade, kelvin
 const controls = new Controls(shownCase, edit);
 /** Milliseconds of a point, by structure. @type {Map<string, number>} */
 const pace = new Map();
+/** True when there are numbers to show. */
+let isThere = false;
 let isMoving = false;
 let wasThinned = false;
 let isFrameAsked = false;
@@ -46,9 +51,9 @@ const scene = {
   },
   oil: (kelvin) => engine.oil(shownCase.state.grade, kelvin, kelvin.length),
   count(whole, least) {
-    if (!isMoving) return whole;
-    const most = Math.floor(BUDGET / (pace.get(shownCase.structure) ?? 0.01));
-    if (most < whole) wasThinned = true;
+    const usual = USUAL_PACE["by_ball" in shownCase.spec ? 0 : 1];
+    const most = Math.floor((isMoving ? BUDGET : BUDGET_AT_REST) / (pace.get(shownCase.structure) ?? usual));
+    if (isMoving && most < whole) wasThinned = true;
     return Math.max(least, Math.min(whole, most));
   },
   range: (name) => controls.range(name),
@@ -115,7 +120,7 @@ function compute() {
 }
 
 function askFrame() {
-  if (isFrameAsked) return;
+  if (!isThere || isFrameAsked) return;
   isFrameAsked = true;
   requestAnimationFrame(() => {
     isFrameAsked = false;
@@ -127,7 +132,7 @@ function askFrame() {
 }
 
 function askIdle() {
-  if (isIdleAsked || !others.some((view) => view.isDirty && view.isSeen)) return;
+  if (!isThere || isIdleAsked || !others.some((view) => view.isDirty && view.isSeen)) return;
   isIdleAsked = true;
   const idle = globalThis.requestIdleCallback ?? ((/** @type {() => void} */ run) => setTimeout(run, 1));
   idle(
@@ -189,7 +194,8 @@ async function choose(state) {
   if (own !== choices) return;
   byId("trouble").textContent = "";
   shownCase.with(state).prune();
-  isMoving = false;
+  isThere = true;
+  isMoving = true; // the first picture comes soon, a better one when the hand rests
   compute();
   build();
   changed();
@@ -339,7 +345,7 @@ function followSizes() {
   );
   const sized = new ResizeObserver(() => {
     for (const view of views) view.isDirty = true;
-    if (Object.keys(scene.inputs).length) askFrame();
+    askFrame();
   });
   for (const { section } of views) {
     seen.observe(section);

@@ -7,6 +7,7 @@ const GREEK = {
   Lambda: "Λ",
   lambda: "λ",
   mu: "µ",
+  nu: "ν",
   omega: "ω",
   rho: "ρ",
   sigma: "σ",
