@@ -157,7 +157,7 @@ def _start(name: str) -> dict[str, Any]:
         values |= {n: float(subject.value_of(n)) for n, part in parts.items() if part in ("screw", "lubricant")}
         values |= {n: float(getattr(case.operation, n)) for n in OPERATION}
         tables = kinds.tables_of(name, kinds.MODELS[0], kind)
-        of_nut = {n: float(subject.value_of(n)) for n, part in parts.items() if part == "nut"}
+        of_nut: dict[str, Any] = {n: float(subject.value_of(n)) for n, part in parts.items() if part == "nut"}
         if subject.nut.bodies is not None:
             of_nut[NUT_DIAMETER] = subject.nut.bodies.nut_outer_diameter
         nuts[kind] = {

@@ -145,7 +145,7 @@ def _numbers(subject: Configuration, names: tuple[str, ...]) -> tuple[tuple[str,
     here = subject.changed({name: value for name, value in points.items() if name not in OPERATION})
     screw, nut, bodies = here.screw, here.nut, here.nut.bodies
     assert bodies is not None, "elastic bodies"
-    usual = bodies.sized(screw)
+    usual: Any = bodies.sized(screw)
     outer = np.where(np.isnan(diameter), usual.nut_outer_diameter, diameter)
     solved = elastic_nut_numbers(screw, nut, dataclasses.replace(usual, nut_outer_diameter=outer))
     load, preload = settled(points[OPERATION[0]]), preload_of_rigid_bodies(screw, nut)
