@@ -20,15 +20,7 @@ def as_document(program: Program) -> dict[str, Any]:
     """A program as lists and tables of numbers and names."""
     return {
         "inputs": program.inputs,
-        "steps": [
-            (
-                i,
-                step.function.__name__,
-                [(kind, _plain(operand)) for kind, operand in step.operands],
-                bool(step.is_mask),
-            )
-            for i, step in program.steps
-        ],
+        "steps": [(i, *_written(step)) for i, step in program.steps],
         "outputs": dict(program.outputs),
         "constants": {name: _plain(value) for name, value in program.constants.items()},
         "nonnegative": sorted(program.nonnegative),
@@ -44,6 +36,11 @@ def from_document(held: Mapping[str, Any]) -> Program:
             raise ValueError(name)
         steps.append((i, Step(function, tuple((kind, operand) for kind, operand in operands), is_mask)))
     return Program(held["inputs"], tuple(steps), held["outputs"], held["constants"], frozenset(held["nonnegative"]))
+
+
+def _written(step: Step) -> tuple[str, list[tuple[str, Any]], bool]:
+    operands = [(kind, _plain(operand)) for kind, operand in step.operands]
+    return step.function.__name__, operands, bool(step.is_mask)
 
 
 def _plain(value: Any) -> Any:
