@@ -117,10 +117,10 @@ class Judgement:
     sentences: tuple[Sentence, ...]
     #: Names of the values without which it is left out: what a part that is not there would have.
     needs: tuple[str, ...] = ()
-    #: Those of them that are truth values: masks, not numbers.
-    truths: tuple[str, ...] = ()
-    #: Names of values that may be left out or NaN.
+    #: Names of values that may be left out: numbers, which are NaN then, and truth values, which are false.
     takes: tuple[str, ...] = ()
+    #: Those of both that are truth values: masks, not numbers.
+    truths: tuple[str, ...] = ()
     #: What to give where one of its needs is not there; empty where nothing is said then.
     give: str = ""
     unit: str = "1"
@@ -152,7 +152,10 @@ class Judgement:
         of_these = (*self.needs, *self.takes)
         given = {name: _plain(values[name]) for name in of_these if values.get(name) is not None}
         with np.errstate(all="ignore"):
-            return self.formula({name: np.float64("nan") for name in self.takes} | given)
+            return self.formula({name: self._left_out(name) for name in self.takes} | given)
+
+    def _left_out(self, name: str) -> Any:
+        return np.bool_(False) if name in self.truths else np.float64("nan")
 
     def message(self, found: Mapping[str, Any], words: Mapping[str, Value]) -> Message:
         """The sentence that is said at one point."""

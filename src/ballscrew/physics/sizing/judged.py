@@ -33,7 +33,8 @@ def judged(values: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
     ``masks`` and ``numbers``: see :mod:`ballscrew.basis.judgements` for the names that are the same in all rows.
     """
     found = judgements.judged(CHECKS, values)
-    return judgements.judged((*VERDICTS, *WARNINGS), values) | found | judgements.judged([ALL_CHECKS], counted(found))
+    of_all = {name: values.get(name) for name in ALL_CHECKS.takes} | counted(found)
+    return judgements.judged((*VERDICTS, *WARNINGS), values) | found | judgements.judged([ALL_CHECKS], of_all)
 
 
 def outputs(found: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
