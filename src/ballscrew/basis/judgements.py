@@ -147,12 +147,17 @@ class Judgement:
 
         Numbers follow the rules of IEEE 754, in silence.
         """
-        if any(values.get(name) is None for name in self.needs):
-            return None
-        of_these = (*self.needs, *self.takes)
-        given = {name: _plain(values[name]) for name in of_these if values.get(name) is not None}
+        given: dict[str, Any] = {}
+        for name in self.needs:
+            value = values.get(name)
+            if value is None:
+                return None
+            given[name] = _plain(value)
+        for name in self.takes:
+            value = values.get(name)
+            given[name] = self._left_out(name) if value is None else _plain(value)
         with np.errstate(all="ignore"):
-            return self.formula({name: self._left_out(name) for name in self.takes} | given)
+            return self.formula(given)
 
     def _left_out(self, name: str) -> Any:
         return np.bool_(False) if name in self.truths else np.float64("nan")
@@ -248,4 +253,6 @@ def is_nan(value: Any) -> Mask:
 
 def _plain(value: Any) -> Any:
     """A truth value or a number as NumPy has it, of which masks can be made; others as they are."""
+    if type(value) is float:
+        return np.float64(value)
     return np.bool_(value) if isinstance(value, bool) else as_array(value)
