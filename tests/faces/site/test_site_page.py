@@ -11,8 +11,12 @@ import axe_playwright_python
 import pytest
 
 from ballscrew.cases.case_files import case_file
+from ballscrew.faces.site import site
 from ballscrew.physics.sizing.catalogue import catalogue
 
+MODELS = ("reference",)
+#: As that of the fixture: the folder below the root of the server.
+PATH = "tools/screws/"
 DOUBLE = "#start=rexroth-32x10x3.969-5-double"
 ELASTIC = "#start=hiwin-40-8k5&kind=double%2Belastic"
 AXE = (Path(axe_playwright_python.__file__).parent / "axe.min.js").read_text(encoding="utf-8")
@@ -250,3 +254,32 @@ def test_there_is_no_formula_in_the_page():
             assert set(re.findall(r"\bMath\.(\w+)", text)) <= allowed, one.name
             if "log10" in text:
                 assert one.name == "plot.js" or one.name == "charts.js"  # of axes that are logarithmic
+
+
+def test_a_link_to_what_the_page_has_not_is_said(visit):
+    here = visit().open("#start=paper&kind=double%2Bspacers&axial_load=3000&lead=-1")
+    here.page.wait_for_selector("#trouble:not(:empty)")
+    assert here.page.locator("#trouble").inner_text().endswith("without it: double+spacers, lead=-1.")
+    assert here.state()["inputs"]["axial_load"] == 3000
+
+
+@pytest.mark.parametrize("single", [False, True], ids=["folder", "one file"])
+def test_it_opens_from_files(visit, folder, tmp_path, single):
+    if single:
+        site.write(tmp_path / "page.html", site.site(MODELS, ("row",), single=True))
+    page = tmp_path / "page.html" if single else folder / PATH / "index.html"
+    here = visit(at=page.as_uri()).open()
+    found = here.slide("operation.axial_load", 3000)
+    assert found["outputs"]["screw_torque"] == pytest.approx(torque_of(found["case"]), rel=TOLERANCE, abs=0)
+
+
+def test_it_opens_without_a_network_after_the_first_visit(visit):
+    here = visit().open()
+    here.page.evaluate("navigator.serviceWorker.ready.then(() => 0)")
+    here.page.context.set_offline(True)
+    here.open("?again")
+    found = here.slide("operation.axial_load", 3000)
+    assert found["outputs"]["screw_torque"] == pytest.approx(torque_of(found["case"]), rel=TOLERANCE, abs=0)
+    digest = here.page.evaluate("globalThis.ballscrewSite.digest")
+    assert here.page.locator("#version").inner_text().endswith(digest)
+    assert here.page.evaluate("caches.keys()") == [f"ballscrew-{digest}"]
