@@ -225,7 +225,7 @@ def checks(
     values = {
         "screw_speed": screw_speed,
         "pitch_circle_diameter": screw.pitch_circle_diameter,
-        "root_diameter": _groove_bottom(screw) if root_diameter is None else root_diameter,
+        "root_diameter": groove_bottom(screw) if root_diameter is None else root_diameter,
         "young_modulus": screw.screw_material.young_modulus,
         "half_load": half,
         "other_half_load": other[0] if other else 0.0,
@@ -286,7 +286,8 @@ def _raise_for_nonsense(
     raise_if_any(faults)
 
 
-def _groove_bottom(screw: BallScrew) -> Length:
+def groove_bottom(screw: BallScrew) -> Length:
+    """The diameter at the bottom of the groove of a screw, from its conformity."""
     return geometry.groove_root_diameter(
         screw.pitch_circle_diameter, screw.ball_diameter, screw.screw_conformity, screw.contact_angle
     )

@@ -36,6 +36,9 @@ GRADE, TEMPERATURE, SPEED, SHARE_OF_RATING = "ISO VG 100", "40 degC", "600 rpm",
 #: The fields of the ratings, by the names of the case file.
 RATINGS: Mapping[str, str] = {"dynamic_load_rating": "dynamic", "static_load_rating": "static"}
 
+#: The verdict on all checks of a result outside the model's validity.
+OUTSIDE = Message("{verdict}; outside the model's validity")
+
 
 class Options(NamedTuple):
     """Options of the command line: values by section.field, settings, and the names of a model and a calibration."""
@@ -109,7 +112,7 @@ class Checked:
         """All checks in a few words; of what, where the case has a cycle too."""
         found = verdict_of(self.checks)
         if not self.run.friction.valid:
-            found = Message("{verdict}; outside the model's validity", {"verdict": found})
+            found = OUTSIDE.of(verdict=found)
         return Message("this operating point for ever: {verdict}", {"verdict": found}) if self.moves else found
 
     @property
