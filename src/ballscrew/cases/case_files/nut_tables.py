@@ -28,6 +28,8 @@ from ballscrew.physics.sizing.ratings import Ratings, rated_geometry_of, ratings
 
 #: The nut of a case that names one without preload.
 SINGLE = SingleNut(angle_under_load=True)
+#: Where a load rating is from: listed, or computed.
+RATING_SOURCES = ("as listed", "computed from the geometry (ISO 3408-5)")
 #: The geometry that ratings follow from.
 _RATED = ("pitch_circle_diameter", "lead", "ball_diameter", "loaded_balls", "contact_angle", "starts")
 #: What a screw with a nut consists of besides its balls.
@@ -85,8 +87,8 @@ def root_diameter(screw: BallScrew, listed: Mapping[str, float]) -> float:
 def dynamic_rating(screw: BallScrew, row: CatalogueRow | None, listed: Mapping[str, float]) -> tuple[float, str]:
     """The dynamic load rating of one nut body and where it is from. Raises ``InputError`` where there is none."""
     if "dynamic_load_rating" in listed:
-        return listed["dynamic_load_rating"], "as listed"
-    return ratings(screw, row).dynamic, "computed from the geometry (ISO 3408-5)"
+        return listed["dynamic_load_rating"], RATING_SOURCES[0]
+    return ratings(screw, row).dynamic, RATING_SOURCES[1]
 
 
 def seal_torque_source(row: CatalogueRow | None, nut: Nut) -> str:

@@ -13,20 +13,27 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ballscrew.basis.quantities import Info, Quantity, quantities_of
 from ballscrew.compiler.kernels import wasm
 from ballscrew.compiler.kernels.emission import kernel_text
 from ballscrew.compiler.tracing.merging import merged_program
 from ballscrew.compiler.tracing.program import Program, Renumbering, Source
 from ballscrew.compiler.tracing.tape import Tape
 from ballscrew.engine.evaluation.by_ball import stages_by_ball
-from ballscrew.engine.evaluation.outputs import OF_LOADS, OPERATION, known_outputs
+from ballscrew.engine.evaluation.outputs import OF_LOADS, OPERATION, Output, known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.evaluation.structures import OF_BALLS, inputs_of_structure, recorded_structure
 from ballscrew.faces.site import kinds
 from ballscrew.physics.components.materials import OF_A_GRADE, TEMPERATURE, Lubricant, grades, nominal_oil
 from ballscrew.physics.components.oil_grades import OilState
 from ballscrew.physics.components.operating_state import settled
-from ballscrew.physics.solvers.load_distribution import elastic_nut_numbers, lift_off_load, preload_of_rigid_bodies
+from ballscrew.physics.friction.touching import MostLoadedBall, most_loaded_ball
+from ballscrew.physics.solvers.load_distribution import (
+    BallLoads,
+    elastic_nut_numbers,
+    lift_off_load,
+    preload_of_rigid_bodies,
+)
 
 #: What a module gives, where the nut has it, besides the parts of the torque and the conditions of validity.
 OUTPUTS = (
@@ -34,8 +41,25 @@ OUTPUTS = (
     "back_driving_efficiency", "contact_load", "largest_contact_load", "maximum_pressure", "minimum_film_parameter",
     "screw_film_parameter", "nut_film_parameter", "screw_friction_coefficient", "nut_friction_coefficient",
     "screw_maximum_pressure", "nut_maximum_pressure", "rolling_share", "deflection", "rigidity", "remaining_preload",
-    "lift_off_load", "residual", "valid",
+    "lift_off_load", "residual", "valid", "screw_semi_major_axis", "nut_semi_major_axis",
 )  # fmt: skip
+#: What a module gives besides, of which sweeps do not ask: how far powers differ, and what the most loaded ball carries.
+BALL = MostLoadedBall._fields
+_BESIDE: Mapping[str, Output] = {
+    "power_imbalance": Output(
+        "power_imbalance",
+        Quantity("power_imbalance", "1", Info("", "power of the torque beyond what is dissipated, as a share of that")),
+        lambda result: result.power_imbalance,
+    ),
+    **{
+        name: Output(
+            name,
+            quantities_of(BallLoads)[name],
+            lambda result, n=name: getattr(most_loaded_ball(result.loads), n),
+        )
+        for name in BALL
+    },
+}
 _PARTS = ("contribution_", "validity_")
 #: The diameter of an elastic nut; NaN for one of the usual size.
 NUT_DIAMETER = "bodies.nut_outer_diameter"
@@ -101,10 +125,11 @@ def module_of_structure(model: str, kind: str) -> Module:
     names = inputs_of_structure(subject)
     known = known_outputs(subject.nut)
     wanted = {n: output for n, output in known.items() if n in OUTPUTS or n.startswith(_PARTS)}
-    program = recorded_structure(subject, wanted, names)
+    beside = _BESIDE if not subject.nut.is_row else {n: one for n, one in _BESIDE.items() if n not in BALL}
+    program = recorded_structure(subject, wanted | beside, names)
     if subject.nut.one_by_one:
         return _by_ball(subject, names, program)
-    return _compiled([("evaluate", names, program)])
+    return compiled([("evaluate", names, program)])
 
 
 def _by_ball(subject: Configuration, names: tuple[str, ...], program: Program) -> Module:
@@ -174,7 +199,7 @@ def module_of_oils() -> Module:
         state = _at(grade, tape.value(0))
         program = merged_program(tape, {name: getattr(state, name) for name in wanted})
         programs.append((f"oil_{place}", (TEMPERATURE.name,), program))
-    return _compiled(programs)
+    return compiled(programs)
 
 
 def _at(grade: str, temperature: Any) -> OilState:
@@ -183,7 +208,7 @@ def _at(grade: str, temperature: Any) -> OilState:
     return nominal_oil(dataclasses.replace(oil, temperature=temperature))
 
 
-def _compiled(programs: Sequence[tuple[str, tuple[str, ...], Program]]) -> Module:
+def compiled(programs: Sequence[tuple[str, tuple[str, ...], Program]]) -> Module:
     """Functions over points as one module."""
     parts, functions = _functions(programs)
     return Module(wasm.module_of(parts), functions)

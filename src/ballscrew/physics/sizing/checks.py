@@ -34,6 +34,8 @@ SOURCES = cast("Mapping[str, Source]", {row.name: row.source for row in CHECKS})
 _SINGLE = SingleNut()
 _USUAL = Limits()
 _PASSES = Message("passes")
+#: Whose limit of the DN value it is, where one is given.
+GIVEN_LIMIT = Message("that was given")
 
 
 @accepts_units("checks")
@@ -221,7 +223,7 @@ def checks(
     recalled = closed or "static_load_rating" in computed_ratings
     known = GENERAL if speed_limit is None else speed_limit
     if limits.diameter_speed_product is not None:
-        known = SpeedLimit(limits.diameter_speed_product, Message("that was given"))
+        known = SpeedLimit(limits.diameter_speed_product, GIVEN_LIMIT)
     values = {
         "screw_speed": screw_speed,
         "pitch_circle_diameter": screw.pitch_circle_diameter,
