@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from ballscrew.basis.errors import ImplausibleInput, is_concrete, shown_in_si
-from ballscrew.basis.quantities import Quantity, fields_of, quantities_of
+from ballscrew.basis.quantities import Info, Mask, Quantity, fields_of, quantities_of
 from ballscrew.basis.records import Measured, Message, Record
 
 #: The id of the warning, whose last part is its name.
@@ -80,6 +80,16 @@ def _maker() -> tuple[FrameType | None, int]:
     while frame is not None and frame.f_code.co_name in _MAKING:
         frame, level = frame.f_back, level + 1
     return frame, level
+
+
+def is_unusual(info: Info, value: Any) -> Mask:
+    """Mask: a value is outside the usual range of a quantity. Elementwise: numbers, and values that are recorded.
+
+    Where the bound is zero and the range begins above it, zero says that there is none.
+    """
+    low, high = info.usual or (-np.inf, np.inf)
+    beyond = (value < low) | (value > high)
+    return beyond & (value != 0) if low > 0 and info.at_least == 0 else beyond
 
 
 def _farthest_out(quantity: Quantity, values: Any) -> float | None:

@@ -20,10 +20,11 @@ from ballscrew.compiler.tracing.merging import merged_program
 from ballscrew.compiler.tracing.program import Program, Renumbering, Source
 from ballscrew.compiler.tracing.tape import Tape
 from ballscrew.engine.evaluation.by_ball import stages_by_ball
-from ballscrew.engine.evaluation.outputs import OF_LOADS, OPERATION, known_outputs
+from ballscrew.engine.evaluation.outputs import OF_LOADS, OPERATION, Output, known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.evaluation.structures import OF_BALLS, inputs_of_structure, recorded_structure
 from ballscrew.physics.components.materials import OF_A_GRADE, TEMPERATURE, Lubricant, grades, nominal_oil
+from ballscrew.physics.components.nut import Nut
 from ballscrew.physics.components.oil_grades import OilState
 from ballscrew.physics.components.operating_state import settled
 from ballscrew.physics.solvers.load_distribution import (
@@ -39,7 +40,7 @@ OUTPUTS = (
     "back_driving_efficiency", "contact_load", "largest_contact_load", "maximum_pressure", "minimum_film_parameter",
     "screw_film_parameter", "nut_film_parameter", "screw_friction_coefficient", "nut_friction_coefficient",
     "screw_maximum_pressure", "nut_maximum_pressure", "rolling_share", "deflection", "rigidity", "remaining_preload",
-    "lift_off_load", "residual", "valid",
+    "lift_off_load", "residual", "valid", "screw_semi_major_axis", "nut_semi_major_axis",
 )  # fmt: skip
 _PARTS = ("contribution_", "validity_")
 #: The diameter of an elastic nut; NaN for one of the usual size.
@@ -164,19 +165,21 @@ def _parted(parts: ByBall | None) -> dict[str, Any]:
     return {"by_ball": found}
 
 
-def module_of(subject: Configuration, outputs: Collection[str] = OUTPUTS) -> Module:
-    """The module of a configuration whose oil is its numbers alone, with some outputs and with all parts of the torque.
+def outputs_shown(nut: Nut, names: Collection[str] = OUTPUTS) -> dict[str, Output]:
+    """Outputs of these names, where the nut has them, and all parts of the torque and conditions of validity."""
+    return {n: output for n, output in known_outputs(nut).items() if n in names or n.startswith(_PARTS)}
 
-    Outputs that such a nut has not are left out. Raises
-    :class:`~ballscrew.compiler.tracing.tape.CannotRecordError` for what cannot be recorded.
+
+def module_of(subject: Configuration, wanted: Mapping[str, Output]) -> Module:
+    """The module of a configuration whose oil is its numbers alone, with some outputs.
+
+    Raises :class:`~ballscrew.compiler.tracing.tape.CannotRecordError` for what cannot be recorded.
     """
     names = inputs_of_structure(subject)
-    known = known_outputs(subject.nut)
-    wanted = {n: output for n, output in known.items() if n in outputs or n.startswith(_PARTS)}
     program = recorded_structure(subject, wanted, names)
     if subject.nut.one_by_one:
         return _by_ball(subject, names, program)
-    return _compiled([("evaluate", names, program)])
+    return compiled([("evaluate", names, program)])
 
 
 def _by_ball(subject: Configuration, names: tuple[str, ...], program: Program) -> Module:
@@ -246,7 +249,7 @@ def module_of_oils() -> Module:
         state = _at(grade, tape.value(0))
         program = merged_program(tape, {name: getattr(state, name) for name in wanted})
         programs.append((f"oil_{place}", (TEMPERATURE.name,), program))
-    return _compiled(programs)
+    return compiled(programs)
 
 
 def _at(grade: str, temperature: Any) -> OilState:
@@ -255,7 +258,7 @@ def _at(grade: str, temperature: Any) -> OilState:
     return nominal_oil(dataclasses.replace(oil, temperature=temperature))
 
 
-def _compiled(programs: Sequence[tuple[str, tuple[str, ...], Program]]) -> Module:
+def compiled(programs: Sequence[tuple[str, tuple[str, ...], Program]]) -> Module:
     """Functions over points as one module."""
     parts, functions = _functions(programs)
     return Module(wasm.module_of(parts), functions)

@@ -43,21 +43,24 @@ def points_of(subject, count, seed=1):
 
 def compare(subject, points, found):
     result = subject.at({name: values[0] if name in WHOLE else values for name, values in points.items()})
-    known = known_outputs(subject.nut)
+    known = modules.outputs_of(subject.nut)
     count = len(points["axial_load"])
     torque = np.abs(np.broadcast_to(result.screw_torque, count))
-    assert {"screw_torque", "efficiency", "valid", "contribution_spin"} <= found.keys() <= known.keys()
+    assert {"screw_torque", "efficiency", "valid", "contribution_spin"} <= found.keys() == known.keys()
     for name, values in found.items():
         expected = np.broadcast_to(np.asarray(known[name].read(result), dtype=float), count)
         assert np.array_equal(np.isnan(expected), np.isnan(values)), name
         if known[name].dtype is bool:
             assert np.array_equal(expected, values), name
             continue
+        if name in modules.BALL and subject.nut.one_by_one:  # without load the most loaded ball is one of many
+            values, expected = (np.where(points["axial_load"] == 0, 0.0, each) for each in (values, expected))
         if name == "residual":  # what is left of a balance is rounding
             assert np.nanmax(values) < 1e-9
             continue
         size = torque if name.startswith("contribution_") else np.abs(expected)
-        floor = 1e-18 if name == "deflection" else 0.0  # metres: without load, nothing
+        # metres, where without load there are none, and a share of powers that are equal
+        floor = {"deflection": 1e-18, "power_imbalance": 1e-12}.get(name, 0.0)
         with np.errstate(invalid="ignore"):
             near = (values == expected) | (np.abs(values - expected) <= LOOSE.get(name, 1e-12) * size + floor)
         assert np.all(near | np.isnan(expected)), (name, np.nanmax(np.abs(values - expected)))
@@ -98,7 +101,7 @@ def test_a_curve_over_the_speed_solves_the_balls_once_and_is_that_of_the_model(b
 def test_two_builds_are_equal_and_a_kept_one_is_the_same(structure, tmp_path, monkeypatch):
     monkeypatch.setenv("BALLSCREW_CACHE", str(tmp_path))
     made = modules.module_of_structure(*structure)
-    assert made == modules.module_of(start_of(structure))
+    assert made == modules.module_of(start_of(structure), modules.outputs_of(start_of(structure).screw.nut))
     assert made.described == modules.module_of_structure(*structure).described  # from the disk
     assert made == modules.module_of_structure(*structure)
     monkeypatch.setattr(modules, "module_of", None)  # not made again

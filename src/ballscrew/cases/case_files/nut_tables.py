@@ -19,15 +19,17 @@ from ballscrew.cases.screw_tables.nut_kinds import ENDS, LOSSES, NUT_FIELDS, NUT
 from ballscrew.physics.components.nut import Bodies, Nut, Scatter, SingleNut
 from ballscrew.physics.components.nut_losses import ParasiticLaw
 from ballscrew.physics.components.screw import SINGLE_NUT, BallScrew
-from ballscrew.physics.equations import geometry
 from ballscrew.physics.sizing.catalogue import TURNS_WITHOUT_LOAD, CatalogueRow, is_shipped
+from ballscrew.physics.sizing.checks import groove_bottom
 from ballscrew.physics.sizing.installation import Installation, Limits
 from ballscrew.physics.sizing.listed_nut import lists_preload
 from ballscrew.physics.sizing.listed_nut import nut_of as listed_nut
-from ballscrew.physics.sizing.ratings import Ratings, ratings_of
+from ballscrew.physics.sizing.ratings import Ratings, rated_geometry_of, ratings_of
 
 #: The nut of a case that names one without preload.
 SINGLE = SingleNut(angle_under_load=True)
+#: Where a load rating is from: listed, or computed.
+RATING_SOURCES = ("as listed", "computed from the geometry (ISO 3408-5)")
 #: The geometry that ratings follow from.
 _RATED = ("pitch_circle_diameter", "lead", "ball_diameter", "loaded_balls", "contact_angle", "starts")
 #: What a screw with a nut consists of besides its balls.
@@ -53,8 +55,10 @@ def ratings(screw: BallScrew, row: CatalogueRow | None) -> Ratings:
     """The ratings of a screw by its geometry. Raises ``InputError`` for one that no catalogue could have."""
     made = None if row is None else row.screw()
     same = made is not None and all(getattr(made, name) == getattr(screw, name) for name in _RATED)
-    like = dataclasses.replace(row, spacer_balls=screw.nut.spacer_balls) if row is not None and same else _as_row(screw)
-    return ratings_of(like)
+    if row is not None and same:
+        return ratings_of(dataclasses.replace(row, spacer_balls=screw.nut.spacer_balls))
+    _as_row(screw)
+    return ratings_of(rated_geometry_of(screw))
 
 
 def _as_row(screw: BallScrew) -> CatalogueRow:
@@ -77,18 +81,14 @@ def _as_row(screw: BallScrew) -> CatalogueRow:
 
 def root_diameter(screw: BallScrew, listed: Mapping[str, float]) -> float:
     """The diameter at the bottom of the groove: listed, or from the conformity."""
-    return listed.get("root_diameter") or float(
-        geometry.groove_root_diameter(
-            screw.pitch_circle_diameter, screw.ball_diameter, screw.screw_conformity, screw.contact_angle
-        )
-    )
+    return listed.get("root_diameter") or float(groove_bottom(screw))
 
 
 def dynamic_rating(screw: BallScrew, row: CatalogueRow | None, listed: Mapping[str, float]) -> tuple[float, str]:
     """The dynamic load rating of one nut body and where it is from. Raises ``InputError`` where there is none."""
     if "dynamic_load_rating" in listed:
-        return listed["dynamic_load_rating"], "as listed"
-    return ratings(screw, row).dynamic, "computed from the geometry (ISO 3408-5)"
+        return listed["dynamic_load_rating"], RATING_SOURCES[0]
+    return ratings(screw, row).dynamic, RATING_SOURCES[1]
 
 
 def seal_torque_source(row: CatalogueRow | None, nut: Nut) -> str:

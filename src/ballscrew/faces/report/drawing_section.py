@@ -13,6 +13,7 @@ from ballscrew.basis.records import Measured, Message
 from ballscrew.faces.report import svg
 from ballscrew.faces.report.contact_geometry import DrawnBall
 from ballscrew.faces.report.svg import FAINT, GREEN, LINE, TEXT, TITLE, Panel, Point
+from ballscrew.physics.components.ball_section import Arc, contact_width, land_height
 from ballscrew.physics.components.contact import RaceState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.questions.run.nut_state import Touching
@@ -20,8 +21,6 @@ from ballscrew.questions.run.nut_state import Touching
 #: The middle of the ball, and its radius.
 BALL, RADIUS = (122.0, 158.0), 78.0
 _HALF_WIDTH, _BODY = 116.0, 44.0
-#: How far the grooves go up the ball, of its radius, or of the height of its contacts: catalogues do not say.
-_LAND, _LAND_OF_CONTACT = 0.35, 0.6
 
 
 class _Words(NamedTuple):
@@ -51,40 +50,33 @@ _LENGTH, _ANGLE, _LOAD = _SCREW["ball_diameter"], _SCREW["contact_angle"], quant
 
 
 class Groove:
-    """One flank of a groove as an arc that touches the ball, in drawing units."""
+    """One flank of a groove as an arc that touches the ball, in drawing units: y points down."""
 
     def __init__(self, conformity: float, angle: float, side: int, down: int) -> None:
-        self.radius = 2 * conformity * RADIUS
-        #: From the middle of the ball to the contact, y downwards; nut contacts of the loaded side lie to the right.
-        self.normal = (-down * side * math.sin(angle), down * math.cos(angle))
-        self.contact = (BALL[0] + RADIUS * self.normal[0], BALL[1] + RADIUS * self.normal[1])
-        lever = RADIUS - self.radius
-        self.middle = (BALL[0] + lever * self.normal[0], BALL[1] + lever * self.normal[1])
-        self.down = down
+        self._arc = Arc.of(RADIUS, conformity, angle, loaded=side > 0, outward=-down)
+        self.radius = self._arc.radius
+        #: From the middle of the ball to the contact; nut contacts of the loaded side lie to the right.
+        self.normal = (self._arc.normal[0], -self._arc.normal[1])
+        self.contact = _on_paper(self._arc.contact)
+        self.middle = _on_paper(self._arc.middle)
 
     @property
     def bottom(self) -> Point:
         """Point where the two flanks of the groove meet."""
-        off = BALL[0] - self.middle[0]
-        return BALL[0], self.middle[1] + self.down * math.sqrt(self.radius**2 - off**2)
+        return _on_paper(self._arc.bottom)
 
     def edge(self, land: float) -> Point:
         """End of the groove, at a height over the middle of the ball."""
-        y = BALL[1] + self.down * land
-        half = math.sqrt(max(self.radius**2 - (y - self.middle[1]) ** 2, 0.0))
-        return self.middle[0] + math.copysign(half, self.normal[0]), y
+        return _on_paper(self._arc.edge(land))
 
     def around(self, half_width: float) -> tuple[Point, Point]:
         """The ends of a stretch of the arc to both sides of the contact."""
-        turn = min(half_width / self.radius, 1.0)
-        first, last = (
-            (
-                self.middle[0] + self.radius * (self.normal[0] * math.cos(t) - self.normal[1] * math.sin(t)),
-                self.middle[1] + self.radius * (self.normal[1] * math.cos(t) + self.normal[0] * math.sin(t)),
-            )
-            for t in (-turn, turn)
-        )
-        return first, last
+        first, last = self._arc.around(half_width)
+        return _on_paper(first), _on_paper(last)
+
+
+def _on_paper(place: tuple[float, float]) -> Point:
+    return float(BALL[0] + place[0]), float(BALL[1] - place[1])
 
 
 def section(ball: DrawnBall) -> Panel:
@@ -92,8 +84,7 @@ def section(ball: DrawnBall) -> Panel:
     flanks = {flank.side: flank for flank in ball.flanks}
     main = max(ball.flanks, key=lambda flank: flank.load)
     parts: list[svg.Part] = [svg.text((8, 20), Message("Section across the path"), TITLE, font_weight="bold")]
-    lowest = min(math.cos(flank.angle) for flank in ball.flanks)
-    land = RADIUS * min(_LAND, _LAND_OF_CONTACT * lowest)
+    land = float(land_height(RADIUS, max(flank.angle for flank in ball.flanks)))
     for conformity, down, name in (
         (ball.nut_conformity, -1, Message("nut")),
         (ball.screw_conformity, 1, Message("screw")),
@@ -156,8 +147,7 @@ def _normal(ball: DrawnBall, flank: Touching) -> list[str]:
     widths = (0.0, 0.0) if contact is None else (contact.on_nut, contact.semi_major_axis)
     for groove, wide in zip(pair, widths, strict=True):
         if flank.load > 0 and wide > 0:
-            # Hertz: as the cube root of the load
-            start, end = groove.around(wide * _scale(ball) * (flank.load / ball.load) ** (1 / 3))
+            start, end = groove.around(float(contact_width(wide * _scale(ball), flank.load, ball.load)))
             parts.append(svg.path([svg.to(start, "M"), _arc_to(groove, start, end)], stroke=GREEN, stroke_width=4.5))
         parts.append(svg.circle(groove.contact, 2.6, fill="currentColor", stroke="none"))
     return parts

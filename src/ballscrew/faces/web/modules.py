@@ -24,7 +24,16 @@ from ballscrew.engine.evaluation.fingerprint import recorder_digest
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.evaluation.structure_kernels import name_of
 from ballscrew.engine.evaluation.structures import inputs_of_structure
-from ballscrew.exports.wasm_modules import OUTPUTS, Module, described, module_of, module_of_oils, module_of_solver, oils
+from ballscrew.exports.wasm_modules import (
+    OUTPUTS,
+    Module,
+    described,
+    module_of,
+    module_of_oils,
+    module_of_solver,
+    oils,
+    outputs_shown,
+)
 from ballscrew.physics.components.contact import RaceState
 
 #: What the page shows of an answer, where the nut has it.
@@ -66,7 +75,7 @@ class Modules:
 
         Raises :class:`NotMadeError` for one that has none.
         """
-        return self._get(_name(subject), lambda: _of_module(module_of(subject, SHOWN)))
+        return self._get(_name(subject), lambda: _of_module(module_of(subject, outputs_shown(subject.nut, SHOWN))))
 
     def of_oils(self) -> KeptModule | None:
         """The module of all grades of oil; None while it is made."""

@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from ballscrew.basis.arrays import as_array, namespace
 from ballscrew.basis.errors import shown_in_si
-from ballscrew.basis.quantities import Angle, Count, Force, Info, Length, Quantity, Ratio
+from ballscrew.basis.quantities import Angle, Count, Force, Info, Length, Mask, Quantity, Ratio
 from ballscrew.basis.records import Measured, Message, Record
 from ballscrew.basis.usual_ranges import IMPLAUSIBLE
 from ballscrew.physics.components.nut import PRELOAD
@@ -46,12 +47,18 @@ def dynamic_load_rating(
 
 def rating_of(screw: Any) -> Force:
     """Dynamic axial load rating of one nut body of a ball screw by its geometry; NaN where there is none."""
-    d_m, d_w, phi = (np.asarray(v, float) for v in (screw.pitch_circle_diameter, screw.ball_diameter, screw.lead_angle))
+    d_m, d_w, phi = (as_array(v) for v in (screw.pitch_circle_diameter, screw.ball_diameter, screw.lead_angle))
     with np.errstate(all="ignore"):
         in_a_turn = np.floor(np.pi * d_m / d_w / np.cos(phi))
         carrying = in_a_turn * screw.carrying_balls / screw.loaded_balls
         turns = screw.loaded_balls / in_a_turn
         return dynamic_load_rating(d_m, d_w, screw.contact_angle, phi, carrying, turns)
+
+
+def is_odd_preload(preload: Force, rating: Force) -> Mask:
+    """Mask: a preload that no nut with this dynamic load rating has; no preload at all is fine. Elementwise."""
+    share, (low, high) = preload / rating, PRELOAD_SHARES
+    return (preload > 0) & namespace(share).isfinite(share) & ((share < low) | (share > high))
 
 
 def odd_preload(screw: Any) -> list[Record]:
@@ -66,7 +73,7 @@ def odd_preload(screw: Any) -> list[Record]:
     with np.errstate(all="ignore"):
         shares = preloads / ratings
         low, high = PRELOAD_SHARES
-        odd = (preloads > 0) & np.isfinite(shares) & ((shares < low) | (shares > high))
+        odd = is_odd_preload(preloads, ratings)
         if not odd.any():
             return []
         at = int(np.argmax(np.where(odd, np.maximum(low / shares, shares / high), 0.0)))

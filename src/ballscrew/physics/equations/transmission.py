@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ballscrew.basis.arrays import namespace
-from ballscrew.basis.quantities import Angle, Count, Force, Length, Ratio, Torque
+from ballscrew.basis.quantities import Angle, AngularSpeed, Count, Force, Length, Ratio, Speed, Torque
 
 
 def contact_load(axial_load: Force, loaded_balls: Count, contact_angle: Angle, lead_angle: Angle) -> Force:
@@ -27,6 +27,16 @@ def ideal_torque(axial_load: Force, lead: Length) -> Torque:
     F, P_h = axial_load, lead
     xp = namespace(F, P_h)
     return F * P_h / (2 * xp.pi)
+
+
+def nut_speed(screw_speed: AngularSpeed, lead: Length) -> Speed:
+    r"""Speed of the nut along the screw, which moves it by its lead in each turn.
+
+    .. math:: v_n = \frac{\omega P_h}{2 \pi}
+    """
+    omega, P_h = screw_speed, lead
+    xp = namespace(omega, P_h)
+    return omega * P_h / (2 * xp.pi)
 
 
 def ideal_torque_printed(

@@ -26,7 +26,7 @@ import numpy as np
 
 from ballscrew.basis.arrays import namespace, where
 from ballscrew.basis.judgements import Judgement, Sentence, Shown, Words, at_least, at_most, is_nan
-from ballscrew.basis.quantities import Force
+from ballscrew.basis.quantities import Force, Mask
 from ballscrew.basis.records import Message
 from ballscrew.physics.equations import life, shaft
 from ballscrew.physics.friction.validity import LARGEST_PRESSURE
@@ -270,12 +270,16 @@ def _all_checks(of: Mapping[str, Any]) -> Mapping[str, Any]:
     }
 
 
-def counted(found: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
-    """How many checks there are, were judged and fail, by what their rows give; nothing where none is judged."""
+def counted(found: Mapping[str, Mapping[str, Any]], given: Mapping[str, Mask] | None = None) -> dict[str, Any]:
+    """How many checks there are, were judged and fail, by what their rows give; nothing where none is judged.
+
+    ``given`` has a mask for each id: what the check needs is given. Without it, what the rows need is.
+    """
     judged: Any = 0.0
     failing: Any = 0.0
-    for row in found.values():
+    for name, row in found.items():
         is_judged = row.get("judged", np.bool_(True))
+        is_judged = is_judged if given is None else given[name] & is_judged
         judged = judged + where(is_judged, 1.0, 0.0)
         failing = failing + where(is_judged & namespace(row["holds"]).logical_not(row["holds"]), 1.0, 0.0)
     numbers = {"checks.judged": judged, "checks.failing": failing, "checks.all": float(len(CHECKS))}
@@ -289,8 +293,10 @@ _IN_FEW_WORDS = (
     Sentence(Message("passes"), "passes"),
     Sentence(Message("{judged} of {all} judged, and these hold"), places=_COUNT),
 )
+#: The verdict on all checks of a result outside the model's validity.
+OUTSIDE = Message("{verdict}; outside the model's validity")
 _WITH_VALIDITY = (
-    Sentence(Message("{verdict}; outside the model's validity"), "outside_validity", {"verdict": _IN_FEW_WORDS}),
+    Sentence(OUTSIDE, "outside_validity", {"verdict": _IN_FEW_WORDS}),
     *_IN_FEW_WORDS,
 )
 #: All checks in a few words: of ``checks.all`` of them so many judged and so many failing, whose titles are ``names``.

@@ -34,6 +34,8 @@ SOURCES = cast("Mapping[str, Source]", {row.name: row.source for row in CHECKS})
 _SINGLE = SingleNut()
 _USUAL = Limits()
 _PASSES = Message("passes")
+#: Whose limit of the DN value it is, where one is given.
+GIVEN_LIMIT = Message("that was given")
 
 
 @accepts_units("checks")
@@ -229,11 +231,11 @@ def checks(
     recalled = closed or "static_load_rating" in computed_ratings
     known = GENERAL if speed_limit is None else speed_limit
     if limits.diameter_speed_product is not None:
-        known = SpeedLimit(limits.diameter_speed_product, Message("that was given"))
+        known = SpeedLimit(limits.diameter_speed_product, GIVEN_LIMIT)
     values = {
         "screw_speed": screw_speed,
         "pitch_circle_diameter": screw.pitch_circle_diameter,
-        "root_diameter": _groove_bottom(screw) if root_diameter is None else root_diameter,
+        "root_diameter": groove_bottom(screw) if root_diameter is None else root_diameter,
         "young_modulus": screw.screw_material.young_modulus,
         "half_load": half,
         "other_half_load": other[0] if other else 0.0,
@@ -294,7 +296,8 @@ def _raise_for_nonsense(
     raise_if_any(faults)
 
 
-def _groove_bottom(screw: BallScrew) -> Length:
+def groove_bottom(screw: BallScrew) -> Length:
+    """The diameter at the bottom of the groove of a screw, from its conformity."""
     return geometry.groove_root_diameter(
         screw.pitch_circle_diameter, screw.ball_diameter, screw.screw_conformity, screw.contact_angle
     )

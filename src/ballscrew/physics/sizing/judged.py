@@ -24,16 +24,17 @@ from ballscrew.physics.sizing.check_table import ALL_CHECKS, CHECKS, NOT_CHECKED
 JUDGED: tuple[Judgement, ...] = (*VERDICTS, *WARNINGS, *CHECKS, ALL_CHECKS)
 
 
-def judged(values: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
+def judged(values: Mapping[str, Any], given: Mapping[str, Any] | None = None) -> dict[str, Mapping[str, Any]]:
     """The masks and numbers of each row by its id, of those whose needs are among the values.
 
-    A value that is None is not given; what the verdict on the checks needs is counted, if there is any. Numbers are in
-    SI; truth values are masks, and a number that stands for one is to be compared with zero first. The ids are those of
-    :data:`JUDGED`, and what a row gives is named in its document, ``masks`` and ``numbers``: see
-    :mod:`ballscrew.basis.judgements` for the names that are the same in all rows.
+    A value that is None is not given; what the verdict on the checks needs is counted, if there is any. Where a value
+    that is on a tape may be missing, ``given`` has a mask for each check by its id, and those for which it is false are
+    not counted. Numbers are in SI; truth values are masks, and a number that stands for one is to be compared with zero
+    first. The ids are those of :data:`JUDGED`, and what a row gives is named in its document, ``masks`` and
+    ``numbers``: see :mod:`ballscrew.basis.judgements` for the names that are the same in all rows.
     """
     found = judgements.judged(CHECKS, values)
-    of_all = {name: values.get(name) for name in ALL_CHECKS.takes} | counted(found)
+    of_all = {name: values.get(name) for name in ALL_CHECKS.takes} | counted(found, given)
     return judgements.judged((*VERDICTS, *WARNINGS), values) | found | judgements.judged([ALL_CHECKS], of_all)
 
 

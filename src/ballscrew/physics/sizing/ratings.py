@@ -5,10 +5,12 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple, Protocol
 
+from ballscrew.basis.arrays import namespace
 from ballscrew.basis.errors import plain
 from ballscrew.basis.quantities import Angle, Count, Force, Length, Ratio
 from ballscrew.physics.components.ratings import RATING_CONFORMITY as RATING_CONFORMITY
 from ballscrew.physics.components.ratings import dynamic_load_rating
+from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import geometry, rating
 
 
@@ -49,6 +51,15 @@ class RatedGeometry(NamedTuple):
     balls_per_turn: Count
     loaded_turns: Ratio
     spacer_balls: bool = False
+
+
+def rated_geometry_of(screw: BallScrew) -> RatedGeometry:
+    """The geometry that the ratings of a screw follow from: so many turns as its loaded balls take. Elementwise."""
+    d_m, d_w, phi = screw.pitch_circle_diameter, screw.ball_diameter, screw.lead_angle
+    xp = namespace(d_m, d_w, phi)
+    in_a_turn = xp.floor(xp.pi * (d_m / d_w) / xp.cos(phi))
+    turns = screw.loaded_balls / in_a_turn
+    return RatedGeometry(d_m, d_w, screw.contact_angle, phi, in_a_turn, turns, screw.nut.spacer_balls)
 
 
 def ratings_of(row: Rated, rating_conformity: Ratio = RATING_CONFORMITY) -> Ratings:

@@ -12,6 +12,9 @@ import math
 from collections.abc import Callable, Mapping
 from typing import NamedTuple, TypeAlias
 
+from ballscrew.basis.arrays import where
+from ballscrew.basis.errors import plain
+from ballscrew.basis.judgements import is_nan
 from ballscrew.basis.quantities import Angle, Force, Length, Ratio, Torque
 from ballscrew.basis.records import translatable
 from ballscrew.physics.components.nut_losses import (
@@ -97,15 +100,13 @@ class Rule:
 def _of_efficiency(subject: Subject, efficiency: Ratio, drag: Torque = math.nan) -> Estimate:
     """Friction torque that an efficiency means, and with it a drag where there is one."""
     friction = subject.ideal_torque * (1 / efficiency - 1)
-    return Estimate(friction if math.isnan(drag) else friction + drag, drag)
+    return Estimate(plain(where(is_nan(drag), friction, friction + drag)), drag)
 
 
 def _drag(subject: Subject, law: Callable[..., Torque]) -> Torque:
     """Drag by a law of the preload; NaN for a nut without preload, of which such laws say nothing."""
-    if not subject.preload:
-        return math.nan
     size = (subject.nominal_diameter, subject.pitch_circle_diameter, subject.lead)
-    return float(law(subject.preload, *size))
+    return plain(where(subject.preload != 0, law(subject.preload, *size), math.nan))
 
 
 def constant_efficiency(subject: Subject) -> Estimate:
@@ -145,10 +146,10 @@ def thk(subject: Subject) -> Estimate:
 def hiwin(subject: Subject) -> Estimate:
     """The sum of HIWIN2017, 3.7.3: an inclined plane of ρ = 0.286°, and a drag T = (1/η − η_b) F_pr P_h / 2π."""
     phi, rho = subject.lead_angle, HIWIN_FRICTION_ANGLE
-    eta = float(transmission.classical_efficiency(phi, rho))
+    eta = plain(transmission.classical_efficiency(phi, rho))
     K_p = preload.preload_torque_coefficient_of_halves(eta, transmission.classical_back_driving_efficiency(phi, rho))
-    drag = preload.preload_torque(K_p, subject.preload, subject.lead) if subject.preload else math.nan
-    return _of_efficiency(subject, eta, float(drag))
+    drag = where(subject.preload != 0, preload.preload_torque(K_p, subject.preload, subject.lead), math.nan)
+    return _of_efficiency(subject, eta, plain(drag))
 
 
 def of_model(subject: Subject, efficiency: Ratio) -> Torque:
@@ -240,8 +241,11 @@ LOADED_RULES = ("constant-efficiency", "lead-angle", "feed-drive-library", "hiwi
 
 
 def drags(subject: Subject) -> dict[str, Torque]:
-    """Torque of a preloaded nut without load or seals by each of :data:`DRAG_RULES`; NaN without preload."""
-    return {name: float(RULES[name].estimate(subject).drag_torque) for name in DRAG_RULES}
+    """Torque of a preloaded nut without load or seals by each of :data:`DRAG_RULES`; NaN without preload.
+
+    Elementwise: numbers, and values that are recorded.
+    """
+    return {name: plain(RULES[name].estimate(subject).drag_torque) for name in DRAG_RULES}
 
 
 def rule_of(make: str) -> Rule | None:

@@ -26,6 +26,7 @@ from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.friction import starvation
 from ballscrew.physics.friction.result import FrictionResult, Quadrant
+from ballscrew.physics.friction.touching import most_loaded_ball, touched
 from ballscrew.physics.friction.verdicts import PRELOAD_ABOVE_RATING, PRELOAD_LOST, VERDICTS
 from ballscrew.physics.sizing.rigidity import AxialRigidity, rigidity_iso3408
 from ballscrew.physics.solvers.load_distribution import preload_of
@@ -259,15 +260,9 @@ def _most_loaded(found: FrictionResult) -> dict[str, dict[str, float]]:
 
 def _touching(found: FrictionResult) -> list[Touching]:
     """The flanks that the most loaded ball touches; without load the one that it would touch first."""
-    loads = found.loads
-    ball = int(np.argmax(np.maximum(loads.forward_load, loads.backward_load)))
-    carries = 1 if found.axial_load >= 0 else -1
-    sides = (
-        Touching(carries, _of_ball(loads.forward_angle, ball), _of_ball(loads.forward_load, ball)),
-        Touching(-carries, _of_ball(loads.backward_angle, ball), _of_ball(loads.backward_load, ball)),
-    )[::carries]
-    touching = [flank for flank in sides if flank.load > 0 and math.isfinite(flank.angle)]
-    return touching or [Touching(1, float(found.ball_screw.contact_angle), 0.0)]
+    nominal = float(found.ball_screw.contact_angle)
+    sides = zip((1, -1), touched(most_loaded_ball(found.loads), found.axial_load, nominal), strict=True)
+    return [Touching(side, float(flank.angle), float(flank.load)) for side, flank in sides if flank.touches]
 
 
 def _of_ball(value: Any, ball: int) -> float:
