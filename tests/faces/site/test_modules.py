@@ -20,7 +20,7 @@ POINTS = {"rigid": 2000, "elastic": 120}
 #: Numbers that are not varied: whole ones.
 WHOLE = ("starts", "loaded_balls")
 #: Where the sum of torques cancels, a part is judged against the torque; differences of lengths and forces lose digits.
-LOOSE = {"deflection": 1e-9, "remaining_preload": 1e-9}
+LOOSE = {"deflection": 1e-9, "remaining_preload": 1e-9, "backward_load": 1e-9}
 AT_POINT = {"axial_load": 3000.0, "screw_speed": 50.0}
 
 
@@ -43,21 +43,24 @@ def points_of(subject, count, seed=1):
 
 def compare(subject, points, found):
     result = subject.at({name: values[0] if name in WHOLE else values for name, values in points.items()})
-    known = known_outputs(subject.nut)
+    known = modules.outputs_of(subject.nut)
     count = len(points["axial_load"])
     torque = np.abs(np.broadcast_to(result.screw_torque, count))
-    assert {"screw_torque", "efficiency", "valid", "contribution_spin"} <= found.keys() <= known.keys()
+    assert {"screw_torque", "efficiency", "valid", "contribution_spin"} <= found.keys() == known.keys()
     for name, values in found.items():
         expected = np.broadcast_to(np.asarray(known[name].read(result), dtype=float), count)
         assert np.array_equal(np.isnan(expected), np.isnan(values)), name
         if known[name].dtype is bool:
             assert np.array_equal(expected, values), name
             continue
+        if name in modules.BALL and subject.nut.one_by_one:  # without load the most loaded ball is one of many
+            values, expected = (np.where(points["axial_load"] == 0, 0.0, each) for each in (values, expected))
         if name == "residual":  # what is left of a balance is rounding
             assert np.nanmax(values) < 1e-9
             continue
         size = torque if name.startswith("contribution_") else np.abs(expected)
-        floor = 1e-18 if name == "deflection" else 0.0  # metres: without load, nothing
+        # metres, where without load there are none, and a share of powers that are equal
+        floor = {"deflection": 1e-18, "power_imbalance": 1e-12}.get(name, 0.0)
         with np.errstate(invalid="ignore"):
             near = (values == expected) | (np.abs(values - expected) <= LOOSE.get(name, 1e-12) * size + floor)
         assert np.all(near | np.isnan(expected)), (name, np.nanmax(np.abs(values - expected)))

@@ -12,6 +12,7 @@ from ballscrew.engine.evaluation.outputs import OPERATION, known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.evaluation.structures import inputs_of_structure
 from ballscrew.faces.site import kinds
+from ballscrew.faces.site.judging import Judging, contents_of_judging, of_start
 from ballscrew.faces.site.modules import NUT_DIAMETER, OF_POINT, TILE, ByBall, Function, Module
 from ballscrew.faces.site.texts import texts
 from ballscrew.faces.web.vocabulary import vocabulary
@@ -28,12 +29,12 @@ _SECTIONS: Mapping[str, str] = {
 
 
 def contents(
-    modules: Mapping[tuple[str, str], Module], oils: Module, grades: tuple[str, ...], solver: str
+    modules: Mapping[tuple[str, str], Module], oils: Module, grades: tuple[str, ...], solver: str, judging: Judging
 ) -> dict[str, Any]:
     """The contents as one JSON document; numbers are in SI.
 
     ``modules`` are those of models and kinds of nut, ``oils`` that of the ``grades``, ``solver`` the file of that of
-    the balls.
+    the balls, ``judging`` that of verdicts and checks.
     """
     words = vocabulary()
     subjects = {pair: kinds.subject_of(kinds.case_of(kinds.PAPER, *pair)) for pair in modules}
@@ -54,6 +55,7 @@ def contents(
         },
         "solver": solver,
         "oils": {"file": oils.file, "grades": {grade: _function(function) for grade, function in of_oils}},
+        "judging": contents_of_judging(judging),
         "fields": _fields(subjects),
         "results": {name: described for name, described in results.items() if name in given},
         "mechanisms": words["mechanisms"],
@@ -175,4 +177,5 @@ def _start(name: str) -> dict[str, Any]:
         "temperature": temperature,
         "values": values,
         "nuts": nuts,
+        "judged": of_start(name),
     }

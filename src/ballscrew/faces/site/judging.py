@@ -32,6 +32,7 @@ from ballscrew.physics.sizing.installation import Ends, Installation, Limits
 from ballscrew.physics.sizing.judged import JUDGED, documents, judged, outputs
 from ballscrew.physics.sizing.rules import rule_of
 from ballscrew.questions.check.compute import OUTSIDE
+from ballscrew.questions.shared.check_lines import in_shown_unit
 
 #: What else is computed at once: points that differ from that of the visitor in these inputs.
 BESIDE: Mapping[str, Mapping[str, float]] = {
@@ -122,7 +123,7 @@ def module_of_judging() -> Judging:
 
 
 def _judged() -> tuple[tuple[str, ...], Program]:
-    """All that is judged; a truth value is a number that is not zero. Of each check it is an input whether it is given."""
+    """All that is judged; a truth value is a number that is not zero, and so is what of each check is given."""
     names = tuple(values())
     of_checks = tuple(f"given.{row.id}" for row in CHECKS)
     truths = {name for row in JUDGED for name in row.truths}
@@ -231,7 +232,10 @@ def contents_of_judging(judging: Judging) -> dict[str, Any]:
                 if name in _OF_INSTALLATION
             },
         },
-        "shown": {name: _described(quantity) for name, quantity in _SHOWN.items()},
+        "shown": {
+            **{name: _described(quantity) for name, quantity in _SHOWN.items()},
+            **{row.id: _described(in_shown_unit(row.name, row.unit)) for row in CHECKS},
+        },
         "units": _units(tables),
     }  # fmt: skip
 
@@ -250,14 +254,13 @@ def of_start(name: str) -> dict[str, Any]:
     }
 
 
-def templates(judging: Mapping[str, Any], starts: Mapping[str, Any]) -> list[str]:
-    """All templates of the tables and of the words that stand in them, to be translated."""
+def templates(contents: Mapping[str, Any]) -> list[str]:
+    """All templates of the tables, and of the words that stand in them, to be translated."""
+    judging, checks = contents["judging"], contents["judging"]["tables"]["checks"]
     found = [judging["tables"]["not_checked"], judging["outside"], *judging["rating_sources"]]
     found += [one["words"] for one in judging["ends"].values()]
-    found += _templates([judging["tables"], judging["given_limit"], [one["judged"] for one in starts.values()]])
-    found += [row["title"] for row in judging["tables"]["checks"]] + [
-        row["give"] for row in judging["tables"]["checks"]
-    ]
+    found += _templates([judging["tables"], judging["given_limit"], *contents["starts"].values()])
+    found += [row[part] for row in checks for part in ("title", "give")]
     return list(dict.fromkeys(one for one in found if one))
 
 

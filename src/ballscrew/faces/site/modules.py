@@ -25,6 +25,7 @@ from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.evaluation.structures import OF_BALLS, inputs_of_structure, recorded_structure
 from ballscrew.faces.site import kinds
 from ballscrew.physics.components.materials import OF_A_GRADE, TEMPERATURE, Lubricant, grades, nominal_oil
+from ballscrew.physics.components.nut import Nut
 from ballscrew.physics.components.oil_grades import OilState
 from ballscrew.physics.components.operating_state import settled
 from ballscrew.physics.friction.touching import MostLoadedBall, most_loaded_ball
@@ -43,8 +44,9 @@ OUTPUTS = (
     "screw_maximum_pressure", "nut_maximum_pressure", "rolling_share", "deflection", "rigidity", "remaining_preload",
     "lift_off_load", "residual", "valid", "screw_semi_major_axis", "nut_semi_major_axis",
 )  # fmt: skip
-#: What a module gives besides, of which sweeps do not ask: how far powers differ, and what the most loaded ball carries.
+#: What the most loaded ball carries.
 BALL = MostLoadedBall._fields
+#: What a module gives besides, of which sweeps do not ask.
 _BESIDE: Mapping[str, Output] = {
     "power_imbalance": Output(
         "power_imbalance",
@@ -123,13 +125,16 @@ def module_of_structure(model: str, kind: str) -> Module:
     """The module of a model and a kind of nut."""
     subject = kinds.subject_of(kinds.case_of(kinds.PAPER, model, kind))
     names = inputs_of_structure(subject)
-    known = known_outputs(subject.nut)
-    wanted = {n: output for n, output in known.items() if n in OUTPUTS or n.startswith(_PARTS)}
-    beside = _BESIDE if not subject.nut.is_row else {n: one for n, one in _BESIDE.items() if n not in BALL}
-    program = recorded_structure(subject, wanted | beside, names)
+    program = recorded_structure(subject, outputs_of(subject.nut), names)
     if subject.nut.one_by_one:
         return _by_ball(subject, names, program)
     return compiled([("evaluate", names, program)])
+
+
+def outputs_of(nut: Nut) -> Mapping[str, Output]:
+    """The outputs of the modules of such a nut, by name."""
+    wanted = {n: output for n, output in known_outputs(nut).items() if n in OUTPUTS or n.startswith(_PARTS)}
+    return wanted | {n: output for n, output in _BESIDE.items() if not (nut.is_row and n in BALL)}
 
 
 def _by_ball(subject: Configuration, names: tuple[str, ...], program: Program) -> Module:
