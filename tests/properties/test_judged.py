@@ -14,13 +14,19 @@ from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.tape import Tape
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.physics.sizing.check_table import ALL_CHECKS
+from ballscrew.physics.sizing.check_table import loads_at_point
+from ballscrew.physics.sizing.checks import checks
+from ballscrew.physics.sizing.installation import Ends, Installation, Limits
 from ballscrew.physics.sizing.judged import JUDGED, judged, outputs
 
 POINTS = 500
 TRUTHS = {name for row in JUDGED for name in row.truths}
 #: Names of all values; how many checks there are is no value but counted.
-NEEDS = list(dict.fromkeys(name for row in JUDGED if row is not ALL_CHECKS for name in (*row.needs, *row.takes)))
+NEEDS = [
+    name
+    for name in dict.fromkeys(name for row in JUDGED for name in (*row.needs, *row.takes))
+    if not name.startswith("checks.")
+]
 BY_ID = {row.id: row for row in JUDGED}
 #: Values that may have either sign, and that are often zero or no number.
 SIGNED = (
@@ -222,35 +228,93 @@ def test_utilisation_of_nothing():
     assert utilisation(demand, capacity).tolist() == [0.0, math.inf, 0.0, 1.5, math.inf]
 
 
-@pytest.mark.parametrize("model", [bs.FrictionModel.olaru2005(), bs.FrictionModel.reference()])
-def test_verdicts_on_the_tape_of_a_model(model):
-    """Model and verdicts on one tape, at the operating point and at rest: a load that drives, one that is held."""
-    screw, oil = bs.catalogue()["rexroth-40x10x6-6-double"].screw(nut=bs.SingleNut()), bs.Lubricant(0.1, 2e-8)
-    subject = Configuration(model, screw, oil)
-    known = known_outputs(screw.nut)
-    wanted = ("screw_torque", "flooded_torque", "drive_torque", "holding_torque", "valid", "rolling_share")
+PRELOAD = 2000.0
+MOUNTED = Installation(unsupported_length=1.2, ends=Ends.FIXED_SUPPORTED)
+LIMITS = Limits(running_time=3.6e6, diameter_speed_product=7.0)
+ROW = bs.catalogue()["rexroth-40x10x6-6-double"]
+OUTPUTS = ("screw_torque", "flooded_torque", "drive_torque", "holding_torque", "valid", "maximum_pressure")
 
-    def values(load, speed):
-        here, at_rest = (subject.at({"axial_load": load, "screw_speed": one}) for one in (speed, 0.0 * speed))
-        found = {name: known[name].read(here) for name in wanted}
-        found |= {f"validity_{reason}": mask for reason, mask in here.validity.items()}
-        found |= {f"at_rest.{name}": known[name].read(at_rest) for name in ("holding_torque", "valid")}
-        return found | {"axial_load": load, "screw_speed": speed}
 
+def values_at(subject, load, speed):
+    """The values of the tables at an operating point of a model, as who shows them would put them together."""
+    known = known_outputs(subject.screw.nut)
+    here, at_rest = (subject.at({"axial_load": load, "screw_speed": one}) for one in (speed, 0.0 * speed))
+    found = {name: known[name].read(here) for name in OUTPUTS}
+    found |= {f"validity_{reason}": mask for reason, mask in here.validity.items()}
+    found |= {f"at_rest.{name}": known[name].read(at_rest) for name in ("holding_torque", "valid")}
+    left = 0.0
+    if subject.screw.nut.halves == 2:
+        of_loads = {name: known[name].read(here) for name in ("remaining_preload", "lift_off_load")}
+        found |= of_loads | {"preload": PRELOAD}
+        left = of_loads["remaining_preload"]
+    else:
+        found["rolling_share"] = here.rolling_share
+    found |= {f"limits.{name}": getattr(LIMITS, name) for name in ("static_safety", "running_time", "shaft_stress")}
+    return found | {
+        **loads_at_point(load, left),
+        "axial_load": load,
+        "screw_speed": speed,
+        "outside_validity": np.logical_not(found["valid"]),
+        "root_diameter": 0.034,
+        "dynamic_load_rating": ROW.dynamic_load_rating,
+        "static_load_rating": ROW.static_load_rating,
+    }
+
+
+@pytest.mark.parametrize("nut", [bs.SingleNut(), bs.DoubleNut(preload=PRELOAD)], ids=["row", "double"])
+@pytest.mark.parametrize("model", [bs.FrictionModel.olaru2005(), bs.FrictionModel.reference()], ids=["paper", "usual"])
+def test_verdicts_on_the_tape_of_a_model(model, nut):
+    """Model, verdicts and checks on one tape, at an operating point and at rest, from no load to beyond lift-off."""
+    subject = Configuration(model, ROW.screw(nut=nut), bs.Lubricant(0.1, 2e-8))
     rng = np.random.default_rng(4)
     load = np.array([0.0, *rng.choice([-1, 1], 39) * 10 ** rng.uniform(0, 4.5, 39)])
     speed = np.array([*rng.choice([-1, 0, 1], 40) * 10 ** rng.uniform(-1, 2.5, 40)])
     tape = Tape(2)
-    traced = values(tape.value(0), tape.value(1))
-    found, masks = run(tape, outputs(judged(traced)), [load, speed])
+    found, masks = run(tape, outputs(judged(values_at(subject, tape.value(0), tape.value(1)))), [load, speed])
     for place in range(40):
-        plain = outputs(judged(values(load[place], speed[place])))
+        plain = outputs(judged(values_at(subject, load[place], speed[place])))
         assert plain.keys() == found.keys()
         for name, value in plain.items():
             one = found[name][place]
-            same = bool(one) is bool(value) if name in masks else one == pytest.approx(value, rel=1e-11, nan_ok=True)
-            assert same, name
-    assert 0 < found["verdict.self_locking.at_rest:said"].sum() + found["verdict.back_driving.at_rest:said"].sum() < 40
+            if name in masks:
+                assert bool(one) is bool(value), name
+            else:
+                assert one == pytest.approx(float(value), rel=1e-11, nan_ok=True), name
+    for name in ("verdict.no_load", "verdict.quadrant", "verdict.back_driving.at_rest"):
+        assert 0 < found[f"{name}:said"].sum() < 40, name
+    if nut.halves == 2:
+        assert 0 < found["verdict.preload_lost:said"].sum() < 40
+
+
+def test_checks_of_a_screw_are_the_table_at_a_point():
+    """What :func:`checks` puts together is what its table says of values given by name."""
+    screw = ROW.screw()
+    values = {
+        **loads_at_point(5000.0, 0.0),
+        "screw_speed": 100.0,
+        "pitch_circle_diameter": screw.pitch_circle_diameter,
+        "root_diameter": 0.034,
+        "young_modulus": screw.screw_material.young_modulus,
+        "dynamic_load_rating": 5e4,
+        "static_load_rating": 1.5e5,
+        "maximum_pressure": 2e9,
+        "unsupported_length": MOUNTED.unsupported_length,
+        "shaft_density": MOUNTED.shaft_density,
+        "buckling_root": MOUNTED.ends.buckling_root,
+        "whirling_root": MOUNTED.ends.whirling_root,
+        **{f"limits.{name}": value for name, value in vars(LIMITS).items()},
+    }
+    made = checks(
+        screw, axial_load=-5000.0, screw_speed=-100.0, dynamic_load_rating=5e4, static_load_rating=1.5e5,
+        maximum_pressure=2e9, root_diameter=0.034, installation=MOUNTED, limits=LIMITS,
+    )  # fmt: skip
+    found = judged(values)
+    assert len(made) == 8
+    for check in made:
+        row = found[f"check.{check.name}"]
+        assert (check.value, check.limit, check.utilisation, check.holds) == (
+            row["value"], row["limit"], row["utilisation"], row["holds"],
+        )  # fmt: skip
 
 
 def test_the_sign_of_a_speed_is_nothing_to_a_check():

@@ -28,6 +28,7 @@ BLOCK_SIZE = 64_000
 
 #: What is compared by its value.
 _PLAIN = (numbers.Number, np.generic, str, bytes, tuple, Mapping, type(None))
+_NUMBERS = frozenset({np.float64, float})
 #: The usual types, for which NumPy is the namespace.
 _OWN = frozenset({np.float64, np.ndarray, float, int, np.bool_})
 
@@ -53,6 +54,8 @@ def namespace(*values: Any) -> Any:
 
 def where(mask: Any, yes: Any, no: Any) -> Any:
     """``where`` of the namespace of the values; a number for numbers."""
+    if type(mask) is np.bool_ and type(yes) in _NUMBERS and type(no) in _NUMBERS:  # NumPy takes six times as long
+        return np.float64(yes if mask else no)
     found = namespace(mask, yes, no).where(mask, yes, no)
     return found[()] if isinstance(found, np.ndarray) else found
 

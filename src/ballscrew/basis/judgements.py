@@ -117,10 +117,10 @@ class Judgement:
     sentences: tuple[Sentence, ...]
     #: Names of the values without which it is left out: what a part that is not there would have.
     needs: tuple[str, ...] = ()
-    #: Those of them that are truth values: masks, not numbers.
-    truths: tuple[str, ...] = ()
-    #: Names of values that may be left out or NaN.
+    #: Names of values that may be left out: numbers, which are NaN then, and truth values, which are false.
     takes: tuple[str, ...] = ()
+    #: Those of both that are truth values: masks, not numbers.
+    truths: tuple[str, ...] = ()
     #: What to give where one of its needs is not there; empty where nothing is said then.
     give: str = ""
     unit: str = "1"
@@ -147,12 +147,20 @@ class Judgement:
 
         Numbers follow the rules of IEEE 754, in silence.
         """
-        if any(values.get(name) is None for name in self.needs):
-            return None
-        of_these = (*self.needs, *self.takes)
-        given = {name: _plain(values[name]) for name in of_these if values.get(name) is not None}
+        given: dict[str, Any] = {}
+        for name in self.needs:
+            value = values.get(name)
+            if value is None:
+                return None
+            given[name] = _plain(value)
+        for name in self.takes:
+            value = values.get(name)
+            given[name] = self._left_out(name) if value is None else _plain(value)
         with np.errstate(all="ignore"):
-            return self.formula({name: np.float64("nan") for name in self.takes} | given)
+            return self.formula(given)
+
+    def _left_out(self, name: str) -> Any:
+        return np.bool_(False) if name in self.truths else np.float64("nan")
 
     def message(self, found: Mapping[str, Any], words: Mapping[str, Value]) -> Message:
         """The sentence that is said at one point."""
@@ -245,4 +253,6 @@ def is_nan(value: Any) -> Mask:
 
 def _plain(value: Any) -> Any:
     """A truth value or a number as NumPy has it, of which masks can be made; others as they are."""
+    if type(value) is float:
+        return np.float64(value)
     return np.bool_(value) if isinstance(value, bool) else as_array(value)

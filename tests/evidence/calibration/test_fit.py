@@ -362,7 +362,7 @@ def test_logs_without_what_is_needed_are_refused(changed):
         (["loaded_balls"], {}, "whole number"),
         (FRICTION, {}, "must be a list"),
         ([], {}, "must be a list"),
-        (["young_modulus"], {}, "unknown name"),
+        (["inlet_angle"], {}, "unknown name"),
         ([FRICTION], {"holdout": 0.9}, "share"),
         ([FRICTION], {"kind": "torque"}, "unknown kind"),
         ([FRICTION], {"priors": {OFFSET: bs.Normal(0.3, 0.1)}}, "is not free"),

@@ -97,9 +97,18 @@ def test_a_curve_over_the_speed_solves_the_balls_once_and_is_that_of_the_model(b
         assert found[name] == pytest.approx(expected, rel=1e-9 if name in LOOSE else 1e-12), name
 
 
-def test_two_builds_are_equal():
-    one, other = (modules.module_of_structure("olaru2005", "row") for _ in range(2))
-    assert one == other
+@pytest.mark.parametrize("structure", [("olaru2005", "row"), ("olaru2005", "double+elastic")], ids="/".join)
+def test_two_builds_are_equal_and_a_kept_one_is_the_same(structure, tmp_path, monkeypatch):
+    monkeypatch.setenv("BALLSCREW_CACHE", str(tmp_path))
+    made = modules.module_of_structure(*structure)
+    assert made == modules.module_of(start_of(structure))
+    assert made.described == modules.module_of_structure(*structure).described  # from the disk
+    assert made == modules.module_of_structure(*structure)
+    monkeypatch.setattr(modules, "module_of", None)  # not made again
+    assert made == modules.module_of_structure(*structure)
+
+
+def test_the_module_of_the_oils_is_the_same_bytes():
     assert modules.module_of_oils() == modules.module_of_oils()
 
 

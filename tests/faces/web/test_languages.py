@@ -274,7 +274,7 @@ def test_safety_is_said_by_messages():
         and not any(one.arg == "message" for one in node.keywords)
     }
     assert without == set()
-    known = {id_of(node) for name in ("Record", "record") for _, node in calls(name)}
+    known = {id_of(node) for name in ("Record", "record", "Judgement") for _, node in calls(name)}
     assert {one for one in SAFETY if not fnmatch.filter(known, one) and "verdict." not in one} == set()
 
 

@@ -11,14 +11,13 @@ from ballscrew.basis.version import __version__
 from ballscrew.engine.evaluation.outputs import OPERATION, known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.evaluation.structures import inputs_of_structure
+from ballscrew.exports.wasm_modules import NUT_DIAMETER, Module, described
 from ballscrew.faces.site import kinds
 from ballscrew.faces.site.judging import Judging, contents_of_judging, of_start
-from ballscrew.faces.site.modules import NUT_DIAMETER, OF_POINT, TILE, ByBall, Function, Module
 from ballscrew.faces.site.texts import texts
 from ballscrew.faces.web.vocabulary import vocabulary
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.sizing.catalogue import catalogue
-from ballscrew.physics.solvers.load_distribution import ElasticNutNumbers
 
 #: Format of what follows, for a page of another version.
 FORMAT = 1
@@ -49,12 +48,9 @@ def contents(
             name: {"words": kind.words, "is_preloaded": kind.is_preloaded, "nut": kind.nut}
             for name, kind in kinds.KINDS.items()
         },
-        "structures": {
-            f"{model}/{kind}": {"file": module.file, **_function(module.functions[0]), **_parted(module.by_ball)}
-            for (model, kind), module in modules.items()
-        },
+        "structures": {f"{model}/{kind}": module.described for (model, kind), module in modules.items()},
         "solver": solver,
-        "oils": {"file": oils.file, "grades": {grade: _function(function) for grade, function in of_oils}},
+        "oils": {"file": oils.file, "grades": {grade: described(function) for grade, function in of_oils}},
         "judging": contents_of_judging(judging),
         "fields": _fields(subjects),
         "results": {name: described for name, described in results.items() if name in given},
@@ -64,38 +60,6 @@ def contents(
         "starts": {name: _start(name) for name in kinds.start_tables()},
     }
     return {**found, "texts": texts(found)}
-
-
-def _function(function: Function) -> dict[str, Any]:
-    return {
-        "function": function.name,
-        "inputs": list(function.inputs),
-        "outputs": list(function.outputs),
-        "constants": dict(function.constants),
-    }
-
-
-def _parted(parts: ByBall | None) -> dict[str, Any]:
-    """A nut whose balls are solved one by one, where it is one."""
-    if parts is None:
-        return {}
-    ball = parts.ball
-    found = {
-        "halves": parts.halves,
-        "four_contacts": parts.four_contacts,
-        "swells": parts.swells,
-        "numbers": _function(parts.numbers),
-        "points": _function(parts.points),
-        "ball": {
-            "function": ball.name,
-            **{name: list(getattr(ball, name)) for name in ("inputs", "outputs", "reduced")},
-        },
-        "reductions": list(parts.reductions),
-        "behind": _function(parts.behind),
-        "tile": TILE,
-        "solver": [*ElasticNutNumbers._fields, *OF_POINT],
-    }
-    return {"by_ball": found}
 
 
 def _outputs(subject: Configuration) -> Mapping[str, Any]:
@@ -159,7 +123,7 @@ def _start(name: str) -> dict[str, Any]:
         values |= {n: float(subject.value_of(n)) for n, part in parts.items() if part in ("screw", "lubricant")}
         values |= {n: float(getattr(case.operation, n)) for n in OPERATION}
         tables = kinds.tables_of(name, kinds.MODELS[0], kind)
-        of_nut = {n: float(subject.value_of(n)) for n, part in parts.items() if part == "nut"}
+        of_nut: dict[str, Any] = {n: float(subject.value_of(n)) for n, part in parts.items() if part == "nut"}
         if subject.nut.bodies is not None:
             of_nut[NUT_DIAMETER] = subject.nut.bodies.nut_outer_diameter
         nuts[kind] = {

@@ -26,6 +26,7 @@ from ballscrew.faces.web import (
     limits,
     log_api,
     memory,
+    module_api,
     moving_api,
     openapi,
     vocabulary,
@@ -115,6 +116,7 @@ router.include_router(answers_api.router)
 router.include_router(file_api.router)
 router.include_router(log_api.router)
 router.include_router(moving_api.router)
+router.include_router(module_api.router)
 router.include_router(job_api.router)
 
 

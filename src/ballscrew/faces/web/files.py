@@ -22,8 +22,9 @@ from ballscrew.faces.web.endpoint_parts import takes_gzip
 #: Browsers keep files, and ask each time whether they have changed.
 _CACHE = "no-cache"
 #: They keep a file for good whose address has the digest of its content.
-_FOR_GOOD = "public, max-age=31536000, immutable"
+FOR_GOOD = "public, max-age=31536000, immutable"
 _VIEWER = "api.html"
+_ENGINE = "engine.js"
 #: Where the page names the script of the charts; its address has its digest.
 _PLOTLY = "/plotly.js"
 #: Endings of files that are text, which is much shorter when it is compressed.
@@ -57,6 +58,13 @@ def add_to(app: FastAPI) -> None:
     page = _Folder(directory=Path(str(resources.files("ballscrew.faces.web").joinpath("page"))))
     viewer = _Folder(directory=_folder_of("fastapi_offline", "static"))
     app.mount("/page", page)
+    # what runs the modules of structures is that of the static page
+    engine = _Folder(directory=Path(str(resources.files("ballscrew.faces.site").joinpath("page"))))
+
+    async def send_engine(request: Request) -> Response:
+        return await engine.get_response(_ENGINE, request.scope)
+
+    app.add_api_route(f"/site/page/{_ENGINE}", send_engine, methods=["GET", "HEAD"], include_in_schema=False)
     app.mount("/viewer", viewer)
 
     async def send_viewer(request: Request) -> Response:
@@ -87,7 +95,7 @@ def add_to(app: FastAPI) -> None:
     app.add_api_route("/", send_page, methods=["GET", "HEAD"], include_in_schema=False)
 
     async def send_plotly(request: Request) -> Response:
-        headers = {"Cache-Control": _FOR_GOOD, "Vary": "Accept-Encoding"}
+        headers = {"Cache-Control": FOR_GOOD, "Vary": "Accept-Encoding"}
         return sent(request, *_plotly(), headers, "text/javascript")
 
     app.add_api_route(plotly_address(), send_plotly, methods=["GET", "HEAD"], include_in_schema=False)

@@ -14,12 +14,13 @@ def policy(plotly: str) -> str:
     """The policy of all responses, by the script of the charts.
 
     plotly.js sets style attributes, adds rules by script to an empty <style>, and adds <style> elements with the texts
-    in its file: these are allowed by their hashes, and no others.
+    in its file: these are allowed by their hashes, and no others. Modules of WebAssembly may be compiled, no text.
     """
     texts = ["", *_STYLE.findall(plotly)]
     styles = " ".join(["'self'", *map(_hash, texts)])
     return (
-        f"default-src 'none'; script-src 'self'; style-src {styles}; style-src-attr 'unsafe-inline'; "
+        f"default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src {styles}; "
+        "style-src-attr 'unsafe-inline'; "
         "img-src 'self' data: blob:; connect-src 'self'; font-src 'self'; "
         "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
     )

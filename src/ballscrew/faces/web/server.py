@@ -20,6 +20,7 @@ from ballscrew.faces.web.bodies import case_of
 from ballscrew.faces.web.guard import HEADERS, LOOPBACK, Guard
 from ballscrew.faces.web.jobs import Jobs
 from ballscrew.faces.web.kept_answers import KeptAnswers
+from ballscrew.faces.web.modules import Modules
 from ballscrew.faces.web.policy import policy
 from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import RequestQueue
@@ -48,6 +49,7 @@ def application(
     app.state.headers = {**HEADERS, "Content-Security-Policy": policy(plotly_js.script())}
     app.state.requests = requests or RequestQueue()
     app.state.answers = KeptAnswers()
+    app.state.modules = Modules()
     app.state.jobs = jobs or Jobs(app.state.requests.time_limit)
     app.include_router(api.router)
     description = functools.cache(lambda: json.dumps(openapi.document(app)).encode())

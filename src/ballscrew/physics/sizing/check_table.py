@@ -14,7 +14,7 @@ The values, SI, by name; see :func:`ballscrew.physics.sizing.checks.checks`:
   ``limits.buckling_safety``, ``limits.critical_speed_share``, ``limits.diameter_speed_product``, which is that of the
   make of the nut where none is given.
 
-The words are ``ends`` and ``limit_source``, whose DN value the limit is.
+The words are ``ends`` and ``limit_source``, whose DN value the limit is, and ``names`` of the checks that fail.
 """
 
 from __future__ import annotations
@@ -265,6 +265,8 @@ def _all_checks(of: Mapping[str, Any]) -> Mapping[str, Any]:
         "judged": fails | is_whole,
         "number_judged": judged,
         "number": number,
+        "outside_validity": of["outside_validity"],
+        "has_cycle": of["has_cycle"],
     }
 
 
@@ -285,17 +287,28 @@ def counted(found: Mapping[str, Mapping[str, Any]], given: Mapping[str, Mask] | 
 
 
 _COUNT = {"judged": Shown("number_judged"), "all": Shown("number")}
+_IN_FEW_WORDS = (
+    Sentence(Message("fails: {names}"), "fails_of_all", {"names": Words("names")}),
+    Sentence(Message("fails: {names}; {judged} of {all} judged"), "fails", {"names": Words("names"), **_COUNT}),
+    Sentence(Message("passes"), "passes"),
+    Sentence(Message("{judged} of {all} judged, and these hold"), places=_COUNT),
+)
+_WITH_VALIDITY = (
+    Sentence(Message("{verdict}; outside the model's validity"), "outside_validity", {"verdict": _IN_FEW_WORDS}),
+    *_IN_FEW_WORDS,
+)
 #: All checks in a few words: of ``checks.all`` of them so many judged and so many failing, whose titles are ``names``.
 ALL_CHECKS = Judgement(
     id="verdict.checks",
     subject="checks",
     formula=_all_checks,
     needs=("checks.judged", "checks.failing", "checks.all"),
+    takes=("outside_validity", "has_cycle"),
+    truths=("outside_validity", "has_cycle"),
     severity_of_failure="error",
     sentences=(
-        Sentence(Message("fails: {names}"), "fails_of_all", {"names": Words("names")}),
-        Sentence(Message("fails: {names}; {judged} of {all} judged"), "fails", {"names": Words("names"), **_COUNT}),
-        Sentence(Message("passes"), "passes"),
-        Sentence(Message("{judged} of {all} judged, and these hold"), places=_COUNT),
+        # of a case with a cycle, which is judged elsewhere
+        Sentence(Message("this operating point for ever: {verdict}"), "has_cycle", {"verdict": _WITH_VALIDITY}),
+        *_WITH_VALIDITY,
     ),
 )

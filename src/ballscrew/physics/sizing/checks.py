@@ -161,12 +161,20 @@ def verdict_of(checks: Sequence[Check], *, passes: Message = _PASSES, by_how_muc
 
     Elsewhere the words say how many were judged; ``by_how_much`` adds the utilisation of those that fail.
     """
-    names = [failing(check, by_how_much=by_how_much) for check in checks if check.holds is False]
-    count = judged(checks)
-    if not names and count == len(checks):
+    if all_hold(checks):
         return passes
-    values = {"checks.judged": count, "checks.failing": len(names), "checks.all": len(checks)}
-    return ALL_CHECKS.message(ALL_CHECKS.finds(values) or {}, {"names": names})
+    return _in_few_words(checks, by_how_much=by_how_much)
+
+
+def verdict_at_point(checks: Sequence[Check], *, valid: bool, has_cycle: bool) -> Message:
+    """The same of an operating point: what is said outside the model's validity, and of a case with a cycle, too."""
+    return _in_few_words(checks, outside_validity=not valid, has_cycle=has_cycle)
+
+
+def _in_few_words(checks: Sequence[Check], *, by_how_much: bool = False, **said: bool) -> Message:
+    names = [failing(check, by_how_much=by_how_much) for check in checks if check.holds is False]
+    counts = {"checks.judged": judged(checks), "checks.failing": len(names), "checks.all": len(checks)}
+    return ALL_CHECKS.message(ALL_CHECKS.finds(counts | said) or {}, {"names": names})
 
 
 def failing(check: Check, *, by_how_much: bool = True) -> Message:

@@ -27,18 +27,15 @@ JUDGED: tuple[Judgement, ...] = (*VERDICTS, *WARNINGS, *CHECKS, ALL_CHECKS)
 def judged(values: Mapping[str, Any], given: Mapping[str, Any] | None = None) -> dict[str, Mapping[str, Any]]:
     """The masks and numbers of each row by its id, of those whose needs are among the values.
 
-    What the verdict on the checks needs is counted, if there are any. Where a value that is on a tape may be missing,
-    ``given`` has a mask for each check by its id, and those for which it is false are not counted.
-    A value that is None is not given. Numbers are in SI; truth values are masks, and a number that stands for one is to
-    be compared with zero first. The ids are those of :data:`JUDGED`, and what a row gives is named in its document,
-    ``masks`` and ``numbers``: see :mod:`ballscrew.basis.judgements` for the names that are the same in all rows.
+    A value that is None is not given; what the verdict on the checks needs is counted, if there is any. Where a value
+    that is on a tape may be missing, ``given`` has a mask for each check by its id, and those for which it is false are
+    not counted. Numbers are in SI; truth values are masks, and a number that stands for one is to be compared with zero
+    first. The ids are those of :data:`JUDGED`, and what a row gives is named in its document, ``masks`` and
+    ``numbers``: see :mod:`ballscrew.basis.judgements` for the names that are the same in all rows.
     """
     found = judgements.judged(CHECKS, values)
-    return (
-        judgements.judged((*VERDICTS, *WARNINGS), values)
-        | found
-        | judgements.judged([ALL_CHECKS], counted(found, given))
-    )
+    of_all = {name: values.get(name) for name in ALL_CHECKS.takes} | counted(found, given)
+    return judgements.judged((*VERDICTS, *WARNINGS), values) | found | judgements.judged([ALL_CHECKS], of_all)
 
 
 def outputs(found: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
@@ -48,6 +45,9 @@ def outputs(found: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
 
 def documents() -> dict[str, Any]:
     """The tables as they stand in JSON, without their formulas.
+
+    A row ``needs`` values by name, and ``takes`` others that may be left out: numbers are NaN then, and ``truths``
+    false. Its formula gives ``masks`` and ``numbers`` by name.
 
     A row of ``verdicts`` and ``warnings`` is a record wherever its mask ``said`` holds, or always where it has none. A
     row of ``checks`` is one always: where a need is not given its sentence is ``not_checked`` with ``give`` of the row

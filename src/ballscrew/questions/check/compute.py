@@ -21,7 +21,7 @@ from ballscrew.physics.components.nut import Nut, OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.check_table import half_loads
-from ballscrew.physics.sizing.checks import Check, all_hold, checks, verdict_of
+from ballscrew.physics.sizing.checks import Check, all_hold, checks, verdict_at_point
 from ballscrew.physics.sizing.dn_limits import speed_limit_of
 from ballscrew.physics.sizing.listed_nut import PRELOADED, lists_preload
 from ballscrew.physics.sizing.ratings import Ratings, ratings_of
@@ -35,9 +35,6 @@ from ballscrew.questions.shared.own_screws import tables_of_row
 GRADE, TEMPERATURE, SPEED, SHARE_OF_RATING = "ISO VG 100", "40 degC", "600 rpm", 0.1
 #: The fields of the ratings, by the names of the case file.
 RATINGS: Mapping[str, str] = {"dynamic_load_rating": "dynamic", "static_load_rating": "static"}
-
-#: The verdict on all checks of a result outside the model's validity.
-OUTSIDE = Message("{verdict}; outside the model's validity")
 
 
 class Options(NamedTuple):
@@ -110,10 +107,7 @@ class Checked:
     @property
     def message(self) -> Message:
         """All checks in a few words; of what, where the case has a cycle too."""
-        found = verdict_of(self.checks)
-        if not self.run.friction.valid:
-            found = OUTSIDE.of(verdict=found)
-        return Message("this operating point for ever: {verdict}", {"verdict": found}) if self.moves else found
+        return verdict_at_point(self.checks, valid=bool(self.run.friction.valid), has_cycle=self.moves)
 
     @property
     def verdict(self) -> str:

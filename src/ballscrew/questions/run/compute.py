@@ -135,12 +135,11 @@ class Run:
             rating, source = dynamic_rating(case.screw, case.row, case.listed)
         except InputError:  # of a geometry that no standard has ratings for
             return []
-        values = {
-            "preload": self.nut.preload,
-            "dynamic_load_rating": rating,
-            "implausible_preload": any(one.subject == "nut.preload" for one in case.implausible()),
-        }
-        return said([PRELOAD_ABOVE_RATING], values, {"rating_source": Message(source)}, units.filled)
+        values = {"preload": self.nut.preload, "dynamic_load_rating": rating, "implausible_preload": False}
+        found = said([PRELOAD_ABOVE_RATING], values, {"rating_source": Message(source)}, units.filled)
+        # who has been told once that the number cannot be is not told twice
+        is_known = bool(found) and any(one.subject == "nut.preload" for one in case.implausible())
+        return [] if is_known else found
 
     @property
     def conditions(self) -> list[Record]:

@@ -39,6 +39,9 @@ const PLAIN_OIL = "paper";
 /** Temperature of an oil of a grade that was chosen for one without, degC. */
 const USUAL_TEMPERATURE = 40;
 
+/** What a fragment has beside numbers. */
+const CHOICES = ["start", "model", "kind", "grade"];
+
 export class Case {
   /**
    * @param {Contents} contents
@@ -230,29 +233,35 @@ export class Case {
   }
 
   /**
-   * The state that a fragment of this page describes; what is not known is left out.
+   * The state that a fragment of this page describes, and what of it this page does not have, which is left out.
    *
    * @param {string} fragment
-   * @returns {State}
+   * @returns {{ state: State, unknown: string[] }}
    */
   stateIn(fragment) {
     const given = new URLSearchParams(fragment.replace(/^#/, ""));
     const { starts, models, oils, fields } = this.contents;
-    const start = given.get("start") ?? "";
-    const model = given.get("model") ?? "";
+    /** @type {string[]} */
+    const unknown = [];
+    const known = (/** @type {string} */ key, /** @type {string[]} */ names) => {
+      const name = given.get(key);
+      if (name === null || names.includes(name)) return name;
+      unknown.push(name);
+      return null;
+    };
     const state = this.begin(
-      Object.hasOwn(starts, start) ? start : this.state.start,
-      Object.hasOwn(models, model) ? model : Object.keys(models)[0],
+      known("start", Object.keys(starts)) ?? this.state.start,
+      known("model", Object.keys(models)) ?? Object.keys(models)[0],
     );
-    const kind = given.get("kind") ?? "";
-    if (this.kindsOf(state.model).includes(kind)) state.kind = kind;
-    const grade = given.get("grade");
-    if (grade === "" || (grade && Object.hasOwn(oils.grades, grade))) state.grade = grade;
+    state.kind = known("kind", this.kindsOf(state.model)) ?? state.kind;
+    state.grade = known("grade", ["", ...Object.keys(oils.grades)]) ?? state.grade;
     for (const [name, text] of given) {
+      if (CHOICES.includes(name)) continue;
       const shown = Number(text);
       if (Object.hasOwn(fields, name) && text !== "" && !this.fault(name, shown)) state.edits[name] = shown;
+      else unknown.push(`${name}=${text}`);
     }
-    return state;
+    return { state, unknown };
   }
 
   /**

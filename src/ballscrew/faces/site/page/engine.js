@@ -114,7 +114,7 @@ export class Kernel {
    * @returns {Found}
    */
   evaluate(spec, values, count) {
-    const inputs = spec.inputs.map((name) => valueOf(values, name));
+    const inputs = spec.inputs.map((name) => givenOf(values, name));
     const sizes = spec.outputs.map(() => count);
     const arrays = this.call(spec.function, inputs, sizes, count, (i, o) => [count, 1, count, i, o]);
     /** @type {Found} */
@@ -131,7 +131,7 @@ export class Kernel {
  * @param {Values} values
  * @param {string} name
  */
-function valueOf(values, name) {
+function givenOf(values, name) {
   const value = values[name];
   if (value === undefined) throw new Error(`no value of ${name}`);
   return value ?? Number.NaN; // what is not given
@@ -178,7 +178,7 @@ export function evaluateByBall(kernel, solver, parts, values, count) {
  * @param {number} count
  */
 function loadsOf(kernel, solver, parts, values, count) {
-  const varying = parts.numbers.inputs.filter((name) => typeof valueOf(values, name) !== "number");
+  const varying = parts.numbers.inputs.filter((name) => typeof givenOf(values, name) !== "number");
   /** @type {Map<string, number>} */
   const known = new Map();
   /** @type {number[]} */

@@ -153,14 +153,7 @@ export function recordsOf({ judging }, judged) {
   const failing = tables.checks.filter((/** @type {any} */ _, /** @type {number} */ place) => checks[place].holds === false);
   const names = failing.map((/** @type {any} */ row) => plain(row.title));
   const all = recordOf(tables.all_checks[0], { ...judged, words: { ...judged.words, names } });
-  const isOutside = judged.sources.checked.valid === 0;
-  const message = isOutside ? { template: judging.outside, values: { verdict: all.message } } : all.message;
-  return {
-    verdicts: said(tables.verdicts),
-    warnings: said(tables.warnings),
-    checks,
-    all: { ...all, message },
-  };
+  return { verdicts: said(tables.verdicts), warnings: said(tables.warnings), checks, all };
 }
 
 /** @param {any} row @param {Judged} judged */

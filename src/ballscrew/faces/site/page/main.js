@@ -296,7 +296,7 @@ function followChoices() {
     choose({ ...shownCase.begin(shownCase.state.start, shownCase.state.model) });
   });
   globalThis.addEventListener("hashchange", () => {
-    if (location.hash !== shownCase.fragment()) choose(shownCase.stateIn(location.hash));
+    if (location.hash !== shownCase.fragment()) chooseLinked();
   });
 }
 
@@ -361,7 +361,17 @@ function begin() {
   followLanguage();
   followChoices();
   followSizes();
-  choose(shownCase.stateIn(location.hash));
+  chooseLinked();
+}
+
+/** Show the case of the address. */
+async function chooseLinked() {
+  const { state, unknown } = shownCase.stateIn(location.hash);
+  await choose(state);
+  if (unknown.length === 0) return;
+  byId("trouble").textContent = say("The link has what this page does not have, and is shown without it: {names}.", {
+    names: unknown.join(", "),
+  });
 }
 
 begin();

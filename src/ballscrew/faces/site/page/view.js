@@ -93,6 +93,7 @@ export class View {
     this.heading.textContent = say(this.words.heading);
     this.hint.textContent = say(this.words.hint);
     if (this.summary) this.summary.textContent = say("Numbers");
+    this.plot?.canvas.setAttribute("aria-label", say(this.words.heading)); // more when it is drawn
     this.scroll?.setAttribute("aria-label", `${say("Numbers")}: ${say(this.words.heading)}`);
     this.prepare();
   }

@@ -1,0 +1,285 @@
+"""The static page: its numbers are those of the model, its case is that of the program, everybody can use it."""
+
+import json
+import re
+import tomllib
+from importlib import resources
+from pathlib import Path
+from urllib.parse import parse_qs
+
+import axe_playwright_python
+import pytest
+
+from ballscrew.cases.case_files import case_file
+from ballscrew.faces.site import site
+from ballscrew.physics.sizing.catalogue import catalogue
+
+MODELS = ("reference",)
+#: As that of the fixture: the folder below the root of the server.
+PATH = "tools/screws/"
+DOUBLE = "#start=rexroth-32x10x3.969-5-double"
+ELASTIC = "#start=hiwin-40-8k5&kind=double%2Belastic"
+AXE = (Path(axe_playwright_python.__file__).parent / "axe.min.js").read_text(encoding="utf-8")
+OPEN_ALL = "for (const one of document.querySelectorAll('details')) one.open = true"
+PAGE = resources.files("ballscrew.faces.site").joinpath("page")
+#: Relative: a module is that of the same recording.
+TOLERANCE = 1e-12
+
+
+def torque_of(tables):
+    """The friction torque of a case, computed by the model itself."""
+    case = case_file.build(tables, rows=catalogue())
+    operation = case.operation
+    return float(
+        case.model(
+            case.screw, case.lubricant, axial_load=operation.axial_load, screw_speed=operation.screw_speed
+        ).screw_torque
+    )
+
+
+#: Each start with numbers moved as by hand: load and speed of opposite signs, geometry, oil, surfaces and laws.
+CASES = {
+    "the paper's screw": ("", {}),
+    "the paper's screw, all moved": (
+        "",
+        {
+            "operation.axial_load": -2500,
+            "operation.screw_speed": 1250,
+            "lubricant.viscosity": 61,
+            "screw.ball_diameter": 3.4,
+            "screw.contact_angle": 41.5,
+            "screw.loaded_balls": 61,
+            "screw.ball_roughness": 0.1,
+            "model.friction.boundary_friction_coefficient": 0.15,
+            "model.ball_force.share_of_load": 0.01,
+        },
+    ),
+    "a double nut": (DOUBLE, {}),
+    "a double nut, cold": (
+        DOUBLE,
+        {"lubricant.temperature": 11, "nut.preload": 1800, "losses.seals.seal_torque": 0.3, "screw.lead": 8},
+    ),
+    "an elastic nut": (ELASTIC, {}),
+    "an elastic nut, loaded more": (ELASTIC, {"operation.axial_load": 2000, "nut.preload": 3000}),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_torque_is_that_of_the_model_and_of_its_case(visit, name):
+    fragment, moves = CASES[name]
+    here = visit().open(fragment)
+    found = here.state()
+    for path, value in moves.items():
+        before, found = found, here.slide(path, value)
+        assert found["inputs"] != before["inputs"], path  # at once, before anything is drawn
+    assert found["outputs"]["screw_torque"] == pytest.approx(torque_of(found["case"]), rel=TOLERANCE, abs=0)
+
+
+def test_a_slider_moves_the_numbers_at_once(visit):
+    here = visit().open()
+    before = here.state()["outputs"]["screw_torque"]
+    after = here.slide("operation.screw_speed", 1200)
+    assert after["outputs"]["screw_torque"] > before  # thicker films need more to roll through
+    assert after["inputs"]["screw_speed"] == pytest.approx(1200 / 60 * 2 * 3.141592653589793, rel=1e-15)
+    here.rest()
+    assert float(here.page.locator("#torque").inner_text()) == pytest.approx(after["outputs"]["screw_torque"], rel=5e-4)
+
+
+def test_the_file_and_the_link_hold_the_case(visit):
+    here = visit().open(DOUBLE)
+    found = here.slide("screw.lead", 9)
+    here.rest()
+    assert tomllib.loads(here.page.locator("#toml").inner_text()) == found["case"]
+    link = here.page.locator("#open-program").get_attribute("href")
+    address, _, fragment = link.partition("#")
+    parameters = {name: texts[0] for name, texts in parse_qs(fragment).items()}
+    assert address == "http://127.0.0.1:8017/"
+    assert (parameters["A"], parameters["A.screw.lead"]) == ("rexroth-32x10x3.969-5-double", "9 mm")
+    sections = json.loads(parameters["A.tables"])
+    assert {name: one for name, one in sections.items() if one is not None} == {
+        name: one for name, one in found["case"].items() if name != "screw"
+    }
+
+
+def test_the_address_of_the_page_holds_the_case(visit):
+    here = visit().open(DOUBLE)
+    here.slide("lubricant.temperature", 63)
+    here.rest()
+    other = visit().open(here.page.evaluate("location.hash"))
+    assert other.state() == here.state()
+
+
+def test_an_oil_of_a_grade_is_chosen_and_left(visit):
+    here = visit().open()
+    here.page.locator("#grade").select_option("ISO VG 68")
+    here.page.wait_for_selector('input[name="lubricant.temperature"]')
+    warm = here.slide("lubricant.temperature", 60)
+    assert warm["case"]["lubricant"] == {"grade": "ISO VG 68", "temperature": "60 degC"}
+    assert warm["outputs"]["screw_torque"] == pytest.approx(torque_of(warm["case"]), rel=TOLERANCE, abs=0)
+    here.page.locator("#grade").select_option("")
+    here.page.wait_for_selector('input[name="lubricant.viscosity"]')
+    plain = here.state()
+    assert plain["inputs"]["viscosity"] == pytest.approx(warm["inputs"]["viscosity"], rel=1e-3)
+    assert plain["outputs"]["screw_torque"] == pytest.approx(torque_of(plain["case"]), rel=TOLERANCE, abs=0)
+
+
+def test_a_start_and_a_nut_are_chosen(visit):
+    here = visit().open()
+    here.page.locator("#start").fill("rexroth-16x5x3-4-double")
+    here.page.wait_for_selector('input[name="nut.preload"]')
+    assert here.state()["case"]["screw"] == {"catalogue": "rexroth-16x5x3-4-double"}
+    here.page.locator("#kind").select_option("row")
+    here.page.wait_for_selector('input[name="nut.preload"]', state="detached")
+    found = here.state()
+    assert "nut" not in found["case"]
+    assert found["outputs"]["screw_torque"] == pytest.approx(torque_of(found["case"]), rel=TOLERANCE, abs=0)
+
+
+def test_what_no_case_may_have_is_refused_in_words(visit):
+    here = visit().open()
+    before = here.state()
+    field = here.page.locator("#f-screw-ball_diameter")
+    field.fill("-1")
+    assert here.page.locator("#f-screw-ball_diameter-fault").inner_text() == "must be > 0"
+    assert field.get_attribute("aria-invalid") == "true"
+    assert here.state() == before
+    field.fill("3.3")
+    assert here.page.locator("#f-screw-ball_diameter-fault").inner_text() == ""
+    assert here.state()["case"]["screw"]["ball_diameter"] == "3.3 mm"
+
+
+def test_where_the_model_does_not_hold_is_said(visit):
+    here = visit().open()
+    assert here.page.locator("#verdict").inner_text() == "All conditions of the model hold."
+    here.slide("lubricant.viscosity", 500)
+    found = here.slide("operation.axial_load", 50)
+    here.rest()
+    assert found["outputs"]["valid"] == 0
+    assert "too light for the film law" in here.page.locator("#verdict").inner_text()
+    assert "too light for the film law" in here.page.locator("#over-speed .shaded").inner_text()
+
+
+def test_a_slider_is_moved_by_keys(visit):
+    here = visit().open()
+    slider = here.page.locator('input[type=range][name="operation.axial_load"]')
+    slider.focus()
+    here.page.keyboard.press("ArrowRight")
+    after = here.state()["inputs"]["axial_load"]
+    assert after > 4000
+    here.page.keyboard.press("ArrowLeft")
+    assert here.state()["inputs"]["axial_load"] == 4000
+    here.page.keyboard.press("Home")
+    assert here.state()["inputs"]["axial_load"] == -8000  # all four quadrants are within reach
+
+
+def test_the_point_is_dragged_in_the_chart(visit):
+    here = visit().open()
+    box = here.page.locator("#over-speed canvas").bounding_box()
+    here.page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    here.page.mouse.down()
+    first = here.state()["inputs"]["screw_speed"]
+    here.page.mouse.move(box["x"] + 0.75 * box["width"], box["y"] + box["height"] / 2)
+    here.page.mouse.up()
+    assert here.state()["inputs"]["screw_speed"] > first > 100
+
+
+def test_each_chart_has_its_numbers_and_words(visit):
+    here = visit().open(DOUBLE)
+    here.page.evaluate(OPEN_ALL)
+    for section in here.page.locator(".answers section:has(canvas)").all():
+        section.scroll_into_view_if_needed()
+        here.rest(600)
+        assert section.locator("canvas").get_attribute("aria-label"), section.get_attribute("id")
+        assert section.locator("tbody tr").count() > 10, section.get_attribute("id")
+
+
+def violations(here):
+    """What axe finds: an evaluation by the debugger is not stopped by the policy of the page."""
+    here.page.evaluate(f"{AXE}; 0")
+    found = here.page.evaluate("axe.run(document, {resultTypes: ['violations']})")["violations"]
+    return [(one["id"], one["impact"], [node["target"] for node in one["nodes"]][:3]) for one in found]
+
+
+@pytest.mark.parametrize(("width", "scheme"), [(1440, "light"), (360, "dark")])
+def test_axe_finds_nothing(visit, width, scheme):
+    here = visit(width=width, scheme=scheme).open(DOUBLE)
+    here.page.evaluate(OPEN_ALL)
+    here.rest(600)
+    assert violations(here) == []
+    assert here.page.evaluate("document.documentElement.scrollWidth") <= width
+
+
+def test_the_scheme_is_chosen_and_kept(visit):
+    here = visit().open()
+    here.page.locator("#scheme").click()
+    assert here.page.locator("html").get_attribute("data-scheme") == "dark"
+    here.open("?again")
+    assert here.page.locator("html").get_attribute("data-scheme") == "dark"
+
+
+def english_words():
+    """All that the page says in its own words."""
+    found = set()
+    for one in PAGE.iterdir():
+        text = one.read_text(encoding="utf-8") if one.name.endswith((".js", ".html")) else ""
+        found |= set(re.findall(r'\bsay\(\s*"([^"]+)"', text))
+        found |= set(re.findall(r'\b(?:heading|hint|words|title): "([^"]+)"', text))
+        found |= set(re.findall(r'data-(?:say|label)="([^"]+)"', text))
+        if one.name == "headline.js":
+            found |= set(re.findall(r'\["\w+", "([^"]+)"\]', text))
+    return found
+
+
+def test_the_page_is_german_where_its_visitor_is(visit):
+    here = visit(language="de-DE").open(DOUBLE)
+    here.rest()
+    german = here.page.evaluate("globalThis.ballscrewSite.contents.texts.de")
+    contents = here.page.evaluate("globalThis.ballscrewSite.contents")
+    named = [f"field.{one['path']}.{part}" for one in contents["fields"].values() for part in ("label", "help")]
+    named += [f"reason.{name}" for name in contents["reasons"]] + [f"kind.{name}" for name in contents["kinds"]]
+    named += [name.replace("contribution_", "mechanism.") for name in contents["results"] if "contribution_" in name]
+    assert [one for one in (*english_words(), *named) if one not in german] == []
+    assert here.page.locator("html").get_attribute("lang") == "de"
+    assert "," in here.page.locator("#torque").inner_text()
+    here.page.locator("#language").select_option("en")
+    assert here.page.locator("#over-speed h2").inner_text() == "Where the torque comes from, over the speed"
+    assert "." in here.page.locator("#torque").inner_text()
+
+
+def test_there_is_no_formula_in_the_page():
+    allowed = {"max", "min", "PI", "abs", "floor", "round", "log10"}
+    for one in PAGE.iterdir():
+        if one.name.endswith(".js"):
+            text = one.read_text(encoding="utf-8")
+            assert set(re.findall(r"\bMath\.(\w+)", text)) <= allowed, one.name
+            if "log10" in text:
+                assert one.name == "plot.js" or one.name == "charts.js"  # of axes that are logarithmic
+
+
+def test_a_link_to_what_the_page_has_not_is_said(visit):
+    here = visit().open("#start=paper&kind=double%2Bspacers&axial_load=3000&lead=-1")
+    here.page.wait_for_selector("#trouble:not(:empty)")
+    assert here.page.locator("#trouble").inner_text().endswith("without it: double+spacers, lead=-1.")
+    assert here.state()["inputs"]["axial_load"] == 3000
+
+
+@pytest.mark.parametrize("single", [False, True], ids=["folder", "one file"])
+def test_it_opens_from_files(visit, folder, tmp_path, single):
+    if single:
+        site.write(tmp_path / "page.html", site.site(MODELS, ("row",), single=True))
+    page = tmp_path / "page.html" if single else folder / PATH / "index.html"
+    here = visit(at=page.as_uri()).open()
+    found = here.slide("operation.axial_load", 3000)
+    assert found["outputs"]["screw_torque"] == pytest.approx(torque_of(found["case"]), rel=TOLERANCE, abs=0)
+
+
+def test_it_opens_without_a_network_after_the_first_visit(visit):
+    here = visit().open()
+    here.page.evaluate("navigator.serviceWorker.ready.then(() => 0)")
+    here.page.context.set_offline(True)
+    here.open("?again")
+    found = here.slide("operation.axial_load", 3000)
+    assert found["outputs"]["screw_torque"] == pytest.approx(torque_of(found["case"]), rel=TOLERANCE, abs=0)
+    digest = here.page.evaluate("globalThis.ballscrewSite.digest")
+    assert here.page.locator("#version").inner_text().endswith(digest)
+    assert here.page.evaluate("caches.keys()") == [f"ballscrew-{digest}"]
