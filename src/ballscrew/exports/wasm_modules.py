@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ballscrew.basis.quantities import Info, Quantity, quantities_of
 from ballscrew.compiler.kernels import wasm
 from ballscrew.compiler.kernels.emission import kernel_text
 from ballscrew.compiler.tracing.merging import merged_program
@@ -27,21 +28,41 @@ from ballscrew.physics.components.materials import OF_A_GRADE, TEMPERATURE, Lubr
 from ballscrew.physics.components.nut import Nut
 from ballscrew.physics.components.oil_grades import OilState
 from ballscrew.physics.components.operating_state import settled
+from ballscrew.physics.friction.touching import MostLoadedBall, most_loaded_ball
 from ballscrew.physics.solvers.load_distribution import (
+    BallLoads,
     ElasticNutNumbers,
     elastic_nut_numbers,
     lift_off_load,
     preload_of_rigid_bodies,
 )
 
+#: What the most loaded ball of a nut carries.
+BALL = MostLoadedBall._fields
 #: What a module gives, where the nut has it, besides the parts of the torque and the conditions of validity.
 OUTPUTS = (
     "screw_torque", "nut_torque", "ideal_torque", "drive_torque", "holding_torque", "self_locking", "efficiency",
     "back_driving_efficiency", "contact_load", "largest_contact_load", "maximum_pressure", "minimum_film_parameter",
     "screw_film_parameter", "nut_film_parameter", "screw_friction_coefficient", "nut_friction_coefficient",
     "screw_maximum_pressure", "nut_maximum_pressure", "rolling_share", "deflection", "rigidity", "remaining_preload",
-    "lift_off_load", "residual", "valid", "screw_semi_major_axis", "nut_semi_major_axis",
+    "lift_off_load", "residual", "valid", "screw_semi_major_axis", "nut_semi_major_axis", "power_imbalance", *BALL,
 )  # fmt: skip
+#: Of these what sweeps do not ask for.
+_BESIDE: Mapping[str, Output] = {
+    "power_imbalance": Output(
+        "power_imbalance",
+        Quantity("power_imbalance", "1", Info("", "power of the torque beyond what is dissipated, as a share of that")),
+        lambda result: result.power_imbalance,
+    ),
+    **{
+        name: Output(
+            name,
+            quantities_of(BallLoads)[name],
+            lambda result, n=name: getattr(most_loaded_ball(result.loads), n),
+        )
+        for name in BALL
+    },
+}
 _PARTS = ("contribution_", "validity_")
 #: The diameter of an elastic nut; NaN for one of the usual size.
 NUT_DIAMETER = "bodies.nut_outer_diameter"
@@ -165,18 +186,21 @@ def _parted(parts: ByBall | None) -> dict[str, Any]:
     return {"by_ball": found}
 
 
-def outputs_shown(nut: Nut, names: Collection[str] = OUTPUTS) -> dict[str, Output]:
-    """Outputs of these names, where the nut has them, and all parts of the torque and conditions of validity."""
-    return {n: output for n, output in known_outputs(nut).items() if n in names or n.startswith(_PARTS)}
+def outputs_of(nut: Nut, outputs: Collection[str] = OUTPUTS) -> Mapping[str, Output]:
+    """Those of some outputs that the module of such a nut gives, and all parts of the torque, by name."""
+    beside = {n: output for n, output in _BESIDE.items() if not (nut.is_row and n in BALL)}
+    known = {**known_outputs(nut), **beside}
+    return {n: output for n, output in known.items() if n in outputs or n.startswith(_PARTS)}
 
 
-def module_of(subject: Configuration, wanted: Mapping[str, Output]) -> Module:
-    """The module of a configuration whose oil is its numbers alone, with some outputs.
+def module_of(subject: Configuration, outputs: Collection[str] = OUTPUTS) -> Module:
+    """The module of a configuration whose oil is its numbers alone, with some outputs and with all parts of the torque.
 
-    Raises :class:`~ballscrew.compiler.tracing.tape.CannotRecordError` for what cannot be recorded.
+    Outputs that such a nut has not are left out. Raises
+    :class:`~ballscrew.compiler.tracing.tape.CannotRecordError` for what cannot be recorded.
     """
     names = inputs_of_structure(subject)
-    program = recorded_structure(subject, wanted, names)
+    program = recorded_structure(subject, outputs_of(subject.nut, outputs), names)
     if subject.nut.one_by_one:
         return _by_ball(subject, names, program)
     return compiled([("evaluate", names, program)])

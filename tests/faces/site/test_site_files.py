@@ -28,7 +28,7 @@ def test_two_builds_are_the_same_bytes(files):
 
 def test_a_module_has_the_name_of_its_content(files):
     modules = {name: content for name, content in files.items() if name.endswith(".wasm")}
-    assert len(modules) == 3  # the structure, the oils, and the solver of elastic nuts
+    assert len(modules) == 4  # the structure, the oils, the solver of elastic nuts, and what is judged
     for name, content in modules.items():
         assert name == f"kernels/{hashlib.sha256(content).hexdigest()[:16]}.wasm"
         script = files[f"{name}.js"].decode()

@@ -13,6 +13,7 @@ from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.evaluation.structures import inputs_of_structure
 from ballscrew.exports.wasm_modules import NUT_DIAMETER, Module, described
 from ballscrew.faces.site import kinds
+from ballscrew.faces.site.judging import Judging, contents_of_judging, of_start
 from ballscrew.faces.site.texts import texts
 from ballscrew.faces.web.vocabulary import vocabulary
 from ballscrew.physics.components.materials import TEMPERATURE
@@ -27,12 +28,12 @@ _SECTIONS: Mapping[str, str] = {
 
 
 def contents(
-    modules: Mapping[tuple[str, str], Module], oils: Module, grades: tuple[str, ...], solver: str
+    modules: Mapping[tuple[str, str], Module], oils: Module, grades: tuple[str, ...], solver: str, judging: Judging
 ) -> dict[str, Any]:
     """The contents as one JSON document; numbers are in SI.
 
     ``modules`` are those of models and kinds of nut, ``oils`` that of the ``grades``, ``solver`` the file of that of
-    the balls.
+    the balls, ``judging`` that of verdicts and checks.
     """
     words = vocabulary()
     subjects = {pair: kinds.subject_of(kinds.case_of(kinds.PAPER, *pair)) for pair in modules}
@@ -50,6 +51,7 @@ def contents(
         "structures": {f"{model}/{kind}": module.described for (model, kind), module in modules.items()},
         "solver": solver,
         "oils": {"file": oils.file, "grades": {grade: described(function) for grade, function in of_oils}},
+        "judging": contents_of_judging(judging),
         "fields": _fields(subjects),
         "results": {name: described for name, described in results.items() if name in given},
         "mechanisms": words["mechanisms"],
@@ -139,4 +141,5 @@ def _start(name: str) -> dict[str, Any]:
         "temperature": temperature,
         "values": values,
         "nuts": nuts,
+        "judged": of_start(name),
     }

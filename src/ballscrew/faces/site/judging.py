@@ -9,8 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from ballscrew.basis import units
 from ballscrew.basis.arrays import where
 from ballscrew.basis.quantities import Info, Quantity, fields_of
@@ -21,18 +19,19 @@ from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.tape import Tape
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.engine.evaluation.structures import inputs_of_structure
+from ballscrew.exports.wasm_modules import BALL, Function, Module, compiled, described
 from ballscrew.faces.site import kinds
-from ballscrew.faces.site.modules import BALL, Function, Module, compiled
 from ballscrew.physics.components.ball_section import Arc, contact_width, land_height
 from ballscrew.physics.friction.touching import FlankPair, MostLoadedBall, touched
 from ballscrew.physics.sizing.catalogue import catalogue
-from ballscrew.physics.sizing.check_table import ALL_CHECKS, CHECKS, OUTSIDE
+from ballscrew.physics.sizing.check_table import ALL_CHECKS, CHECKS
 from ballscrew.physics.sizing.checks import GIVEN_LIMIT, values_of_limits
 from ballscrew.physics.sizing.derived import LISTED, derived
 from ballscrew.physics.sizing.dn_limits import GENERAL, speed_limit_of
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
 from ballscrew.physics.sizing.judged import JUDGED, documents, judged, outputs
 from ballscrew.physics.sizing.rules import rule_of
+from ballscrew.questions.shared.check_lines import in_shown_unit
 
 #: What else is computed at once: points that differ from that of the visitor in these inputs.
 BESIDE: Mapping[str, Mapping[str, float]] = {
@@ -61,6 +60,8 @@ _SHOWN: Mapping[str, Quantity] = {
     "lead_angle": Quantity("lead_angle", "rad", Info(r"\varphi", "lead angle", "deg")),
     "nut_speed": Quantity("nut_speed", "m/s", Info("v_n", "speed of the nut along the screw", "m/min")),
 }
+#: The validity of what is checked.
+_VALID = "checked.valid"
 #: A screw is checked with a nut; one without as a single one.
 CHECKED_AS: Mapping[str, str] = {"row": "single"}
 
@@ -82,6 +83,7 @@ def values() -> dict[str, tuple[str, str]]:
     :data:`BESIDE` are outputs there; ``given`` and ``listed`` are of the visitor and of the catalogue.
     """
     needed = [name for row in JUDGED if row is not ALL_CHECKS for name in (*row.needs, *row.takes)]
+    needed.append(_VALID)
     found = {name: ("outputs", name) for name in (*_OF_RUN, *needed) if name in _OF_RUN or name.startswith("validity_")}
     found |= {name: ("inputs", name) for name in _OF_SCREW} | {
         "young_modulus": ("inputs", "screw_material.young_modulus")
@@ -94,6 +96,7 @@ def values() -> dict[str, tuple[str, str]]:
         "flooded_torque": ("full_bath", "screw_torque"),
         "maximum_pressure": ("checked", "maximum_pressure"),
         "rule_of_maker": ("rule", "torque"),
+        _VALID: ("checked", "valid"),
     }
     return {name: found[name] for name in dict.fromkeys(needed)}
 
@@ -123,17 +126,14 @@ def module_of_judging() -> Judging:
 
 
 def _judged() -> tuple[tuple[str, ...], Program]:
-    """All that is judged; a truth value is a number that is not zero. An input says of each check whether it is given.
-
-    What is said besides of all checks, outside the range of validity, the page adds itself: it has no cycle.
-    """
+    """All that is judged; a truth value is a number that is not zero, and so is what of each check is given."""
     names = tuple(values())
     of_checks = tuple(f"given.{row.id}" for row in CHECKS)
-    truths = {name for row in JUDGED if row is not ALL_CHECKS for name in row.truths}
+    truths = {name for row in JUDGED for name in row.truths}
     tape = Tape(len(names) + len(of_checks))
     traced: dict[str, Any] = {name: tape.value(place) for place, name in enumerate((*names, *of_checks))}
-    traced |= {name: traced[name] != 0 for name in (*truths, *of_checks)}
-    traced |= dict.fromkeys(ALL_CHECKS.truths, np.bool_(False))
+    traced |= {name: traced[name] != 0 for name in (*truths & {*names}, *of_checks)}
+    traced["outside_validity"] = traced[_VALID] == 0
     given = {row.id: traced[f"given.{row.id}"] for row in CHECKS}
     return (*names, *of_checks), merged_program(tape, outputs(judged(traced, given)))
 
@@ -210,16 +210,15 @@ def contents_of_judging(judging: Judging) -> dict[str, Any]:
     tables = documents()
     return {
         "file": judging.module.file,
-        "judged": _function(judging.judged),
-        "derived": {kind: _function(function) for kind, function in judging.derived.items()},
-        "drawing": {what: _function(function) for what, function in judging.drawing.items()},
+        "judged": described(judging.judged),
+        "derived": {kind: described(function) for kind, function in judging.derived.items()},
+        "drawing": {what: described(function) for what, function in judging.drawing.items()},
         "tables": tables,
         "values": values(),
         "for_derived": dict(_FOR_DERIVED),
         "beside": {name: dict(changes) for name, changes in BESIDE.items()},
         "checked_as": dict(CHECKED_AS),
         "without": {kind: _without(kind) for kind in kinds.KINDS},
-        "outside": OUTSIDE.template,
         "given_limit": GIVEN_LIMIT.document(),
         "rating_sources": list(RATING_SOURCES),
         "ends": {
@@ -236,7 +235,10 @@ def contents_of_judging(judging: Judging) -> dict[str, Any]:
                 if name in _OF_INSTALLATION
             },
         },
-        "shown": {name: _described(quantity) for name, quantity in _SHOWN.items()},
+        "shown": {
+            **{name: _described(quantity) for name, quantity in _SHOWN.items()},
+            **{row.id: _described(in_shown_unit(row.name, row.unit)) for row in CHECKS},
+        },
         "units": _units(tables),
     }  # fmt: skip
 
@@ -255,14 +257,13 @@ def of_start(name: str) -> dict[str, Any]:
     }
 
 
-def templates(judging: Mapping[str, Any], starts: Mapping[str, Any]) -> list[str]:
-    """All templates of the tables and of the words that stand in them, to be translated."""
-    found = [judging["tables"]["not_checked"], judging["outside"], *judging["rating_sources"]]
+def templates(contents: Mapping[str, Any]) -> list[str]:
+    """All templates of the tables, and of the words that stand in them, to be translated."""
+    judging, checks = contents["judging"], contents["judging"]["tables"]["checks"]
+    found = [judging["tables"]["not_checked"], *judging["rating_sources"]]
     found += [one["words"] for one in judging["ends"].values()]
-    found += _templates([judging["tables"], judging["given_limit"], [one["judged"] for one in starts.values()]])
-    found += [row["title"] for row in judging["tables"]["checks"]] + [
-        row["give"] for row in judging["tables"]["checks"]
-    ]
+    found += _templates([judging["tables"], judging["given_limit"], *contents["starts"].values()])
+    found += [row[part] for row in checks for part in ("title", "give")]
     return list(dict.fromkeys(one for one in found if one))
 
 
@@ -271,15 +272,6 @@ def _without(kind: str) -> list[str]:
     chosen = kinds.KINDS[kind]
     of_ball = [] if not chosen.nut else ["rolling_share"]
     return [*of_ball, *(["rule_of_maker"] if chosen.spacer_balls else [])]
-
-
-def _function(function: Function) -> dict[str, Any]:
-    return {
-        "function": function.name,
-        "inputs": list(function.inputs),
-        "outputs": list(function.outputs),
-        "constants": dict(function.constants),
-    }
 
 
 def _described(quantity: Quantity, default: Any = None) -> dict[str, Any]:

@@ -16,6 +16,7 @@ from ballscrew.basis.errors import Fault, InputError, nearest
 from ballscrew.compiler.kernels import wasm
 from ballscrew.faces.site import bundle, kinds
 from ballscrew.faces.site.contents import contents
+from ballscrew.faces.site.judging import module_of_judging
 from ballscrew.faces.site.modules import Module, module_of_oils, module_of_solver, module_of_structure, oils
 
 #: Files of the folder that are as they are in the package.
@@ -49,9 +50,9 @@ def site(
     grades = oils()
     of_oils = module_of_oils()
     done(total, total)
-    solver = module_of_solver()
-    codes = {module.file: module.code for module in (*modules.values(), of_oils, solver)}
-    known = contents(modules, of_oils, grades, solver.file)
+    solver, judging = module_of_solver(), module_of_judging()
+    codes = {module.file: module.code for module in (*modules.values(), of_oils, solver, judging.module)}
+    known = contents(modules, of_oils, grades, solver.file, judging)
     return _single(known, codes) if single else _folder(known, codes)
 
 

@@ -13,6 +13,8 @@ from collections.abc import Mapping
 from importlib import resources
 from typing import Any
 
+from ballscrew.faces.site.judging import templates
+
 #: A place in a text that a value takes.
 _PLACE = re.compile(r"\\{\w+\\}")
 _NUMBER = re.compile(r"(?<=\d)\.(?=\d)")
@@ -29,7 +31,8 @@ def _german(contents: Mapping[str, Any]) -> dict[str, str]:
     parts = [f"mechanism.{name}" for name in contents["mechanisms"]]
     found = {name: served[name] for name in (*fields, *parts) if name in served}
     reasons = {f"reason.{name}": _translated(words, served) for name, words in contents["reasons"].items()}
-    return {**found, **{name: words for name, words in reasons.items() if words is not None}, **own}
+    said = {one: served[f"message.{one}"] for one in templates(contents) if f"message.{one}" in served}
+    return {**found, **said, **{name: words for name, words in reasons.items() if words is not None}, **own}
 
 
 @functools.cache

@@ -32,7 +32,6 @@ from ballscrew.exports.wasm_modules import (
     module_of_oils,
     module_of_solver,
     oils,
-    outputs_shown,
 )
 from ballscrew.physics.components.contact import RaceState
 
@@ -75,7 +74,7 @@ class Modules:
 
         Raises :class:`NotMadeError` for one that has none.
         """
-        return self._get(_name(subject), lambda: _of_module(module_of(subject, outputs_shown(subject.nut, SHOWN))))
+        return self._get(_name(subject), lambda: _of_module(module_of(subject, SHOWN)))
 
     def of_oils(self) -> KeptModule | None:
         """The module of all grades of oil; None while it is made."""

@@ -13,6 +13,9 @@ from ballscrew.basis.arrays import namespace, where
 from ballscrew.basis.quantities import Angle, Force, Mask
 from ballscrew.physics.solvers.load_distribution import BallLoads
 
+#: Halves whose loads differ by no more than this share carry alike.
+ALIKE = 1e-9
+
 
 class FlankPair(NamedTuple):
     """A pair of flanks: the load of a ball on it, the contact angle, and whether the ball touches it."""
@@ -41,7 +44,7 @@ def most_loaded_ball(loads: BallLoads) -> MostLoadedBall:
         return MostLoadedBall(*(_at(part, place) for part in found))
     for kind in others:
         other = MostLoadedBall(*(getattr(kind, name) for name in names))
-        is_larger = _larger(other) > _larger(found)
+        is_larger = _larger(other) > (1 + ALIKE) * _larger(found)
         found = MostLoadedBall(*(where(is_larger, b, a) for a, b in zip(found, other, strict=True)))
     return found
 

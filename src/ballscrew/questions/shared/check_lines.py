@@ -24,7 +24,12 @@ _GIVE = {
 
 def quantity_of(check: Check) -> Quantity:
     """The quantity of a check, in the unit it is shown in."""
-    return Quantity(check.name, check.unit, Info("", check.name, _SHOWN_IN.get(check.unit, "")))
+    return in_shown_unit(check.name, check.unit)
+
+
+def in_shown_unit(name: str, unit: str) -> Quantity:
+    """The quantity of a check of this name, in the unit it is shown in."""
+    return Quantity(name, unit, Info("", name, _SHOWN_IN.get(unit, "")))
 
 
 def shown(check: Check, value: float | None) -> str:

@@ -281,7 +281,10 @@ export class Engine {
   #ready = new Map();
 
   /**
-   * @param {{structures: Record<string, Structure>, oils: {file: string, grades: Record<string, Spec>}, solver: string}} contents
+   * @param {{
+   *   structures: Record<string, Structure>, oils: {file: string, grades: Record<string, Spec>}, solver: string,
+   *   judging: {file: string, checked_as: Record<string, string>},
+   * }} contents
    * @param {(file: string) => Promise<WebAssembly.Module>} moduleOf the compiled module of a file
    */
   constructor(contents, moduleOf) {
@@ -290,19 +293,25 @@ export class Engine {
   }
 
   /**
-   * Load what a structure and the oils need; evaluating needs no waiting then.
+   * Load what a structure, the oils and what is judged need; evaluating needs no waiting then.
    * @param {string} structure
    */
   async load(structure) {
-    const { structures, oils, solver } = this.contents;
-    const { file, by_ball } = structures[structure];
-    await Promise.all([file, oils.file, ...(by_ball ? [solver] : [])].map((each) => this.#kernel(each)));
+    await Promise.all([this.contents.oils.file, ...this.#filesOf(structure)].map((each) => this.#kernel(each)));
   }
 
   /** @param {string} structure */
   isReady(structure) {
-    const { file, by_ball } = this.contents.structures[structure];
-    return this.#ready.has(file) && (!by_ball || this.#ready.has(this.contents.solver));
+    return this.#filesOf(structure).every((file) => this.#ready.has(file));
+  }
+
+  /** @param {string} structure */
+  #filesOf(structure) {
+    const { structures, solver, judging } = this.contents;
+    const [model, kind] = structure.split("/");
+    const { file, by_ball } = structures[structure];
+    const checked = structures[`${model}/${judging.checked_as[kind]}`];
+    return [file, judging.file, ...(by_ball ? [solver] : []), ...(checked ? [checked.file] : [])];
   }
 
   /**
@@ -327,6 +336,15 @@ export class Engine {
   oil(grade, temperature, count) {
     const { file, grades } = this.contents.oils;
     return this.#loaded(file).evaluate(grades[grade], { temperature }, count);
+  }
+
+  /**
+   * The outputs of a function of the module of what is judged, at one point; null is none.
+   * @param {Spec} spec
+   * @param {Values} values
+   */
+  judge(spec, values) {
+    return this.#loaded(this.contents.judging.file).evaluate(spec, values, 1);
   }
 
   /** @param {string} file */
