@@ -25,6 +25,7 @@ extensions = [
     "equation",
     "navigation",
     "parts",
+    "static_page",
 ]
 myst_enable_extensions = ["dollarmath", "colon_fence", "deflist", "substitution"]
 myst_heading_anchors = 3
@@ -41,6 +42,7 @@ suppress_warnings = ["myst.header"]  # the included claims start with a heading 
 if tags.has("alone"):  # noqa: F821  (Sphinx has it)
     # the other pages, which it refers to, are not there
     extensions.remove("sphinx.ext.viewcode")
+    extensions.remove("static_page")
     suppress_warnings += [
         "myst.xref_missing",
         "ref.doc",

@@ -104,6 +104,12 @@ class Module(NamedTuple):
         """What runs it has to know, as a document: its file, and what each function reads and gives."""
         return {"file": self.file, **described(self.functions[0]), **_parted(self.by_ball)}
 
+    @classmethod
+    def of(cls, document: Mapping[str, Any], code: bytes) -> Module:
+        """A module as it was kept, of one function or of a nut by ball."""
+        parts = document.get("by_ball")
+        return cls(code, (_function(document),), None if parts is None else _by_ball_of(parts))
+
 
 def described(function: Function) -> dict[str, Any]:
     """A function as a document."""
@@ -113,6 +119,26 @@ def described(function: Function) -> dict[str, Any]:
         "outputs": list(function.outputs),
         "constants": dict(function.constants),
     }
+
+
+def _function(document: Mapping[str, Any]) -> Function:
+    inputs, outputs = (tuple(document[which]) for which in ("inputs", "outputs"))
+    return Function(document["function"], inputs, outputs, document["constants"])
+
+
+def _by_ball_of(document: Mapping[str, Any]) -> ByBall:
+    ball = document["ball"]
+    inputs = tuple((source, name) for source, name in ball["inputs"])
+    return ByBall(
+        halves=document["halves"],
+        four_contacts=document["four_contacts"],
+        swells=document["swells"],
+        numbers=_function(document["numbers"]),
+        points=_function(document["points"]),
+        ball=OfBall(ball["function"], inputs, tuple(ball["outputs"]), tuple(ball["reduced"])),
+        reductions=tuple((what, values, place) for what, values, place in document["reductions"]),
+        behind=_function(document["behind"]),
+    )
 
 
 def _parted(parts: ByBall | None) -> dict[str, Any]:
@@ -191,7 +217,7 @@ def _numbers(subject: Configuration, names: tuple[str, ...]) -> tuple[tuple[str,
     here = subject.changed({name: value for name, value in points.items() if name not in OPERATION})
     screw, nut, bodies = here.screw, here.nut, here.nut.bodies
     assert bodies is not None, "elastic bodies"
-    usual = bodies.sized(screw)
+    usual: Any = bodies.sized(screw)
     outer = np.where(np.isnan(diameter), usual.nut_outer_diameter, diameter)
     solved = elastic_nut_numbers(screw, nut, dataclasses.replace(usual, nut_outer_diameter=outer))
     load, preload = settled(points[OPERATION[0]]), preload_of_rigid_bodies(screw, nut)

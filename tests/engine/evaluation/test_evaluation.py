@@ -19,6 +19,7 @@ from ballscrew.engine.evaluation.plan import Configuration, Plan
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 from ballscrew.physics.components import laws
 from support.quick_kernels import SHIPPED, UNOPTIMISED, set_code_optimisation
+from support.structures import forget_structures
 
 MODELS = {
     "olaru2005": bs.FrictionModel.olaru2005(),
@@ -272,7 +273,8 @@ def test_labels_that_disagree_are_refused():
         bs.sweep(MODELS["olaru2005"], SCREW, OIL, axial_load=loads, screw_speed=speeds)
 
 
-def test_small_work_is_left_to_numpy():
+def test_small_work_is_left_to_numpy(monkeypatch, tmp_path):
+    forget_structures(monkeypatch, tmp_path)
     plan = Plan.of(Configuration(MODELS["reference"], SCREW, OIL), None, grid(5, 5, 5))
     assert Evaluation.of(plan).engine == "numpy"
 

@@ -8,6 +8,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.physics.components.traits import law_traits
+from support.structures import forget_structures
 
 LAWS = {
     "the root of a square": lambda c: 0.1 * np.sqrt((c.film_parameter - 1) ** 2),
@@ -66,7 +67,8 @@ def swept(model, seed_screw, seed_oil, **options):
     return bs.sweep(model, seed_screw, seed_oil, axial_load=[1.0, 2.0], screw_speed=[1.0, 2.0], **options).attrs
 
 
-def test_the_dataset_says_what_evaluated_it_and_why(model, seed_screw, seed_oil):
+def test_the_dataset_says_what_evaluated_it_and_why(model, seed_screw, seed_oil, monkeypatch, tmp_path):
+    forget_structures(monkeypatch, tmp_path)
     assert swept(model, seed_screw, seed_oil)["engine"] == "numpy"
     assert swept(model, seed_screw, seed_oil, engine="numpy")["engine_reason"] == "it was asked for"
     by_table = swept(dataclasses.replace(model, friction=LAWS["a table"]), seed_screw, seed_oil)

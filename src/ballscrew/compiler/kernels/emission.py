@@ -17,10 +17,8 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.compiler.kernels import elementary
+from ballscrew.compiler.kernels import elementary, pieces
 from ballscrew.compiler.kernels.ir import Value, Writer, constant
-from ballscrew.compiler.kernels.pieces import STEPS as STEPS_OF_A_PIECE
-from ballscrew.compiler.kernels.pieces import pieces_of
 from ballscrew.compiler.tracing.program import Program, Source
 from ballscrew.compiler.tracing.steps import Operand, Step, choose
 
@@ -87,7 +85,8 @@ def kernel_text(
     w = Writer(lanes or lanes_for(program))
     seen = [i for i, source in enumerate(sources) if source == "points"] if watched else []
     values = dict(enumerate(_emit_loops_and_loads(w, sources, seen)))
-    parts = pieces_of(program, w.lanes, _steps) if in_pieces and len(program.steps) > STEPS_OF_A_PIECE else None
+    is_long = in_pieces and len(program.steps) > pieces.STEPS
+    parts = pieces.pieces_of(program, w.lanes, _steps) if is_long else None
     if parts is not None:
         values, program = parts.write(w, values, program.outputs.values()), dataclasses.replace(program, steps=())
     emitter = StepEmitter(w, program, values)

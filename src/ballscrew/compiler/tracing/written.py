@@ -20,9 +20,9 @@ def as_document(program: Program) -> dict[str, Any]:
     """A program as lists and tables of numbers and names."""
     return {
         "inputs": program.inputs,
-        "steps": [(i, step.function.__name__, step.operands, step.is_mask) for i, step in program.steps],
+        "steps": [(i, *_written(step)) for i, step in program.steps],
         "outputs": dict(program.outputs),
-        "constants": dict(program.constants),
+        "constants": {name: _plain(value) for name, value in program.constants.items()},
         "nonnegative": sorted(program.nonnegative),
     }
 
@@ -36,6 +36,16 @@ def from_document(held: Mapping[str, Any]) -> Program:
             raise ValueError(name)
         steps.append((i, Step(function, tuple((kind, operand) for kind, operand in operands), is_mask)))
     return Program(held["inputs"], tuple(steps), held["outputs"], held["constants"], frozenset(held["nonnegative"]))
+
+
+def _written(step: Step) -> tuple[str, list[tuple[str, Any]], bool]:
+    operands = [(kind, _plain(operand)) for kind, operand in step.operands]
+    return step.function.__name__, operands, bool(step.is_mask)
+
+
+def _plain(value: Any) -> Any:
+    """A number or a truth value of Python's own."""
+    return value.item() if isinstance(value, np.generic | np.ndarray) else value
 
 
 def _named(name: str) -> Any:

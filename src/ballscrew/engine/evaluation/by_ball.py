@@ -37,7 +37,7 @@ from ballscrew.engine.evaluation.engines import ASKED_FOR, KNOWN, PAYS, Engine, 
 from ballscrew.engine.evaluation.outputs import OF_LOADS, OPERATION
 from ballscrew.engine.evaluation.plan import Configuration, Plan, read_input
 from ballscrew.engine.evaluation.recordings import Recording, Structures
-from ballscrew.engine.evaluation.structure_kernels import LANES, keep, kept, name_of
+from ballscrew.engine.evaluation.structure_kernels import LANES, MOST_STEPS_OPTIMISED, keep, kept, name_of
 from ballscrew.engine.evaluation.structures import (
     OF_BALLS,
     groups_by_ball,
@@ -52,6 +52,8 @@ from ballscrew.physics.friction.loaded_balls import loads_of
 #: Balls at all points that have to be asked for, in one call or in several, before a recording is made; that of balls
 #: with four contacts has ten times as many steps.
 ENOUGH_TO_RECORD, ENOUGH_OF_FOUR_CONTACTS = 100_000, 1_000_000
+#: Balls at all points of one call from which the code of a long kernel is optimised.
+ENOUGH_TO_OPTIMISE = 5_000_000
 #: Operating points of a kernel that are worked on at a time, ball after ball.
 TILE = 128
 #: Numbers of balls that are evaluated in a block: large enough for the steps of NumPy at the points, small enough
@@ -164,10 +166,13 @@ def by_ball(
     work = plan.total * times * plan.subject.balls
     why = "the model itself, on plain arrays: the work is too short to record it"
     key = structure_key(plan.subject, tuple(wanted), names)
-    kept_as = None if key is None or engine == "numpy" else name_of("by ball", plan.subject, tuple(wanted), names)
-    cut: CutByBall | None = None if kept_as is None else kept.get(kept_as, _read)
-    if cut is not None:
-        return ByBall(plan, cut, "compiled", ASKED_FOR if engine else KNOWN)
+    kept_as: dict[bool, str] = {}
+    for quick in (False, True) if key is not None and engine != "numpy" else ():
+        name = name_of(f"by ball, {quick}", plan.subject, tuple(wanted), names)
+        cut: CutByBall | None = None if name is None else kept.get(name, _read)
+        if cut is not None and (not quick or work < ENOUGH_TO_OPTIMISE):
+            return ByBall(plan, cut, "compiled", ASKED_FOR if engine else KNOWN)
+        kept_as |= {} if name is None else {quick: name}
     made_of = None if key is None else _structures.get(key)
     asked = work if key is None else _structures.asked(key, work)
     enough = ENOUGH_TO_RECORD if plan.subject.nut.contacts_per_ball == 2 else ENOUGH_OF_FOUR_CONTACTS
@@ -178,13 +183,19 @@ def by_ball(
             subject = plan.subject if key is None else numbers_alone(plan.subject)
             program = recorded_structure(subject, wanted, names)
             made_of = Recording(program) if key is None else _structures.add(key, program)
-        return _by_an_engine(plan, engine, names, made_of, asked, kept_as)
+        is_quick = len(made_of.program.steps) > MOST_STEPS_OPTIMISED and work < ENOUGH_TO_OPTIMISE
+        return _by_an_engine(plan, engine, names, made_of, asked, (kept_as.get(is_quick), 0 if is_quick else None))
     except CannotRecordError as error:
         return f"the model itself, on plain arrays: {error}"
 
 
 def _by_an_engine(
-    plan: Plan, engine: Engine | None, names: tuple[str, ...], made_of: Recording, asked: int, kept_as: str | None
+    plan: Plan,
+    engine: Engine | None,
+    names: tuple[str, ...],
+    made_of: Recording,
+    asked: int,
+    how: tuple[str | None, int | None],
 ) -> ByBall | str:
     stages, cut = made_of.once("stages", lambda: stages_by_ball(made_of.program, names))
     why = why_numpy(engine)
@@ -192,7 +203,7 @@ def _by_an_engine(
         if engine != "numpy" and kernels.available():
             text = _text(made_of, stages, cut)
             if engine or worth_compiling(cut.points, asked, text):
-                found = _compiled(CutByBall.of(stages, cut, names, f"{text}\n{made_of.program.text}"), text, kept_as)
+                found = _compiled(CutByBall.of(stages, cut, names, f"{text}\n{made_of.program.text}"), text, *how)
                 return ByBall(plan, found, "compiled", ASKED_FOR if engine else PAYS)
     except UnknownOperationError as unknown:
         why = f"{unknown} is not known to kernels"
@@ -202,14 +213,14 @@ def _by_an_engine(
     return ByBall(plan, found, "numpy", why)
 
 
-def _compiled(cut: CutByBall, text: str, kept_as: str | None) -> CutByBall:
+def _compiled(cut: CutByBall, text: str, kept_as: str | None, optimisation: int | None) -> CutByBall:
     """The same with its kernel, which is kept under a name where there is one."""
     if kept_as is None:
         return cut.with_kernel(Kernel.of(text, cut.sources))
     with kept.lock:
         found = kept.get(kept_as, _read)
         if found is None:
-            machine_code = kernels.code_of(text)
+            machine_code = kernels.code_of(text, optimisation)
             if cut.can_be_written:
                 keep(kept_as, cut.header, machine_code)
             found = kept.add(kept_as, cut.with_kernel(Kernel(machine_code, cut.sources)))

@@ -33,7 +33,6 @@ from ballscrew.engine.evaluation.axes import ends
 from ballscrew.engine.evaluation.by_ball import BLOCK_OF_BALLS, ByBall, by_ball
 from ballscrew.engine.evaluation.engines import (
     ASKED_FOR,
-    ENOUGH_TO_COMPILE,
     ENOUGH_TO_FOLD,
     KNOWN,
     PAYS,
@@ -241,10 +240,7 @@ def _of_structure(plan: Plan, times: int) -> StructureKernel | None:
     if not plan.bounded or points > ENOUGH_TO_FOLD:
         return None
     by: tuple[str, ...] = getattr(plan, "by", ())
-    structure = Structure(plan.subject, plan.outputs, list(plan.axes), by)
-    if structure.asked(points) >= ENOUGH_TO_COMPILE:
-        return structure.kernel()
-    return structure.known()
+    return Structure(plan.subject, plan.outputs, list(plan.axes), by).ready(points)
 
 
 def _by_structure(plan: Plan, known: StructureKernel) -> Evaluation:

@@ -119,12 +119,10 @@ class Evaluator:
             return
         known = None if by or engine else self._structure_kernel(plan)
         if known is not None:
-            given = [name for name in known.place if name not in self.inputs]
-            values = {name: fixed[name] if name in fixed else plan.subject.value_of(name) for name in given}
             self._use("compiled", KNOWN, BLOCK_OF_POINTS)
             self._largest_block = BLOCK_OF_POINTS
-            self._on_arrays = _strided(plan, known, values, self._quantities)
-            self._new_on_point = functools.partial(_at_strided_point, known, values, self._quantities)
+            self._on_arrays = _strided(plan, known, fixed, self._quantities)
+            self._new_on_point = functools.partial(_at_strided_point, plan, known, fixed, self._quantities)
             return
         made_of: Recording | None = None
         try:
@@ -163,7 +161,7 @@ class Evaluator:
     def _structure_kernel(self, plan: Plan) -> StructureKernel | None:
         """The kernel for all numbers of such a screw, where the inputs are among them; compiled now if it is new."""
         structure = Structure(plan.subject, plan.outputs, list(plan.axes))
-        return structure.kernel() if {*self.inputs, *plan.fixed} <= {*structure.names} else None
+        return structure.kernel()
 
     def _prepare_by_ball(self, plan: Plan, fixed: Mapping[str, Any], engine: Engine | None) -> None:
         """Record and compile the friction of balls that differ."""
@@ -394,14 +392,14 @@ def _at_point(kernel: Kernel, masks: Mapping[str, bool], inputs: int) -> _OnPoin
 
 
 def _strided(
-    plan: Plan, known: StructureKernel, values: Mapping[str, float], quantities: Mapping[str, Quantity]
+    plan: Plan, known: StructureKernel, fixed: Mapping[str, float], quantities: Mapping[str, Quantity]
 ) -> _OnArrays:
     """The kernel of a structure; nothing where an input is beyond its bounds."""
-    table = known.table(values)
+    at = known.over(plan.subject, fixed, list(quantities))
 
     def evaluate(inputs: Sequence[NDArray[np.float64]], results: Mapping[str, NDArray[Any]]) -> None:
         points = dict(zip(quantities, inputs, strict=True))
-        known.fill(table, points, results)
+        at(points, results)
         with np.errstate(all="ignore"):
             inside = np.logical_and.reduce([within_bounds(q.info, points[n]) for n, q in quantities.items()])
         if not inside.all():
@@ -412,6 +410,7 @@ def _strided(
 
 
 def _at_strided_point(
+    plan: Plan,
     known: StructureKernel,
     fixed: Mapping[str, float],
     quantities: Mapping[str, Quantity],
@@ -420,7 +419,7 @@ def _at_strided_point(
 ) -> _OnPoint:
     """One point by the kernel of a structure, in arrays that stay where they are."""
     results = {name: np.zeros(1, dtype=bool if mask else float) for name, mask in masks.items()}
-    call = known.at_one_point(fixed, list(quantities), results)
+    call = known.at_one_point(plan.subject, fixed, list(quantities), results)
     named = list(results.items())
     nothing = {name: np.False_ if mask else np.float64(np.nan) for name, mask in masks.items()}
     bounds = [ends_within(quantity.info) for quantity in quantities.values()]

@@ -16,7 +16,7 @@ import math
 import threading
 import types
 from collections import OrderedDict
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
 from typing import Any, NamedTuple, cast
 
 import numpy as np
@@ -26,8 +26,10 @@ from ballscrew.compiler.kernels import kernel as kernels
 from ballscrew.compiler.kernels.emission import FEWEST_LANES, UnknownOperationError, kernel_text
 from ballscrew.compiler.kernels.kernel import Kernel
 from ballscrew.compiler.tracing.gradient import UnknownDerivativeError
-from ballscrew.compiler.tracing.program import Source
-from ballscrew.compiler.tracing.tape import CannotRecordError
+from ballscrew.compiler.tracing.merging import merged_program
+from ballscrew.compiler.tracing.program import Interpreter, Program, Source
+from ballscrew.compiler.tracing.tape import CannotRecordError, Tape
+from ballscrew.engine.evaluation.engines import ENOUGH_TO_COMPILE
 from ballscrew.engine.evaluation.fingerprint import recorder_digest
 from ballscrew.engine.evaluation.outputs import OPERATION, known_outputs
 from ballscrew.engine.evaluation.plan import Configuration, Plan
@@ -100,12 +102,21 @@ class StructureKernel:
                 results[name][...] = value
 
     def at_one_point(
-        self, values: Mapping[str, float], inputs: Sequence[str], results: Mapping[str, NDArray[Any]]
+        self,
+        subject: Configuration,
+        fixed: Mapping[str, float],
+        inputs: Sequence[str],
+        results: Mapping[str, NDArray[Any]],
     ) -> Callable[[Sequence[float]], None]:
-        """A function that evaluates one point, at values of some inputs in their order, into the same arrays always."""
+        """A function that evaluates one point, at values of inputs in their order, into the same arrays always."""
         layout = self.layout
-        held = np.array([values.get(name, math.nan) for name in layout.inputs])
-        places = [self.place[name] for name in inputs]
+        there = subject.changed({name: value for name, value in fixed.items() if name not in OPERATION})
+        oil = OilFollows.of(there, inputs, self.place)
+        varying = set(map(own_name, inputs))
+        known = {n: fixed[n] if n in OPERATION else there.value_of(n) for n in self.place if n not in varying}
+        held = np.array([known.get(name, math.nan) for name in layout.inputs], dtype=float)
+        direct = [self.place.get(own_name(name), -1) for name in inputs]
+        places = [place for place in direct if place >= 0]
         found = [
             results.get(name, np.zeros(1, dtype=bool if mask else float))
             for name, mask in zip(layout.outputs, layout.masks, strict=True)
@@ -114,11 +125,21 @@ class StructureKernel:
             results[name][...] = layout.constants[name]
         call = self.kernel.at_one_point(held, found)
 
-        def at(values: Sequence[float]) -> None:
+        def at(values: Sequence[float], _: Sequence[Any] = found) -> None:  # the arrays live as long as the function
             held[places] = values
             call()
 
-        return at
+        if oil is None:
+            return at
+
+        def with_oil(values: Sequence[float]) -> None:
+            numbers = oil.numbers(dict(zip(names, values, strict=True)))
+            for name, number in numbers.items():
+                held[self.place[name]] = number
+            at([held[place] for place in places])
+
+        names = list(map(own_name, inputs))
+        return with_oil
 
     def at(self, plan: Plan) -> Callable[[Mapping[str, Any], Mapping[str, NDArray[Any]]], None]:
         """A function that evaluates points of a plan, by the names of its varying inputs, into arrays of results.
@@ -126,15 +147,21 @@ class StructureKernel:
         Raises :class:`~ballscrew.basis.errors.InputError` for fixed values that do not fit together.
         """
         fixed = plan.fixed
-        there = plan.subject.changed({name: value for name, value in fixed.items() if name not in OPERATION})
-        table = self.table({n: fixed[n] if n in OPERATION else there.value_of(n) for n in self.given(plan)})
-        follows = [name for name in plan.varying if own_name(name) not in self.place]
+        return self.over(plan.subject, {n: fixed[n] for n in fixed}, plan.varying)
+
+    def over(
+        self, subject: Configuration, fixed: Mapping[str, float], varying: Sequence[str]
+    ) -> Callable[[Mapping[str, Any], Mapping[str, NDArray[Any]]], None]:
+        """The same for a subject, with some inputs fixed and others that vary."""
+        there = subject.changed({name: value for name, value in fixed.items() if name not in OPERATION})
+        given = set(self.place) - set(map(own_name, varying))
+        table = self.table({n: fixed[n] if n in OPERATION else there.value_of(n) for n in given})
+        oil = OilFollows.of(there, varying, self.place)
 
         def evaluate(points: Mapping[str, Any], results: Mapping[str, NDArray[Any]]) -> None:
-            values = {own_name(name): held for name, held in points.items() if name not in follows}
-            if follows:  # what sets numbers of the oil
-                changed = there.changed({name: held for name, held in points.items() if name not in OPERATION})
-                values |= {name: changed.value_of(name) for name in self.place if name not in OPERATION}
+            values = {own_name(name): held for name, held in points.items()}
+            if oil is not None:
+                values = oil.numbers(values)
             numbers = {name: held for name, held in values.items() if np.ndim(held) == 0}
             here = table.copy() if numbers else table
             for name, number in numbers.items():
@@ -143,10 +170,52 @@ class StructureKernel:
 
         return evaluate
 
-    def given(self, plan: Plan) -> list[str]:
-        """The inputs that do not vary in a plan."""
-        varying = {own_name(name) for name in plan.varying}
-        return [name for name in self.place if name not in varying]
+
+class OilFollows:
+    """Numbers of an oil that follow from inputs which are no inputs of a recording: its temperature, its data sheet."""
+
+    def __init__(self, subject: Configuration, inputs: Sequence[str], places: Collection[str]) -> None:
+        self.subject = subject
+        self.inputs = tuple(inputs)
+        self.places = [name for name in places if name in subject.inputs and subject.inputs[name][0] == "lubricant"]
+        self._programs = threading.local()
+        self.program = self._recorded()
+
+    @classmethod
+    def of(cls, subject: Configuration, varying: Sequence[str], places: Collection[str]) -> OilFollows | None:
+        """Those of inputs that vary; None where all of these are inputs of the recording."""
+        if all(own_name(name) in places for name in varying):
+            return None
+        of_oil = [name for name in varying if subject.inputs[name][0] == "lubricant"]
+        return cls(subject, of_oil, places)
+
+    def _recorded(self) -> Program | None:
+        """The numbers as a program of the inputs; None for an oil that wants plain arrays."""
+        tape = Tape(len(self.inputs), None, [self.subject.is_nonnegative(name) for name in self.inputs])
+        try:
+            with self.subject.recording():
+                changed = self.subject.lubricant.changed({n: tape.value(i) for i, n in enumerate(self.inputs)})
+                found = {name: changed.value_of(name) for name in self.places}
+                return merged_program(tape, found)
+        except CannotRecordError:
+            return None
+
+    def numbers(self, points: Mapping[str, Any]) -> dict[str, Any]:
+        """The values of points with the numbers of the oil in place of what sets them."""
+        arrays = np.broadcast_arrays(*[np.atleast_1d(points[name]) for name in self.inputs])
+        others = {name: values for name, values in points.items() if name not in self.inputs}
+        if self.program is None:
+            changed = self.subject.lubricant.changed({n: points[n] for n in self.inputs})
+            return others | {name: changed.value_of(name) for name in self.places}
+        found = {name: np.empty(arrays[0].size) for name in self.places}
+        try:
+            interpreter: Interpreter = self._programs.interpreter
+        except AttributeError:  # the first call in this thread
+            interpreter = self._programs.interpreter = self.program.interpreter.with_own_buffers()
+        with np.errstate(all="ignore"):
+            interpreter.run(arrays, found)
+        is_one = all(np.ndim(points[name]) == 0 for name in self.inputs)
+        return others | {name: values[0] if is_one else values for name, values in found.items()}
 
 
 class _Kept:
@@ -237,9 +306,11 @@ class Structure:
         """Its kernel, where this process or an earlier one has compiled it."""
         return None if self.name is None else kept.get(self.name, _read)
 
-    def asked(self, points: int) -> int:
-        """Count points that were asked for, and return all of them."""
-        return 0 if self.name is None else kept.asked(self.name, points)
+    def ready(self, points: int) -> StructureKernel | None:
+        """Its kernel where it is known, or compiled now where so many points have been asked for that this pays."""
+        if self.name is None:
+            return None
+        return self.known() or (self.kernel() if kept.asked(self.name, points) >= ENOUGH_TO_COMPILE else None)
 
     def kernel(self) -> StructureKernel | None:
         """Its kernel, compiled now where it is not known; None where it cannot be had."""

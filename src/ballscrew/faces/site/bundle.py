@@ -30,8 +30,13 @@ def text_of(name: str) -> str:
 @functools.cache
 def script() -> str:
     """The modules of the page as one script."""
-    parts = [_plain(name) for name in _in_order(_ENTRY)]
+    parts = [_plain(name) for name in modules()]
     return '"use strict";\n(() => {\n' + "\n".join(parts) + "\n})();\n"
+
+
+def modules() -> list[str]:
+    """The modules of the page, each after those that it imports."""
+    return _in_order(_ENTRY)
 
 
 def hash_of(text: str) -> str:

@@ -13,6 +13,7 @@ from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.evaluation.structures import inputs_of_structure
 from ballscrew.exports.wasm_modules import NUT_DIAMETER, Module, described
 from ballscrew.faces.site import kinds
+from ballscrew.faces.site.texts import texts
 from ballscrew.faces.web.vocabulary import vocabulary
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.sizing.catalogue import catalogue
@@ -38,7 +39,7 @@ def contents(
     results = {name: _described(output.quantity) for s in subjects.values() for name, output in _outputs(s).items()}
     given = {name for module in modules.values() for function in module.functions for name in function.outputs}
     of_oils = zip(grades, oils.functions, strict=True)
-    return {
+    found = {
         "format": FORMAT,
         "version": __version__,
         "models": {model: _values(subjects, model) for model in dict.fromkeys(model for model, _ in modules)},
@@ -56,6 +57,7 @@ def contents(
         "symbols": words["symbols"],
         "starts": {name: _start(name) for name in kinds.start_tables()},
     }
+    return {**found, "texts": texts(found)}
 
 
 def _outputs(subject: Configuration) -> Mapping[str, Any]:
@@ -119,12 +121,12 @@ def _start(name: str) -> dict[str, Any]:
         values |= {n: float(subject.value_of(n)) for n, part in parts.items() if part in ("screw", "lubricant")}
         values |= {n: float(getattr(case.operation, n)) for n in OPERATION}
         tables = kinds.tables_of(name, kinds.MODELS[0], kind)
-        of_nut = {n: float(subject.value_of(n)) for n, part in parts.items() if part == "nut"}
+        of_nut: dict[str, Any] = {n: float(subject.value_of(n)) for n, part in parts.items() if part == "nut"}
         if subject.nut.bodies is not None:
             of_nut[NUT_DIAMETER] = subject.nut.bodies.nut_outer_diameter
         nuts[kind] = {
             "values": of_nut,
-            "tables": {section: tables[section] for section in ("nut", "losses") if section in tables},
+            "tables": {section: tables[section] for section in ("nut", "bodies", "losses") if section in tables},
         }
     oil = kinds.start_tables()[name]["lubricant"]
     return {

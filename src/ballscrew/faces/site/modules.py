@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import json
+
+from ballscrew.compiler.kernels import kernel
+from ballscrew.engine.evaluation.structure_kernels import name_of
+from ballscrew.engine.evaluation.structures import inputs_of_structure
 from ballscrew.exports.wasm_modules import (
     NUT_DIAMETER,
     OF_POINT,
@@ -25,5 +30,13 @@ __all__ = (
 
 
 def module_of_structure(model: str, kind: str) -> Module:
-    """The module of a model and a kind of nut."""
-    return module_of(kinds.subject_of(kinds.case_of(kinds.PAPER, model, kind)))
+    """The module of a model and a kind of nut: as it was kept on disk, or made, and kept."""
+    subject = kinds.subject_of(kinds.case_of(kinds.PAPER, model, kind))
+    name = name_of("module of the static page", subject, OUTPUTS, inputs_of_structure(subject))
+    found = None if name is None else kernel.kept(name)
+    if found is not None:
+        return Module.of(json.loads(found[0]), found[1])
+    made = module_of(subject)
+    if name is not None:
+        kernel.keep(name, json.dumps(made.described).encode(), made.code)
+    return made

@@ -34,6 +34,7 @@ from ballscrew.engine.evaluation.outputs import (
 )
 from ballscrew.engine.evaluation.plan import STARVED, Configuration, starvation_of
 from ballscrew.engine.evaluation.plan import Plan as Swept
+from ballscrew.engine.evaluation.structure_kernels import Structure
 from ballscrew.engine.sweeps import sweep as sweeps
 from ballscrew.engine.sweeps.cluster import cluster_client
 from ballscrew.engine.sweeps.stream import stream
@@ -412,6 +413,10 @@ def sweep(
     # files of all kinds have the same bits; what is only looked at may be quicker
     few = to is None and math.prod(len(values) for values in plan.axes.values()) <= FEW_POINTS
     few &= not case.screw.nut.one_by_one  # balls that differ count how often they are asked for
+    if few:  # other nuts do so here
+        subject = Configuration(case.model, case.screw, case.lubricant)
+        points = math.prod(len(values) for values in plan.axes.values())
+        few = Structure(subject, tuple(names), [*varied, *fixed]).ready(points) is None
     dataset = sweeps.sweep(
         case.model, case.screw, case.lubricant, outputs=tuple(names),
         engine="model" if few else None, done=done, **varied, **fixed,

@@ -5,7 +5,9 @@ const KEPT = ["FILES"];
 const scope = /** @type {any} */ (globalThis);
 
 scope.addEventListener("install", (/** @type {any} */ event) => {
-  const kept = caches.open(NAME).then((cache) => cache.addAll(KEPT.map((file) => new Request(file, { cache: "reload" }))));
+  const kept = caches
+    .open(NAME)
+    .then((cache) => cache.addAll(KEPT.map((file) => new Request(file, { cache: "reload" }))));
   event.waitUntil(kept.then(() => scope.skipWaiting()));
 });
 

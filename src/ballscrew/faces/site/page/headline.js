@@ -1,0 +1,74 @@
+// The numbers that matter most, and what the model says of them.
+
+import { reasonsIn } from "./view.js";
+import { byId, digitsOf, element, say, signOf } from "./words.js";
+
+/** @typedef {import("./view.js").Scene} Scene */
+
+/** What stands below the friction torque, as the names of outputs with their words. */
+const BESIDE = [
+  ["drive_torque", "drive torque"],
+  ["efficiency", "efficiency"],
+  ["minimum_film_parameter", "film parameter λ"],
+  ["maximum_pressure", "greatest pressure"],
+  ["largest_contact_load", "load of a contact"],
+  ["holding_torque", "holding torque"],
+  ["rigidity", "rigidity"],
+];
+
+export class Headline {
+  /** @param {Scene} scene */
+  constructor(scene) {
+    this.scene = scene;
+    /** @type {Map<string, HTMLElement>} */
+    this.values = new Map();
+    this.said = "";
+  }
+
+  /** Make what is filled in. */
+  speak() {
+    const { spec } = this.scene.case;
+    const known = BESIDE.filter(([name]) => spec.outputs.includes(name) || name in spec.constants);
+    const items = known.map(([name, words]) => {
+      const value = element("dd");
+      this.values.set(name, value);
+      return element("div", {}, element("dt", {}, say(words)), value);
+    });
+    byId("beside").replaceChildren(...items);
+    this.said = "";
+  }
+
+  /** Write the numbers of the operating point. */
+  write() {
+    const { scene } = this;
+    const { outputs, inputs } = scene;
+    byId("torque").textContent = digitsOf(outputs.screw_torque);
+    byId("torque-unit").textContent = signOf("N m");
+    const screwDrives = inputs.axial_load < 0 === inputs.screw_speed < 0;
+    for (const [name, place] of this.values) {
+      const shown = name === "efficiency" && !screwDrives ? "back_driving_efficiency" : name;
+      place.textContent = this.#text(shown);
+    }
+    const reasons = outputs.valid === 1 ? [] : reasonsIn(scene.case, Object.fromEntries(entriesOf(outputs)));
+    const words = reasons.length
+      ? `${say("Outside the model's validity:")} ${reasons.join("; ")}.`
+      : say("All conditions of the model hold.");
+    if (words === this.said) return;
+    this.said = words;
+    byId("verdict").textContent = words;
+    byId("headline").classList.toggle("outside", reasons.length > 0);
+  }
+
+  /** @param {string} name */
+  #text(name) {
+    const { factor, offset, shown_in: unit } = this.scene.case.contents.results[name];
+    const value = (this.scene.outputs[name] - offset) / factor;
+    if (name.endsWith("efficiency")) return `${digitsOf(100 * value, 3)} %`;
+    return `${digitsOf(value, 3)} ${signOf(unit)}`.trim();
+  }
+}
+
+/** @param {Record<string, number>} outputs @returns {[string, number[]][]} */
+function entriesOf(outputs) {
+  return Object.entries(outputs).map(([name, value]) => [name, [value]]);
+}

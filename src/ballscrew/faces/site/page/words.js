@@ -1,0 +1,177 @@
+// Words and numbers as the visitor reads them: in their language, with its decimal sign, with units and symbols.
+
+const GREEK = {
+  alpha: "α",
+  beta: "β",
+  eta: "η",
+  Lambda: "Λ",
+  lambda: "λ",
+  mu: "µ",
+  nu: "ν",
+  omega: "ω",
+  rho: "ρ",
+  sigma: "σ",
+  epsilon: "ε",
+};
+const LANGUAGE_KEPT = "ballscrew-site-language";
+
+/** The German words by the English ones, or by the name of what they are of. @type {Record<string, string>} */
+let german = {};
+/** @type {Record<string, string>} */
+let unitSigns = {};
+let language = "en";
+
+/** @param {{ texts?: Record<string, Record<string, string>>, symbols: Record<string, string> }} contents */
+export function useWords(contents) {
+  german = contents.texts?.de ?? {};
+  unitSigns = contents.symbols;
+  const chosen = kept(LANGUAGE_KEPT) ?? navigator.language;
+  language = chosen.startsWith("de") ? "de" : "en";
+}
+
+/** @returns {string} */
+export function languageOf() {
+  return language;
+}
+
+/** @param {string} chosen */
+export function speak(chosen) {
+  language = chosen;
+  keep(LANGUAGE_KEPT, chosen);
+}
+
+/**
+ * A text in the language of the visitor, with values in the places of their names.
+ *
+ * @param {string} english
+ * @param {Record<string, string>} [values]
+ */
+export function say(english, values = {}) {
+  return sayNamed("", english, values);
+}
+
+/**
+ * The words of something that has a name; the English ones where there are no others.
+ *
+ * @param {string} name
+ * @param {string} english
+ * @param {Record<string, string>} [values]
+ */
+export function sayNamed(name, english, values = {}) {
+  const pattern = (language === "de" && (german[name] ?? german[english])) || english;
+  return pattern.replace(/\{(\w+)\}/g, (place, one) => values[one] ?? place);
+}
+
+/** What is kept in this browser, if it keeps anything. @param {string} name */
+export function kept(name) {
+  try {
+    return localStorage.getItem(name);
+  } catch {
+    return null; // a browser may forbid it
+  }
+}
+
+/**
+ * @param {string} name
+ * @param {string} value
+ */
+export function keep(name, value) {
+  try {
+    localStorage.setItem(name, value);
+  } catch {
+    // it is asked again next time
+  }
+}
+
+/** A name in words. @param {string} name */
+export function spaced(name) {
+  const words = (name.split(".").at(-1) ?? name).replaceAll("_", " ");
+  return words.slice(0, 1).toUpperCase() + words.slice(1);
+}
+
+/**
+ * A number of so many digits as it is read.
+ *
+ * @param {number} number
+ * @param {number} [digits]
+ */
+export function digitsOf(number, digits = 4) {
+  if (!Number.isFinite(number)) return "–";
+  const text = number.toPrecision(digits);
+  const plain = text.includes("e") ? String(Number(text)) : text;
+  return localised(plain).replace("-", "−");
+}
+
+/** A number without needless digits, for axes and fields. @param {number} number */
+export function plainDigits(number) {
+  return localised(String(Number(number.toPrecision(12)))).replace(/^-/, "−");
+}
+
+/** @param {string} digits */
+function localised(digits) {
+  return language === "de" ? digits.replace(".", ",") : digits;
+}
+
+/** A number as somebody typed it, NaN where it is none. @param {string} text */
+export function numberIn(text) {
+  const plain = text.trim().replace(",", ".").replace("−", "-");
+  return plain === "" ? Number.NaN : Number(plain);
+}
+
+/** A unit as it is read; nothing for a plain number. @param {string} unit */
+export function signOf(unit) {
+  return unit === "1" ? "" : (unitSigns[unit] ?? unit);
+}
+
+/** The name of an axis with its unit. @param {string} words @param {string} unit */
+export function withUnit(words, unit) {
+  const sign = signOf(unit);
+  return sign ? `${words} / ${sign}` : words;
+}
+
+/**
+ * A symbol with its indices: ``d_m`` as d with m below it.
+ *
+ * @param {string} symbol
+ */
+export function symbolElement(symbol) {
+  const found = document.createElement("span");
+  found.className = "symbol";
+  const plain = symbol.replace(
+    /\\(\w+?)(?=_|\b)/g,
+    (_, name) => GREEK[/** @type {keyof typeof GREEK} */ (name)] ?? name,
+  );
+  plain.split(/_(\w+)/).forEach((part, place) => {
+    if (place % 2 === 0) found.append(part);
+    else found.append(element("sub", {}, part));
+  });
+  return found;
+}
+
+/**
+ * An element with its attributes and what stands in it.
+ *
+ * @template {keyof HTMLElementTagNameMap} Tag
+ * @param {Tag} tag
+ * @param {Record<string, string>} [attributes]
+ * @param {(string | Node)[]} inside
+ * @returns {HTMLElementTagNameMap[Tag]}
+ */
+export function element(tag, attributes = {}, ...inside) {
+  const found = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) found.setAttribute(name, value);
+  found.append(...inside);
+  return found;
+}
+
+/**
+ * The element of the document with this id.
+ *
+ * @param {string} id
+ * @returns {HTMLElement}
+ */
+export function byId(id) {
+  const found = document.getElementById(id);
+  if (!found) throw new Error(`the page has no #${id}`);
+  return found;
+}

@@ -1,0 +1,124 @@
+"""The files of the static page: the same bytes each time, whole or not at all, and nothing but its own scripts."""
+
+import base64
+import hashlib
+import json
+import re
+
+import pytest
+
+from ballscrew.basis.errors import InputError
+from ballscrew.faces.site import bundle, site
+
+FEW = {"models": ["olaru2005"], "nuts": ["row"]}
+
+
+@pytest.fixture(scope="module")
+def files():
+    return site.site(**FEW)
+
+
+def contents_of(script):
+    return json.loads(re.fullmatch(r"globalThis\.ballscrewSite=(.*);\n", script, re.DOTALL)[1])
+
+
+def test_two_builds_are_the_same_bytes(files):
+    assert site.site(**FEW) == files
+
+
+def test_a_module_has_the_name_of_its_content(files):
+    modules = {name: content for name, content in files.items() if name.endswith(".wasm")}
+    assert len(modules) == 3  # the structure, the oils, and the solver of elastic nuts
+    for name, content in modules.items():
+        assert name == f"kernels/{hashlib.sha256(content).hexdigest()[:16]}.wasm"
+        script = files[f"{name}.js"].decode()
+        assert base64.b64decode(script.split('"')[3]) == content
+
+
+def test_the_worker_keeps_every_file_of_a_server(files):
+    worker = files["service_worker.js"].decode()
+    known = contents_of(files["contents.js"].decode())
+    kept = json.loads(re.search(r"const KEPT = (\[.*?\]);", worker)[1])
+    assert f'"{known["digest"]}"' in worker
+    assert {name for name in files if not name.endswith(".wasm.js")} == {*kept, "service_worker.js"} - {"./"}
+
+
+def test_the_policy_allows_no_text_to_run(files):
+    document = files["index.html"].decode()
+    policy = re.search(r'http-equiv="Content-Security-Policy" content="([^"]*)"', document)[1]
+    assert "wasm-unsafe-eval" in policy
+    assert "'unsafe-" not in policy.replace("&#x27;", "'")
+    assert "default-src &#x27;none&#x27;" in policy
+    assert not re.search(r"<script>|\son\w+=|style=", document)
+
+
+def test_a_single_file_holds_all_and_allows_its_own_scripts_alone():
+    (name, content), *others = site.site(**FEW, single=True).items()
+    document = content.decode()
+    assert (name, others) == ("index.html", [])
+    assert not re.search(r'(?:src|href)="(?!data:|#|https?:)[^"]', document)
+    policy = re.search(r'http-equiv="Content-Security-Policy" content="([^"]*)"', document)[1].replace("&#x27;", "'")
+    for text in (
+        *re.findall(r"<script>(.*?)</script>", document, re.DOTALL),
+        re.search(r"<style>(.*?)</style>", document, re.DOTALL)[1],
+    ):
+        assert bundle.hash_of(text) in policy
+
+
+def test_an_earlier_page_goes_and_other_files_stay(files, tmp_path):
+    old = tmp_path / "kernels" / "0123456789abcdef.wasm"
+    old.parent.mkdir()
+    old.write_bytes(b"")
+    own = tmp_path / "kernels" / "notes.txt"
+    own.write_text("mine")
+    written = site.write(tmp_path, files)
+    assert written[-1] == tmp_path / "index.html"
+    assert (old.exists(), own.exists()) == (False, True)
+    assert {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file()} == {
+        *files, "kernels/notes.txt",
+    }  # fmt: skip
+
+
+def test_a_single_file_has_the_name_that_is_asked_for(tmp_path):
+    files = {"index.html": b"whole"}
+    assert site.write(tmp_path / "screw.html", files) == [tmp_path / "screw.html"]
+    assert site.write(tmp_path / "folder", files) == [tmp_path / "folder" / "index.html"]
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"models": ["olaru"]}, "site.model: unknown"),
+        ({"nuts": ["tripple"]}, "site.nut: unknown"),
+        ({"models": ["olaru2005"], "nuts": ["oversize-balls"]}, "no such model has such a nut"),
+    ],
+)
+def test_what_is_not_there_is_said(options, words):
+    with pytest.raises(InputError, match=words):
+        site.site(**options)
+
+
+def test_a_folder_that_is_a_file_is_refused_and_stays(files, tmp_path):
+    place = tmp_path / "notes"
+    place.write_text("mine")
+    with pytest.raises(InputError, match=r"site\.out"):
+        site.write(place, files)
+    assert place.read_text() == "mine"
+
+
+def test_no_formula_stands_in_the_scripts_of_the_page():
+    """Numbers come from modules: scripts count places, pixels and units."""
+    allowed = {"max", "min", "PI", "abs", "floor", "round", "ceil", "log10", "sign"}
+    for name in bundle.modules():
+        used = set(re.findall(r"\bMath\.(\w+)", bundle.text_of(name)))
+        assert used <= allowed, (name, used - allowed)
+
+
+def test_the_bundle_refuses_what_it_cannot_join(monkeypatch):
+    texts = {"main.js": 'import { a } from "./a.js";\na();\n', "a.js": "export default function a() {}\n"}
+    monkeypatch.setattr(bundle, "text_of", texts.__getitem__)
+    with pytest.raises(ValueError, match=r"a\.js imports or exports in another way"):
+        bundle.script.__wrapped__()
+    texts["a.js"] = 'import { b } from "./main.js";\n'
+    with pytest.raises(ValueError, match="circle"):
+        bundle.script.__wrapped__()

