@@ -33,6 +33,9 @@ const BUSY_DELAY = 1000;
 const REST = 200;
 /** Milliseconds that the curves of one frame may take: the others follow when it rests. */
 const TIME_OF_CURVES = 50;
+/** Curves are drawn with the numbers where this many points take less than this many milliseconds. */
+const MOST_POINTS = 500;
+const TIME_IN_FRAME = 8;
 /** Milliseconds after which a page in the background counts as painted. */
 const PAINT_TIMEOUT = 500;
 
@@ -196,8 +199,13 @@ class Answers {
 
   /** What is shown of a change before the server has answered. @type {Moved | undefined} */
   #moved;
-  /** The next frame of it. @type {number | undefined} */
+  /** The numbers of it that are on the page. @type {{ answer: Run, moved: Moved } | undefined} */
+  #shown;
+  /** Its next frame. @type {number | undefined} */
   #frame;
+  /** Its next curves, where they do not fit into a frame. @type {ReturnType<typeof setTimeout> | undefined} */
+  #curves;
+  #never = new AbortController();
 
   constructor() {
     followDiamond((values) => this.#followDiamond(values));
@@ -278,20 +286,20 @@ class Answers {
     const answer = moving.answerOf(before, moved.values);
     byId("results").classList.add("moving");
     results.show(answer, { band: band && { state: "pending" } });
-    const { signal } = new AbortController();
-    measurePaint("moved numbers", moved.start, signal);
-    setTimeout(() => {
-      if (this.#moved !== moved) return; // the next ones are to be drawn already
-      this.#drawMovedCurves(answer, moved);
-      measurePaint("moved charts", moved.start, signal);
-    });
+    this.#shown = { answer, moved };
+    if (localEngine.timeOf(MOST_POINTS) < TIME_IN_FRAME) this.#drawMovedCurves();
+    else this.#curves ??= setTimeout(() => this.#drawMovedCurves()); // the numbers are painted before
+    measurePaint("moved", moved.start, this.#never.signal);
   }
 
-  /**
-   * @param {Run} answer
-   * @param {Moved} moved
-   */
-  #drawMovedCurves(answer, { values, isHeld }) {
+  /** Draw the curves of the numbers that are shown. */
+  #drawMovedCurves() {
+    this.#curves = undefined;
+    if (!this.#shown) return;
+    const {
+      answer,
+      moved: { values, isHeld, start },
+    } = this.#shown;
     const { alongSpeed, alongLoad, everywhere } = this.#displayed;
     const isSeen = (/** @type {string[]} */ ...ids) => ids.some(isVisible);
     const before = {
@@ -308,13 +316,15 @@ class Answers {
       if (found.over_load) curves.pressure(found.over_load, answer);
       if (found.over_both) charts.map(found.over_both, answer);
     });
+    measurePaint("moved curves", start, this.#never.signal);
   }
 
   /** What was moved is answered. */
   #rest() {
     if (this.#frame !== undefined) cancelAnimationFrame(this.#frame);
-    this.#frame = undefined;
-    this.#moved = undefined;
+    clearTimeout(this.#curves);
+    this.#frame = this.#curves = undefined;
+    this.#moved = this.#shown = undefined;
     byId("results").classList.remove("moving");
   }
 
