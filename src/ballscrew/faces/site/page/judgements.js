@@ -96,7 +96,12 @@ export function judgedAt(engine, contents, point) {
   const { listed, rule, speed_limit: limit } = starts[point.start].judged;
   const kind = point.structure.split("/")[1];
   /** @type {Record<string, Numbers>} */
-  const sources = { ...computedAt(engine, contents, point), inputs: point.inputs, given: givenAt(contents, point), listed };
+  const sources = {
+    ...computedAt(engine, contents, point),
+    inputs: point.inputs,
+    given: givenAt(contents, point),
+    listed,
+  };
   /** @param {[string, string]} place */
   const valueAt = ([source, name]) => sources[source][name];
   const further = Object.entries(judging.for_derived).map(([name, place]) => [name, valueAt(place) ?? null]);
@@ -150,7 +155,9 @@ export function recordsOf({ judging }, judged) {
   const checks = tables.checks.map((/** @type {any} */ row) =>
     isKnown(row, judged.known) ? recordOf(row, judged) : notChecked(row, tables.not_checked),
   );
-  const failing = tables.checks.filter((/** @type {any} */ _, /** @type {number} */ place) => checks[place].holds === false);
+  const failing = tables.checks.filter(
+    (/** @type {any} */ _, /** @type {number} */ place) => checks[place].holds === false,
+  );
   const names = failing.map((/** @type {any} */ row) => plain(row.title));
   const all = recordOf(tables.all_checks[0], { ...judged, words: { ...judged.words, names } });
   return { verdicts: said(tables.verdicts), warnings: said(tables.warnings), checks, all };
@@ -192,7 +199,18 @@ function recordOf(row, judged) {
 function notChecked(row, template) {
   const { id, subject, unit, severity, give } = row;
   const message = { template, values: { input: plain(give) } };
-  return { id, subject, severity, holds: null, message, value: null, limit: null, unit, utilisation: null, missing: give };
+  return {
+    id,
+    subject,
+    severity,
+    holds: null,
+    message,
+    value: null,
+    limit: null,
+    unit,
+    utilisation: null,
+    missing: give,
+  };
 }
 
 /**
