@@ -96,7 +96,12 @@ export function judgedAt(engine, contents, point) {
   const { listed, rule, speed_limit: limit } = starts[point.start].judged;
   const kind = point.structure.split("/")[1];
   /** @type {Record<string, Numbers>} */
-  const sources = { ...computedAt(engine, contents, point), inputs: point.inputs, given: givenAt(contents, point), listed };
+  const sources = {
+    ...computedAt(engine, contents, point),
+    inputs: point.inputs,
+    given: givenAt(contents, point),
+    listed,
+  };
   /** @param {[string, string]} place */
   const valueAt = ([source, name]) => sources[source][name];
   const further = Object.entries(judging.for_derived).map(([name, place]) => [name, valueAt(place) ?? null]);
@@ -150,7 +155,9 @@ export function recordsOf({ judging }, judged) {
   const checks = tables.checks.map((/** @type {any} */ row) =>
     isKnown(row, judged.known) ? recordOf(row, judged) : notChecked(row, tables.not_checked),
   );
-  const failing = tables.checks.filter((/** @type {any} */ _, /** @type {number} */ place) => checks[place].holds === false);
+  const failing = tables.checks.filter(
+    (/** @type {any} */ _, /** @type {number} */ place) => checks[place].holds === false,
+  );
   const names = failing.map((/** @type {any} */ row) => plain(row.title));
   const all = recordOf(tables.all_checks[0], { ...judged, words: { ...judged.words, names } });
   return { verdicts: said(tables.verdicts), warnings: said(tables.warnings), checks, all };
@@ -192,7 +199,18 @@ function recordOf(row, judged) {
 function notChecked(row, template) {
   const { id, subject, unit, severity, give } = row;
   const message = { template, values: { input: plain(give) } };
-  return { id, subject, severity, holds: null, message, value: null, limit: null, unit, utilisation: null, missing: give };
+  return {
+    id,
+    subject,
+    severity,
+    holds: null,
+    message,
+    value: null,
+    limit: null,
+    unit,
+    utilisation: null,
+    missing: give,
+  };
 }
 
 /**
@@ -231,7 +249,7 @@ export function textOf(contents, { template, values }, words = {}) {
     if (typeof value === "string") return value;
     if (Array.isArray(value)) return value.map((each) => textOf(contents, each, words)).join(", ");
     if ("template" in value) return textOf(contents, value, words);
-    return digits(withUnit(contents, value, sign));
+    return digits(inUnit(contents, value, sign));
   };
   return say(template).replace(/\{([\w.]+)\}/g, (/** @type {string} */ place, /** @type {string} */ name) =>
     name in values ? one(values[name]) : place,
@@ -243,7 +261,7 @@ export function textOf(contents, { template, values }, words = {}) {
  * @param {{ value: number, unit: string, shown_in: string, digits: number, decimals?: number }} place
  * @param {(unit: string) => string} sign
  */
-function withUnit({ judging }, { value, unit, shown_in: shownIn, digits, decimals }, sign) {
+function inUnit({ judging }, { value, unit, shown_in: shownIn, digits, decimals }, sign) {
   if (decimals !== undefined) return Number.isFinite(value) ? value.toFixed(decimals) : general(value, PLAIN);
   if (unit === "1") return general(Number(general(value, digits)), PLAIN);
   const { factor, offset } = judging.units[`${unit}|${shownIn}`];
