@@ -28,6 +28,9 @@ def texts(contents: Mapping[str, Any]) -> dict[str, dict[str, str]]:
 def _german(contents: Mapping[str, Any]) -> dict[str, str]:
     served, own = _table("web", "page/texts/de.json"), _table("site", "texts/de.json")
     fields = [f"field.{field['path']}.{part}" for field in contents["fields"].values() for part in ("label", "help")]
+    for name in contents["judging"]["given"]:
+        path = name if name.startswith("limits.") else f"installation.{name}"
+        fields.append(f"field.{path}.label")
     parts = [f"mechanism.{name}" for name in contents["mechanisms"]]
     found = {name: served[name] for name in (*fields, *parts) if name in served}
     reasons = {f"reason.{name}": _translated(words, served) for name, words in contents["reasons"].items()}

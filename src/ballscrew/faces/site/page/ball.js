@@ -6,7 +6,7 @@ const FLANKS = ["loaded", "other"];
 /** Of the height of the picture: the radius of the ball, and how far the bodies reach beyond it. */
 const BALL = 0.3;
 const BODY = 0.16;
-const FONT = '12px system-ui, "Segoe UI", "DejaVu Sans", sans-serif';
+const FONT_OF_WORDS = '12px system-ui, "Segoe UI", "DejaVu Sans", sans-serif';
 const SMALL = 3;
 
 /**
@@ -60,7 +60,7 @@ export function drawBall(pen, { width, height }, places, colours, words) {
     pen.lineWidth = 1.6;
     pen.stroke(new Path2D(`M ${middle.x - half} ${land} L ${left.edge} ${groove} L ${middle.x + half} ${land}`));
     pen.fillStyle = colours.soft;
-    pen.font = FONT;
+    pen.font = FONT_OF_WORDS;
     pen.textAlign = "left";
     pen.fillText(words[isNut ? "nut" : "screw"], middle.x - half + 6, isNut ? outer + 14 : outer - 6);
   }

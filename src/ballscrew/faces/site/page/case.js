@@ -7,6 +7,11 @@
  *   above?: number, at_least?: number, below?: number, at_most?: number, usual: number[] | null, whole: boolean,
  * }} Field
  */
+/**
+ * @typedef {{
+ *   factor: number, offset: number, above?: number, at_least?: number, below?: number, at_most?: number, whole?: boolean,
+ * }} Bounded
+ */
 /** @typedef {{ meaning: string, symbol: string, unit: string, shown_in: string, factor: number, offset: number }} Result */
 /** @typedef {Record<string, any>} Tables */
 /**
@@ -25,13 +30,16 @@
  *   oils: { file: string, grades: Record<string, any> },
  *   fields: Record<string, Field>, results: Record<string, Result>,
  *   mechanisms: Record<string, { words: string, colour: string }>, reasons: Record<string, string>,
- *   symbols: Record<string, string>, starts: Record<string, Start>, texts?: Record<string, Record<string, string>>,
+ *   judging: any, symbols: Record<string, string>, starts: Record<string, Start>, texts?: Record<string, Record<string, string>>,
  * }} Contents
  */
 /**
  * What the visitor chose. ``grade`` is empty for an oil that is given by its viscosity; ``edits`` has numbers by the
- * name of the field, in the unit that it is shown in.
- * @typedef {{ start: string, model: string, kind: string, grade: string, edits: Record<string, number> }} State
+ * name of the field, in the unit that it is shown in, and ``given`` what is only judged: limits, and the installation.
+ * @typedef {{
+ *   start: string, model: string, kind: string, grade: string, edits: Record<string, number>,
+ *   given: Record<string, number | string>,
+ * }} State
  */
 
 /** The start whose oil is given by its viscosity: the other numbers of such an oil are those of any oil. */
@@ -39,6 +47,10 @@ const PLAIN_OIL = "paper";
 /** Temperature of an oil of a grade that was chosen for one without, degC. */
 const USUAL_TEMPERATURE = 40;
 
+/** How a shaft is held where nobody says. */
+const USUAL_ENDS = "fixed-supported";
+/** Before the names of what is only judged in a fragment. */
+const GIVEN = "given.";
 /** What a fragment has beside numbers. */
 const CHOICES = ["start", "model", "kind", "grade"];
 
@@ -65,7 +77,7 @@ export class Case {
     const start = this.contents.starts[name];
     const kinds = this.kindsOf(model);
     const kind = kinds.includes(start.kind) ? start.kind : kinds[0];
-    return { start: name, model, kind, grade: start.grade ?? "", edits: {} };
+    return { start: name, model, kind, grade: start.grade ?? "", edits: {}, given: {} };
   }
 
   /** The kinds of nut that a model is there for. @param {string} model */
@@ -171,6 +183,18 @@ export class Case {
     this.state.edits = Object.fromEntries(Object.entries(this.state.edits).filter(([name]) => known.includes(name)));
   }
 
+  /** What is given besides the inputs, by the names of what is judged, SI. @returns {Record<string, any>} */
+  given() {
+    /** @type {Record<string, any>} */
+    const found = {};
+    for (const [name, shown] of Object.entries(this.state.given)) {
+      const { factor = 1, offset = 0 } = this.contents.judging.given[name] ?? {};
+      found[name] = typeof shown === "number" ? shown * factor + offset : shown;
+    }
+    if (found.unsupported_length !== undefined) found.ends ??= USUAL_ENDS;
+    return found;
+  }
+
   /** The case as its tables. @returns {Tables} */
   tables() {
     const { start, model, kind, grade, edits } = this.state;
@@ -188,7 +212,22 @@ export class Case {
         if (this.spec.inputs.includes(name)) this.#put(found, name, this.shown(name));
       }
     }
+    this.#putGiven(found);
     return found;
+  }
+
+  /** Limits, and the installation where its length is given. @param {Tables} tables */
+  #putGiven(tables) {
+    const { given } = this.state;
+    const isMounted = given.unsupported_length !== undefined;
+    for (const [name, shown] of Object.entries(isMounted ? { ends: USUAL_ENDS, ...given } : given)) {
+      const isLimit = name.startsWith("limits.");
+      if (!isLimit && !isMounted) continue;
+      const section = isLimit ? "limits" : "installation";
+      const unit = this.contents.judging.given[name]?.shown_in ?? "1";
+      tables[section] ??= {};
+      tables[section][name.replace("limits.", "")] = unit === "1" ? shown : `${shown} ${unit}`;
+    }
   }
 
   /**
@@ -228,9 +267,10 @@ export class Case {
 
   /** The case as the fragment of this page. */
   fragment() {
-    const { edits, ...chosen } = this.state;
+    const { edits, given, ...chosen } = this.state;
     const changed = Object.entries(edits).map(([name, shown]) => [name, String(shown)]);
-    return `#${new URLSearchParams({ ...chosen, ...Object.fromEntries(changed) })}`;
+    const judged = Object.entries(given).map(([name, shown]) => [`${GIVEN}${name}`, String(shown)]);
+    return `#${new URLSearchParams({ ...chosen, ...Object.fromEntries([...changed, ...judged]) })}`;
   }
 
   /**
@@ -259,7 +299,10 @@ export class Case {
     for (const [name, text] of given) {
       if (CHOICES.includes(name)) continue;
       const shown = Number(text);
-      if (Object.hasOwn(fields, name) && text !== "" && !this.fault(name, shown)) state.edits[name] = shown;
+      const judged = name.startsWith(GIVEN) ? name.slice(GIVEN.length) : "";
+      if (judged && text !== "" && !this.faultOfGiven(judged, text)) {
+        state.given[judged] = judged === "ends" ? text : shown;
+      } else if (Object.hasOwn(fields, name) && text !== "" && !this.fault(name, shown)) state.edits[name] = shown;
       else unknown.push(`${name}=${text}`);
     }
     return { state, unknown };
@@ -272,15 +315,32 @@ export class Case {
    * @param {number} shown
    */
   fault(name, shown) {
-    const { above, at_least: least, below, at_most: most, whole } = this.contents.fields[name];
-    if (!Number.isFinite(shown)) return "…";
-    const si = this.inSi(name, shown);
-    if (above !== undefined && si <= above) return `> ${this.inShown(name, above)}`;
-    if (below !== undefined && si >= below) return `< ${this.inShown(name, below)}`;
-    if (least !== undefined && si < least) return `≥ ${this.inShown(name, least)}`;
-    if (most !== undefined && si > most) return `≤ ${this.inShown(name, most)}`;
-    return whole && shown !== Math.round(shown) ? "1, 2, 3 …" : "";
+    return faultOf(this.contents.fields[name], shown);
   }
+
+  /** The same of what is only judged, as it is written; "…" for what there is not. @param {string} name @param {string} text */
+  faultOfGiven(name, text) {
+    const { given, ends } = this.contents.judging;
+    if (name === "ends") return Object.hasOwn(ends, text) ? "" : "…";
+    return Object.hasOwn(given, name) ? faultOf(given[name], Number(text)) : "…";
+  }
+}
+
+/**
+ * The bound of a quantity that a number in the unit it is shown in would break; nothing where it holds.
+ *
+ * @param {Bounded} quantity
+ * @param {number} shown
+ */
+function faultOf({ factor, offset, above, at_least: least, below, at_most: most, whole }, shown) {
+  if (!Number.isFinite(shown)) return "…";
+  const si = shown * factor + offset;
+  const written = (/** @type {number} */ bound) => Number(((bound - offset) / factor).toPrecision(12));
+  if (above !== undefined && si <= above) return `> ${written(above)}`;
+  if (below !== undefined && si >= below) return `< ${written(below)}`;
+  if (least !== undefined && si < least) return `≥ ${written(least)}`;
+  if (most !== undefined && si > most) return `≤ ${written(most)}`;
+  return whole && shown !== Math.round(shown) ? "1, 2, 3 …" : "";
 }
 
 /**

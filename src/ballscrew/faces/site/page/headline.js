@@ -1,7 +1,8 @@
 // The numbers that matter most, and what the model says of them.
 
+import { textOf } from "./judgements.js";
 import { reasonsIn } from "./view.js";
-import { byId, digitsOf, element, say, signOf } from "./words.js";
+import { byId, digitsOf, element, inPlace, say, signOf } from "./words.js";
 
 /** @typedef {import("./view.js").Scene} Scene */
 
@@ -23,6 +24,7 @@ export class Headline {
     /** @type {Map<string, HTMLElement>} */
     this.values = new Map();
     this.said = "";
+    this.judged = "";
   }
 
   /** Make what is filled in. */
@@ -36,6 +38,7 @@ export class Headline {
     });
     byId("beside").replaceChildren(...items);
     this.said = "";
+    this.judged = "";
   }
 
   /** Write the numbers of the operating point. */
@@ -49,6 +52,7 @@ export class Headline {
       const shown = name === "efficiency" && !screwDrives ? "back_driving_efficiency" : name;
       place.textContent = this.#text(shown);
     }
+    this.#writeVerdicts();
     const reasons = outputs.valid === 1 ? [] : reasonsIn(scene.case, Object.fromEntries(entriesOf(outputs)));
     const words = reasons.length
       ? `${say("Outside the model's validity:")} ${reasons.join("; ")}.`
@@ -57,6 +61,26 @@ export class Headline {
     this.said = words;
     byId("verdict").textContent = words;
     byId("headline").classList.toggle("outside", reasons.length > 0);
+  }
+
+  /** The verdict on the checks, and those on the operating point; conditions of the model stand below. */
+  #writeVerdicts() {
+    const { judged } = this.scene;
+    if (!judged) return;
+    const others = judged.warnings.filter(({ id }) => !id.startsWith("validity."));
+    const records = [...judged.verdicts, ...others];
+    const texts = records.map(({ message }) => textOf(this.scene.case.contents, message, inPlace));
+    const whole = `${say("Checks")}: ${textOf(this.scene.case.contents, judged.all.message, inPlace)}`;
+    const written = JSON.stringify([whole, texts]);
+    if (written === this.judged) return;
+    this.judged = written;
+    const link = element("a", { href: "#checks", class: judged.all.severity }, whole);
+    link.addEventListener("click", (event) => {
+      event.preventDefault(); // the address is that of the case
+      byId("checks").scrollIntoView();
+    });
+    const lines = records.map(({ severity }, place) => element("li", { class: severity }, texts[place]));
+    byId("verdicts").replaceChildren(element("li", {}, link), ...lines);
   }
 
   /** @param {string} name */

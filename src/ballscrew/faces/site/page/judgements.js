@@ -249,7 +249,7 @@ export function textOf(contents, { template, values }, words = {}) {
     if (typeof value === "string") return value;
     if (Array.isArray(value)) return value.map((each) => textOf(contents, each, words)).join(", ");
     if ("template" in value) return textOf(contents, value, words);
-    return digits(withUnit(contents, value, sign));
+    return digits(inUnit(contents, value, sign));
   };
   return say(template).replace(/\{([\w.]+)\}/g, (/** @type {string} */ place, /** @type {string} */ name) =>
     name in values ? one(values[name]) : place,
@@ -261,7 +261,7 @@ export function textOf(contents, { template, values }, words = {}) {
  * @param {{ value: number, unit: string, shown_in: string, digits: number, decimals?: number }} place
  * @param {(unit: string) => string} sign
  */
-function withUnit({ judging }, { value, unit, shown_in: shownIn, digits, decimals }, sign) {
+function inUnit({ judging }, { value, unit, shown_in: shownIn, digits, decimals }, sign) {
   if (decimals !== undefined) return Number.isFinite(value) ? value.toFixed(decimals) : general(value, PLAIN);
   if (unit === "1") return general(Number(general(value, digits)), PLAIN);
   const { factor, offset } = judging.units[`${unit}|${shownIn}`];

@@ -5,10 +5,12 @@ import { EfficiencyMap, OverSpeed, Parts, Quadrants, Temperatures } from "./char
 import { Controls } from "./controls.js";
 import { Engine } from "./engine.js";
 import { Headline } from "./headline.js";
+import { BallView, Checks } from "./judged.js";
+import { judgedAt, recordsOf, textOf } from "./judgements.js";
 import { keepOffline, moduleOf, site } from "./modules.js";
 import { readColours } from "./plot.js";
 import { Taking } from "./taking.js";
-import { byId, element, keep, kept, languageOf, say, sayNamed, speak, useWords } from "./words.js";
+import { byId, element, inPlace, keep, kept, languageOf, say, sayNamed, speak, useWords } from "./words.js";
 
 /** Milliseconds after the last change that the hand is at rest. */
 const REST = 160;
@@ -42,6 +44,7 @@ const scene = {
   case: shownCase,
   inputs: {},
   outputs: {},
+  judged: undefined,
   evaluate(changes, count) {
     const began = performance.now();
     const found = engine.evaluate(shownCase.structure, { ...scene.inputs, ...changes }, count);
@@ -61,6 +64,11 @@ const scene = {
     edit(name, controls.snapped(name, shown));
     controls.show(name);
   },
+  give(name, shown) {
+    if (shown === undefined) delete shownCase.state.given[name];
+    else shownCase.state.given[name] = shown;
+    changed();
+  },
 };
 
 const headline = new Headline(scene);
@@ -72,6 +80,8 @@ const first = new Parts(scene, "over-speed", {
   hasValues: true,
 });
 const others = [
+  new Checks(scene, "checks"),
+  new BallView(scene, "ball", engine),
   new Parts(scene, "over-load", { over: "axial_load", heading: "The parts over the load", hint: "" }),
   new EfficiencyMap(scene, "map"),
   new OverSpeed(scene, "stribeck", {
@@ -112,10 +122,30 @@ function compute() {
   scene.inputs = shownCase.inputs();
   const found = engine.evaluate(shownCase.structure, scene.inputs, 1);
   scene.outputs = Object.fromEntries(Object.entries(found).map(([name, [value]]) => [name, value]));
+  scene.judged = undefined;
+  if (!(isMoving && "by_ball" in shownCase.spec)) judge();
+  show();
+}
+
+/** Judge the operating point: of a nut whose balls are solved one by one when the hand rests. */
+function judge() {
+  const inputs = { ...shownCase.unchanged(), ...scene.inputs };
+  const point = { structure: shownCase.structure, start: shownCase.state.start, inputs, given: shownCase.given() };
+  const judged = judgedAt(engine, contents, point);
+  scene.judged = { ...recordsOf(contents, judged), derived: judged.derived };
+}
+
+/** What other programs may read of the page. */
+function show() {
+  const said = (/** @type {import("./judgements.js").JudgedRecord[]} */ records) =>
+    records.map((one) => ({ ...one, text: textOf(contents, one.message, inPlace) }));
+  const { judged } = scene;
   /** @type {any} */ (globalThis).ballscrew = {
     case: shownCase.tables(),
     inputs: { ...scene.inputs },
     outputs: scene.outputs,
+    verdicts: judged ? said([judged.all, ...judged.verdicts, ...judged.warnings]) : undefined,
+    checks: judged ? said(judged.checks) : undefined,
   };
 }
 
@@ -153,6 +183,12 @@ function askIdle() {
 /** The hand rests: what was drawn with few points is drawn whole, and what needs no frame is written. */
 function rest() {
   isMoving = false;
+  if (!scene.judged) {
+    judge();
+    show();
+    headline.write();
+    for (const view of others) if (view instanceof Checks) view.draw();
+  }
   if (wasThinned) {
     wasThinned = false;
     for (const view of views) view.isDirty = true;

@@ -15,6 +15,8 @@ import { digitsOf, element, say, sayNamed } from "./words.js";
  *   count: (whole: number, least: number) => number,
  *   range: (name: string) => { min: number, max: number },
  *   change: (name: string, shown: number) => void,
+ *   judged: (ReturnType<typeof import("./judgements.js").recordsOf> & { derived: Record<string, any> }) | undefined,
+ *   give: (name: string, shown: number | string | undefined) => void,
  * }} Scene
  */
 /** @typedef {{ caption: string, head: string[], rows: number[][] }} Numbers */

@@ -112,6 +112,13 @@ function localised(digits) {
   return language === "de" ? digits.replace(".", ",") : digits;
 }
 
+/** How templates, units and digits of sentences are written here. */
+export const inPlace = {
+  say: (/** @type {string} */ template) => (language === "de" && german[template]) || template,
+  sign: signOf,
+  digits: (/** @type {string} */ text) => localised(text.replace(/^-?[\d.]+e\+\d+/, (one) => String(Number(one)))),
+};
+
 /** A number as somebody typed it, NaN where it is none. @param {string} text */
 export function numberIn(text) {
   const plain = text.trim().replace(",", ".").replace("−", "-");

@@ -1,0 +1,218 @@
+// The checks with their limits, and the ball in its grooves.
+
+import { ballAt, drawBall } from "./ball.js";
+import { textOf } from "./judgements.js";
+import { colourOf } from "./plot.js";
+import { View } from "./view.js";
+import { digitsOf, element, inPlace, numberIn, plainDigits, say, sayNamed, signOf, spaced } from "./words.js";
+
+/** @typedef {import("./judgements.js").JudgedRecord} JudgedRecord */
+/** @typedef {{ factor: number, offset: number, shown_in: string }} Shown */
+
+/** What is asked for, in its order. */
+const ASKED = [
+  "unsupported_length",
+  "limits.running_time",
+  "limits.static_safety",
+  "limits.buckling_safety",
+  "limits.critical_speed_share",
+  "limits.shaft_stress",
+  "limits.diameter_speed_product",
+];
+const FULL = 1;
+
+/** A number in the unit it is shown in. @param {number | null} value @param {Shown} quantity */
+function shownIn(value, { factor, offset, shown_in: unit }) {
+  if (value === null || !Number.isFinite(value)) return "–";
+  return `${digitsOf((value - offset) / factor)} ${signOf(unit)}`.trim();
+}
+
+/** The checks with value, limit, what is used of it, and words; above them what is given for them. */
+export class Checks extends View {
+  /** @param {import("./view.js").Scene} scene @param {string} id */
+  constructor(scene, id) {
+    super(scene, id, {
+      heading: "Checks",
+      hint: "Life, strength and speed against their limits.",
+      hasCanvas: false,
+    });
+    this.asked = element("div", { class: "asked" });
+    this.facts = element("p", { class: "hint" });
+    this.table.className = "checks";
+    const scroll = element("div", { class: "scroll", tabindex: "0", role: "region" }, this.table);
+    scroll.setAttribute("aria-labelledby", `${id}-heading`);
+    this.section.append(this.asked, scroll, this.facts);
+    this.written = "";
+  }
+
+  prepare() {
+    this.written = "";
+    this.asked.replaceChildren(...ASKED.map((name) => this.#asked(name)), this.#ends());
+  }
+
+  /** @param {string} name */
+  #asked(name) {
+    const { case: one } = this.scene;
+    const quantity = one.contents.judging.given[name];
+    const id = `given-${name}`;
+    const field = element("input", { id, type: "text", inputmode: "decimal", autocomplete: "off" });
+    const given = one.state.given[name];
+    field.value = typeof given === "number" ? plainDigits(given) : "";
+    const usual = quantity.default === null ? say("not given") : shownIn(quantity.default, quantity).split(" ")[0];
+    field.placeholder = usual;
+    field.addEventListener("change", () => {
+      const shown = numberIn(field.value);
+      const isGiven = field.value.trim() !== "";
+      const fault = isGiven ? one.faultOfGiven(name, String(shown)) : "";
+      field.setAttribute("aria-invalid", String(fault !== ""));
+      if (!fault) this.scene.give(name, isGiven ? shown : undefined);
+    });
+    const path = name.startsWith("limits.") ? name : `installation.${name}`;
+    const words = sayNamed(`field.${path}.label`, spaced(name));
+    return labelled(words, id, field, signOf(quantity.shown_in));
+  }
+
+  #ends() {
+    const { contents, state } = this.scene.case;
+    const menu = element("select", { id: "given-ends" });
+    for (const [name, { words }] of Object.entries(contents.judging.ends)) {
+      menu.append(element("option", { value: name }, inPlace.say(words)));
+    }
+    menu.value = String(state.given.ends ?? "fixed-supported");
+    menu.addEventListener("change", () => this.scene.give("ends", menu.value));
+    return labelled(say("ends of the shaft"), "given-ends", menu, "");
+  }
+
+  paint() {
+    const { judged, case: one } = this.scene;
+    if (!judged) return;
+    const lines = judged.checks.map((record) => this.#line(record));
+    const written = JSON.stringify(lines);
+    if (written === this.written) return;
+    this.written = written;
+    const head = ["Check", "Value", "Limit", "Used", ""].map((words) =>
+      element("th", { scope: "col" }, words && say(words)),
+    );
+    const rows = lines.map(({ title, value, limit, used, state, words }) =>
+      element(
+        "tr",
+        { class: state },
+        element("th", { scope: "row" }, title),
+        element("td", {}, value),
+        element("td", {}, limit),
+        element("td", {}, ...barOf(used, title)),
+        element("td", { class: "said" }, element("strong", {}, say(STATES[state])), ` ${words}`),
+      ),
+    );
+    this.table.replaceChildren(element("thead", {}, element("tr", {}, ...head)), element("tbody", {}, ...rows));
+    const { shown } = one.contents.judging;
+    const { derived } = judged;
+    const newtons = one.contents.results.largest_contact_load ?? one.contents.results.contact_load;
+    this.facts.textContent = say(
+      "Lead angle {angle}, speed of the nut {speed}, load ratings {dynamic} dynamic and {static} static.",
+      {
+        angle: shownIn(derived.lead_angle, shown.lead_angle),
+        speed: shownIn(derived.nut_speed, shown.nut_speed),
+        dynamic: shownIn(derived.dynamic_load_rating, newtons),
+        static: shownIn(derived.static_load_rating, newtons),
+      },
+    );
+  }
+
+  /** @param {JudgedRecord} record */
+  #line(record) {
+    const { contents } = this.scene.case;
+    const quantity = contents.judging.shown[record.id];
+    const { title } = contents.judging.tables.checks.find((/** @type {any} */ row) => row.id === record.id);
+    return {
+      title: inPlace.say(title),
+      value: shownIn(record.value, quantity),
+      limit: shownIn(record.limit, quantity),
+      used: record.utilisation,
+      state: record.holds === null ? "open" : record.holds ? "holds" : "fails",
+      words: textOf(contents, record.message, inPlace),
+    };
+  }
+}
+
+/** @type {Record<string, string>} */
+const STATES = { open: "not judged", holds: "holds", fails: "fails" };
+
+/** @param {string} words @param {string} id @param {HTMLElement} field @param {string} unit */
+function labelled(words, id, field, unit) {
+  const inside = unit ? [field, element("span", { class: "unit" }, unit)] : [field];
+  return element("p", {}, element("label", { for: id }, words), element("span", { class: "entry" }, ...inside));
+}
+
+/** How much of a limit is used, as a bar and in per cent. @param {number | null} used @param {string} title */
+function barOf(used, title) {
+  if (used === null || !Number.isFinite(used)) return ["–"];
+  const bar = element("span", { class: "bar" });
+  bar.style.width = `${100 * Math.min(FULL, used)}%`;
+  const track = element("span", { class: "track", title }, bar);
+  return [`${digitsOf(100 * used, 3)} %`, track];
+}
+
+/** The ball in its grooves, in the section across the path. */
+export class BallView extends View {
+  /**
+   * @param {import("./view.js").Scene} scene
+   * @param {string} id
+   * @param {import("./engine.js").Engine} engine
+   */
+  constructor(scene, id, engine) {
+    super(scene, id, {
+      heading: "The ball in its grooves",
+      hint: "The section across the path of the balls, to scale; how far the grooves reach is assumed.",
+    });
+    this.engine = engine;
+    /** @type {Record<string, number>} */
+    this.places = {};
+    this.details?.remove(); // its numbers are in words
+  }
+
+  paint() {
+    const { scene, plot } = this;
+    if (!plot) return;
+    const { case: one, inputs, outputs } = scene;
+    const all = { ...one.unchanged(), ...inputs };
+    this.places = ballAt(this.engine, one.contents, { structure: one.structure, inputs: all, outputs });
+    const colours = {
+      ink: colourOf("ink"),
+      soft: colourOf("soft"),
+      body: colourOf("line"),
+      accent: colourOf("accent"),
+    };
+    const words = { nut: say("nut"), screw: say("screw"), angle: `α ${this.#angles().join(", ")}` };
+    drawBall(plot.pen, plot, this.places, colours, words);
+    this.note.className = "hint";
+    const said = this.#said();
+    if (this.note.textContent !== said) this.note.textContent = said;
+    plot.canvas.setAttribute("aria-label", this.description());
+  }
+
+  /** The pairs of flanks that the ball touches, the one that carries the load first. */
+  #touched() {
+    return ["loaded", "other"].filter((flank) => this.places[`${flank}.touches`] === 1);
+  }
+
+  #angles() {
+    const quantity = this.scene.case.contents.judging.shown.lead_angle;
+    return this.#touched().map((flank) => shownIn(this.places[`${flank}.angle`], quantity));
+  }
+
+  #said() {
+    const { results } = this.scene.case.contents;
+    const loads = this.#touched().map((flank) => this.places[`${flank}.load`]);
+    if (!loads.some((load) => load > 0)) return `${say("no load on the ball")}.`;
+    const quantity = results.largest_contact_load ?? results.contact_load;
+    return say("Contact angle {angle}, load of the ball {load}.", {
+      angle: this.#angles().join(", "),
+      load: loads.map((load) => shownIn(load, quantity)).join(", "),
+    });
+  }
+
+  description() {
+    return `${say(this.words.heading)}. ${this.#said()}`;
+  }
+}
