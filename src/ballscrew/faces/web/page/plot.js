@@ -185,6 +185,8 @@ class Charts {
   #dragged = new Set();
   /** @type {Colours | undefined} */
   #colours;
+  /** Sizes of sketches. @type {WeakMap<HTMLCanvasElement, { width: number, height: number }>} */
+  #sizes = new WeakMap();
   /** How charts are drawn while something moves. @type {{ isHeld: boolean } | undefined} */
   #moving;
   #observer = new IntersectionObserver((entries) => this.#look(entries), { rootMargin: "250px" });
@@ -295,14 +297,22 @@ class Charts {
     }
     const holder = byId(id);
     const plot = /** @type {any} */ (within(holder, ".plot"));
-    const { offsetLeft, offsetTop, offsetWidth, offsetHeight } = plot;
-    const canvas = holder.querySelector("canvas") ?? element("canvas", { "aria-hidden": true });
-    const size = { left: offsetLeft, top: offsetTop, width: offsetWidth, height: offsetHeight };
-    for (const [name, value] of Object.entries(size)) canvas.style.setProperty(name, `${value}px`);
-    if (!canvas.parentNode) holder.append(canvas);
+    let canvas = holder.querySelector("canvas");
+    let size = canvas && this.#sizes.get(canvas);
+    if (!canvas || !size) {
+      // its place is measured once: asking for it makes the browser lay out the page
+      const { offsetLeft: left, offsetTop: top, offsetWidth: width, offsetHeight: height } = plot;
+      size = { width, height };
+      canvas = element("canvas", { "aria-hidden": true });
+      for (const [name, value] of Object.entries({ left, top, width, height })) {
+        canvas.style.setProperty(name, `${value}px`);
+      }
+      this.#sizes.set(canvas, size);
+      holder.append(canvas);
+    }
     const { xaxis, yaxis } = plot._fullLayout ?? {};
     const ranges = this.#moving?.isHeld && xaxis ? { x: xaxis.range, y: yaxis.range } : undefined;
-    sketch(canvas, chart.figure(this.#screen), this.#screen, ranges);
+    sketch(canvas, size, chart.figure(this.#screen), this.#screen, ranges);
   }
 
   /**

@@ -5,14 +5,16 @@ import { digits } from "./units.js";
 /** @typedef {import("./plot.js").Figure} Figure */
 /** @typedef {import("./plot.js").Colours} Colours */
 /** @typedef {[number, number]} Range */
+/** In pixels of the page. @typedef {{ width: number, height: number }} Size */
 
 /** The most marks on an axis, and how long one is, in pixels. */
 const MOST_MARKS = 7;
 const MARK = 4;
 /** Room above the greatest value, as a share. */
 const ROOM = 0.05;
-/** Pixels of a cell of a map. */
-const CELL = 3;
+/** Dots of a map, and steps between its colours. */
+const DOTS = { x: 96, y: 64 };
+const SHADES = 100;
 const FONT = '12.5px system-ui, "DejaVu Sans", sans-serif';
 const DASHES = { dash: [9, 9], dot: [3, 3] };
 
@@ -20,12 +22,12 @@ const DASHES = { dash: [9, 9], dot: [3, 3] };
 class Sketch {
   /**
    * @param {HTMLCanvasElement} canvas
+   * @param {Size} size
    * @param {Figure} figure
    * @param {Colours} colours
    * @param {{ x: Range, y: Range } | undefined} ranges those of the axes, where they stay
    */
-  constructor(canvas, { traces, layout }, colours, ranges) {
-    const { clientWidth: width, clientHeight: height } = canvas;
+  constructor(canvas, { width, height }, { traces, layout }, colours, ranges) {
     const scale = devicePixelRatio || 1;
     canvas.width = Math.round(width * scale);
     canvas.height = Math.round(height * scale);
@@ -216,7 +218,7 @@ class Sketch {
   }
 
   /**
-   * A map in cells, each of the colour of its value, or of what is beyond a limit.
+   * A map as an image of few dots, each of the colour of its value, or of what is beyond a limit; the browser smooths it.
    *
    * @param {any} trace
    */
@@ -224,19 +226,32 @@ class Sketch {
     const { context, area } = this;
     const isLimit = contours.type === "constraint";
     const [low, high] = extent(z.flat());
-    const columns = places(x, Math.ceil(area.width / CELL), this.ranges.x);
-    const rows = places(y, Math.ceil(area.height / CELL), this.ranges.y);
-    rows.forEach(([row, up], j) => {
-      columns.forEach(([column, along], i) => {
-        const value =
-          (1 - up) * between(z[row], column, along) + up * between(z[Math.min(row + 1, z.length - 1)], column, along);
-        if (!Number.isFinite(value) || (isLimit && value < contours.value)) return;
-        context.fillStyle = isLimit ? fillcolor : colourAt(colorscale, (value - low) / (high - low || 1));
-        context.fillRect(area.left + i * CELL, area.top + area.height - (j + 1) * CELL, CELL, CELL);
-      });
-    });
+    if (isLimit && high < contours.value) return;
+    const shades = isLimit ? [channelsOf(fillcolor)] : shadesOf(colorscale);
+    const image = new ImageData(DOTS.x, DOTS.y);
+    const columns = places(x, DOTS.x, this.ranges.x);
+    let dot = 4 * DOTS.x * DOTS.y;
+    for (const [row, up] of places(y, DOTS.y, this.ranges.y)) {
+      const [below, above] = [z[row], z[Math.min(row + 1, z.length - 1)]];
+      dot -= 4 * DOTS.x; // from the lowest row of the image on
+      let at = dot;
+      for (const [column, along] of columns) {
+        const value = (1 - up) * between(below, column, along) + up * between(above, column, along);
+        if (isLimit ? value >= contours.value : Number.isFinite(value)) {
+          image.data.set(isLimit ? shades[0] : shades[Math.round((SHADES * (value - low)) / (high - low))], at);
+        }
+        at += 4;
+      }
+    }
+    spare.width = DOTS.x;
+    spare.height = DOTS.y;
+    spare.getContext("2d")?.putImageData(image, 0, 0);
+    context.drawImage(spare, area.left, area.top, area.width, area.height);
   }
 }
+
+/** Where a map is made before it has its size. */
+const spare = document.createElement("canvas");
 
 /**
  * @param {(number | null)[]} values
@@ -266,22 +281,24 @@ function places(values, count, [low, high]) {
   });
 }
 
-/**
- * @param {[number, string][]} scale
- * @param {number} share
- */
-function colourAt(scale, share) {
-  const next = Math.max(
-    1,
-    scale.findIndex(([at]) => at >= share),
-  );
-  const [[from, first], [to, last]] = [scale[next - 1], scale[next]];
-  const part = (share - from) / (to - from);
-  const channels = [1, 3, 5].map((start) => {
-    const [one, other] = [first, last].map((colour) => Number.parseInt(colour.slice(start, start + 2), 16));
-    return Math.round(one + part * (other - one));
+/** Red, green, blue and opacity of a colour #rrggbb or #rrggbbaa. @param {string} colour */
+function channelsOf(colour) {
+  const written = colour.length < 9 ? `${colour}ff` : colour;
+  return [1, 3, 5, 7].map((start) => Number.parseInt(written.slice(start, start + 2), 16));
+}
+
+/** The colours of a scale in small steps. @param {[number, string][]} scale */
+function shadesOf(scale) {
+  return Array.from({ length: SHADES + 1 }, (_, i) => {
+    const share = i / SHADES;
+    const next = Math.max(
+      1,
+      scale.findIndex(([at]) => at >= share),
+    );
+    const [[from, first], [to, last]] = [scale[next - 1], scale[next]];
+    const [one, other] = [channelsOf(first), channelsOf(last)];
+    return one.map((channel, k) => channel + ((share - from) / (to - from)) * (other[k] - channel));
   });
-  return `rgb(${channels.join(" ")})`;
 }
 
 /** The least and the greatest number. @param {(number | null | undefined)[]} values @returns {Range} */
@@ -323,13 +340,14 @@ function marks([low, high]) {
 }
 
 /**
- * Draw a figure into a canvas that lies in the page.
+ * Draw a figure into a canvas.
  *
  * @param {HTMLCanvasElement} canvas
+ * @param {Size} size
  * @param {Figure} figure
  * @param {Colours} colours
  * @param {{ x: Range, y: Range }} [ranges] those of the axes, where they stay
  */
-export function sketch(canvas, figure, colours, ranges) {
-  new Sketch(canvas, figure, colours, ranges).draw();
+export function sketch(canvas, size, figure, colours, ranges) {
+  new Sketch(canvas, size, figure, colours, ranges).draw();
 }
