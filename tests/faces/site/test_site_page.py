@@ -217,7 +217,19 @@ def test_each_chart_has_its_numbers_and_words(visit):
         section.scroll_into_view_if_needed()
         here.rest(600)
         assert section.locator("canvas").get_attribute("aria-label"), section.get_attribute("id")
-        assert section.locator("tbody tr").count() > 10, section.get_attribute("id")
+        numbers = section.locator("tbody tr").count()
+        said = section.locator(".hint").all_inner_texts()  # of the picture of the ball
+        assert numbers > 10 or "Contact angle" in said[-1], section.get_attribute("id")
+
+
+def test_checks_are_said(visit):
+    here = visit().open(DOUBLE)
+    assert "4 of 8 judged, and these hold" in here.page.locator("#verdicts").inner_text()
+    for path, value in {"screw.ball_diameter": 2, "screw.loaded_balls": 60, "screw.screw_conformity": 0.65}.items():
+        found = here.slide(path, value)  # small balls, few of them, in a wide groove
+    assert [one["id"] for one in found["checks"] if one["holds"] is False] == ["check.contact_pressure"]
+    here.rest()
+    assert here.page.locator("#checks .fails").count() > 0
 
 
 def violations(here):

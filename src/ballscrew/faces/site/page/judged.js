@@ -39,8 +39,7 @@ export class Checks extends View {
     this.asked = element("div", { class: "asked" });
     this.facts = element("p", { class: "hint" });
     this.table.className = "checks";
-    const scroll = element("div", { class: "scroll", tabindex: "0", role: "region" }, this.table);
-    scroll.setAttribute("aria-labelledby", `${id}-heading`);
+    const scroll = element("div", { class: "scroll", tabindex: "0" }, this.table);
     this.section.append(this.asked, scroll, this.facts);
     this.written = "";
   }
@@ -90,8 +89,8 @@ export class Checks extends View {
     const written = JSON.stringify(lines);
     if (written === this.written) return;
     this.written = written;
-    const head = ["Check", "Value", "Limit", "Used", ""].map((words) =>
-      element("th", { scope: "col" }, words && say(words)),
+    const head = ["Check", "Value", "Limit", "Used", "In words"].map((words) =>
+      element("th", { scope: "col" }, say(words)),
     );
     const rows = lines.map(({ title, value, limit, used, state, words }) =>
       element(
