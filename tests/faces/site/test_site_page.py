@@ -225,7 +225,8 @@ def test_each_chart_has_its_numbers_and_words(visit):
 def test_checks_are_said(visit):
     here = visit().open(DOUBLE)
     assert "4 of 8 judged, and these hold" in here.page.locator("#verdicts").inner_text()
-    for path, value in {"screw.ball_diameter": 2, "screw.loaded_balls": 60, "screw.screw_conformity": 0.65}.items():
+    moves = {"operation.axial_load": 6400, "screw.ball_diameter": 2, "screw.loaded_balls": 60}
+    for path, value in {**moves, "screw.screw_conformity": 0.65}.items():
         found = here.slide(path, value)  # small balls, few of them, in a wide groove
     assert [one["id"] for one in found["checks"] if one["holds"] is False] == ["check.contact_pressure"]
     here.rest()
