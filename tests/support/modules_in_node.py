@@ -37,16 +37,20 @@ class Modules:
         return self._found({"structure": next(iter(self.contents["structures"])), "grade": grade}, {"t": temperatures})
 
     def _found(self, asked, points):
-        count = len(next(iter(points.values())))
-        job = {**asked, "count": count, "names": list(points), "out": "job"}
-        np.array(list(points.values()), dtype=float).tofile(self.folder / "job.in")
-        (self.folder / "jobs.json").write_text(json.dumps({"contents": self.contents, "jobs": [job]}))
-        command = [NODE, SCRIPT, ENGINE, self.folder]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=600)
-        assert done.returncode == 0, done.stderr
-        names = json.loads((self.folder / "job.json").read_text())["names"]
-        found = np.fromfile(self.folder / "job.out").reshape(len(names), count)
-        return dict(zip(names, found, strict=True))
+        return evaluated(self.folder, self.contents, asked, points)[0]
+
+
+def evaluated(folder, known, asked, points):
+    """What node finds at points with the contents of a page and modules in a folder, and the milliseconds it took."""
+    count = len(next(iter(points.values())))
+    job = {**asked, "count": count, "names": list(points), "out": "job"}
+    np.array(list(points.values()), dtype=float).tofile(folder / "job.in")
+    (folder / "jobs.json").write_text(json.dumps({"contents": known, "jobs": [job]}))
+    done = subprocess.run([NODE, SCRIPT, ENGINE, folder], capture_output=True, text=True, timeout=600)
+    assert done.returncode == 0, done.stderr
+    said = json.loads((folder / "job.json").read_text())
+    found = np.fromfile(folder / "job.out").reshape(len(said["names"]), count)
+    return dict(zip(said["names"], found, strict=True)), said["milliseconds"]
 
 
 def start_of(structure, start="rexroth-40x10x6-6-double"):

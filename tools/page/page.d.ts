@@ -34,6 +34,7 @@ declare global {
   type Select = Schemas["Select"];
   type JobDocument = Schemas["Job"];
   type SelectPlan = Schemas["Plan"];
+  type CaseModule = Schemas["CaseModule"];
 
   var Plotly: {
     react(place: Element, traces: object[], layout: object, config: object): Promise<void>;

@@ -5,7 +5,8 @@ import re
 import tomllib
 from importlib import resources
 from pathlib import Path
-from urllib.parse import parse_qs
+from random import Random
+from urllib.parse import parse_qs, urlencode
 
 import axe_playwright_python
 import pytest
@@ -15,6 +16,7 @@ from ballscrew.faces.site import site
 from ballscrew.physics.sizing.catalogue import catalogue
 
 MODELS = ("reference",)
+NUTS = ("row", "double", "double+elastic")
 #: As that of the fixture: the folder below the root of the server.
 PATH = "tools/screws/"
 DOUBLE = "#start=rexroth-32x10x3.969-5-double"
@@ -73,6 +75,31 @@ def test_the_torque_is_that_of_the_model_and_of_its_case(visit, name):
         before, found = found, here.slide(path, value)
         assert found["inputs"] != before["inputs"], path  # at once, before anything is drawn
     assert found["outputs"]["screw_torque"] == pytest.approx(torque_of(found["case"]), rel=TOLERANCE, abs=0)
+
+
+#: A slider by its path, moved by a share of its range.
+MOVE = """([path, share]) => {
+  const slider = document.querySelector(`input[type=range][name="${path}"]`);
+  slider.value = String(Number(slider.value) + share * (slider.max - slider.min));
+  slider.dispatchEvent(new Event("input", { bubbles: true }));
+}"""
+
+
+@pytest.mark.parametrize("kind", NUTS)
+def test_cases_made_at_random_are_those_of_the_program(visit, kind):
+    """Any start with any oil and any sliders moved a little."""
+    random = Random(kind)
+    here = visit()
+    for _ in range(4):
+        start, grade = random.choice(sorted(catalogue())), random.choice(["", "ISO VG 46", "ISO VG 220"])
+        here.page.goto("about:blank")
+        here.open("#" + urlencode({"start": start, "kind": kind, "grade": grade}))
+        names = here.page.evaluate("[...document.querySelectorAll('input[type=range]')].map((one) => one.name)")
+        for name in random.sample(names, 5):
+            here.page.evaluate(MOVE, [name, random.uniform(-0.1, 0.1)])
+        found = here.state()
+        torque = found["outputs"]["screw_torque"]
+        assert torque == pytest.approx(torque_of(found["case"]), rel=TOLERANCE, abs=0), found["case"]
 
 
 def test_a_slider_moves_the_numbers_at_once(visit):

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from ballscrew.basis.arrays import as_array
 from ballscrew.compiler.kernels import kernel as kernels
 from ballscrew.compiler.kernels.buffers import aligned_array
-from ballscrew.compiler.kernels.emission import UnknownOperationError, kernel_text
+from ballscrew.compiler.kernels.emission import UnknownOperationError, kernel_text, lanes_for
 from ballscrew.compiler.kernels.kernel import Kernel
 from ballscrew.compiler.tracing.grid import Split, split
 from ballscrew.compiler.tracing.program import Program, Source, required_steps
@@ -37,7 +37,7 @@ from ballscrew.engine.evaluation.engines import ASKED_FOR, KNOWN, PAYS, Engine, 
 from ballscrew.engine.evaluation.outputs import OF_LOADS, OPERATION
 from ballscrew.engine.evaluation.plan import Configuration, Plan, read_input
 from ballscrew.engine.evaluation.recordings import Recording, Structures
-from ballscrew.engine.evaluation.structure_kernels import LANES, MOST_STEPS_OPTIMISED, keep, kept, name_of
+from ballscrew.engine.evaluation.structure_kernels import MOST_STEPS_OPTIMISED, keep, kept, name_of
 from ballscrew.engine.evaluation.structures import (
     OF_BALLS,
     groups_by_ball,
@@ -259,7 +259,17 @@ class CutByBall:
         """Of a recording that was cut; ``points`` for NumPy."""
         digest = hashlib.sha256(formulas.encode()).hexdigest()
         outputs = tuple(cut.points.outputs)
-        return cls(names, cut.columns, cut.tables, outputs, stages.reductions, stages.behind, LANES, digest, points)
+        return cls(
+            names,
+            cut.columns,
+            cut.tables,
+            outputs,
+            stages.reductions,
+            stages.behind,
+            _lanes(cut.points),
+            digest,
+            points,
+        )
 
     def with_kernel(self, kernel: Kernel) -> CutByBall:
         """The same with the kernel of what each ball has."""
@@ -335,7 +345,14 @@ def _text(made_of: Recording, stages: Stages, cut: Split) -> str:
     """The assembly of what each ball has."""
     sources: list[Source] = [source for source, _ in cut.tables]
     masks = dict.fromkeys(cut.points.outputs, False)
-    return made_of.once("text", lambda: kernel_text(cut.points, sources, masks, lanes=LANES, reduced=stages.sums))
+    return made_of.once(
+        "text", lambda: kernel_text(cut.points, sources, masks, lanes=_lanes(cut.points), reduced=stages.sums)
+    )
+
+
+def _lanes(program: Program) -> int:
+    """The number of points in a vector: most inputs are tables of a tile, which stay in the cache."""
+    return lanes_for(dataclasses.replace(program, inputs=len(OF_BALLS)))
 
 
 def _balls_first(values: NDArray[np.float64], count: int) -> NDArray[np.float64]:

@@ -35,7 +35,7 @@ _WRITTEN = str | int | float
 router = APIRouter()
 
 
-class Place(Closed):
+class InputPlace(Closed):
     """A number of the case that follows from the text in its field alone: its input, its unit and its bounds."""
 
     input: str
@@ -44,17 +44,19 @@ class Place(Closed):
     at_least: Number
     below: Number
     at_most: Number
+    whole: bool
 
 
-class Axis(Closed):
+class CurveAxis(Closed):
     """How the values of an axis follow from the operating point: to twice its value, from a share of that."""
 
     share: float = Field(description="the far end over the first value")
     points: int
+    points_of_sign: int = Field(description="points of either sign, where the value is negative")
     far: float = Field(description="the far end where the value is none, SI")
 
 
-class Oil(Closed):
+class OilModule(Closed):
     """The numbers of the oil by its temperature."""
 
     file: str
@@ -71,10 +73,10 @@ class CaseModule(Closed):
     reason: str | None = Field(description="why there is none")
     structure: AnyTables | None = Field(description="its file, and what its functions read and give")
     solver: str | None = Field(description="the file of the solver of the balls, where they are solved one by one")
-    oil: Oil | None
+    oil: OilModule | None
     values: dict[str, Number] = Field(description="all numbers of the case by their inputs, SI")
-    places: dict[str, Place] = Field(description="by their paths in the case")
-    axes: dict[str, dict[str, Axis]] = Field(description="of the curves")
+    places: dict[str, InputPlace] = Field(description="by their paths in the case")
+    axes: dict[str, dict[str, CurveAxis]] = Field(description="of the curves")
 
 
 @router.post(
@@ -185,7 +187,7 @@ def _place(name: str, quantity: Quantity) -> dict[str, Any]:
     return {
         "input": name,
         "unit": quantity.unit,
-        **{bound: getattr(info, bound) for bound in ("above", "at_least", "below", "at_most")},
+        **{name: getattr(info, name) for name in ("above", "at_least", "below", "at_most", "whole")},
     }
 
 
@@ -202,14 +204,14 @@ def _axes(is_nut: bool) -> dict[str, Any]:
     side = curves.MAP_OF_NUT if is_nut else curves.MAP
     loads = curves.CURVE_OF_NUT if is_nut else curves.CURVE
     return {
-        "over_speed": {"screw_speed": _axis(curves.OVER_SPEED, curves.CURVE, curves.SPEED)},
-        "over_load": {"axial_load": _axis(curves.OVER_LOAD, loads, curves.LOAD)},
+        "over_speed": {"screw_speed": _axis(curves.OVER_SPEED, curves.CURVE, curves.OF_SIGN, curves.SPEED)},
+        "over_load": {"axial_load": _axis(curves.OVER_LOAD, loads, min(loads, curves.OF_SIGN), curves.LOAD)},
         "over_both": {
-            "axial_load": _axis(curves.OVER_BOTH, side, curves.LOAD),
-            "screw_speed": _axis(curves.OVER_BOTH, side, curves.SPEED),
+            "axial_load": _axis(curves.OVER_BOTH, side, side // 2, curves.LOAD),
+            "screw_speed": _axis(curves.OVER_BOTH, side, side // 2, curves.SPEED),
         },
     }
 
 
-def _axis(share: float, points: int, far: float) -> dict[str, Any]:
-    return {"share": share, "points": points, "far": far}
+def _axis(share: float, points: int, points_of_sign: int, far: float) -> dict[str, Any]:
+    return {"share": share, "points": points, "points_of_sign": points_of_sign, "far": far}

@@ -24,7 +24,15 @@ from ballscrew.engine.evaluation.fingerprint import recorder_digest
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.evaluation.structure_kernels import name_of
 from ballscrew.engine.evaluation.structures import inputs_of_structure
-from ballscrew.exports.wasm_modules import OUTPUTS, Module, described, module_of, module_of_oils, module_of_solver, oils
+from ballscrew.exports.wasm_modules import (
+    OUTPUTS,
+    Module,
+    described,
+    module_of,
+    module_of_oils,
+    module_of_solver,
+    oils,
+)
 from ballscrew.physics.components.contact import RaceState
 
 #: What the page shows of an answer, where the nut has it.

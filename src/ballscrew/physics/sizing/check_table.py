@@ -293,8 +293,10 @@ _IN_FEW_WORDS = (
     Sentence(Message("passes"), "passes"),
     Sentence(Message("{judged} of {all} judged, and these hold"), places=_COUNT),
 )
+#: The verdict on all checks of a result outside the model's validity.
+OUTSIDE = Message("{verdict}; outside the model's validity")
 _WITH_VALIDITY = (
-    Sentence(Message("{verdict}; outside the model's validity"), "outside_validity", {"verdict": _IN_FEW_WORDS}),
+    Sentence(OUTSIDE, "outside_validity", {"verdict": _IN_FEW_WORDS}),
     *_IN_FEW_WORDS,
 )
 #: All checks in a few words: of ``checks.all`` of them so many judged and so many failing, whose titles are ``names``.

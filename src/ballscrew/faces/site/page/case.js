@@ -203,6 +203,7 @@ export class Case {
     const found = structuredClone({ ...own.tables, model: { name: model }, ...own.nuts[kind].tables });
     if (grade !== (own.grade ?? "")) {
       found.lubricant = grade ? { grade, temperature: `${USUAL_TEMPERATURE} degC` } : {};
+      if (!grade) this.#put(found, "viscosity", this.shown("viscosity"));
     }
     for (const [name, shown] of Object.entries(edits)) this.#put(found, name, shown);
     if (Object.keys(edits).some((name) => this.contents.fields[name].path.startsWith("screw."))) {

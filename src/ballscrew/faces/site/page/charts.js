@@ -2,7 +2,7 @@
 
 import { colourOf, evenly, evenlyLog, rounded, spanOf } from "./plot.js";
 import { inShownUnit, inSiUnit, reasonsIn, View } from "./view.js";
-import { digitsOf, element, say, sayNamed, signOf, withUnit } from "./words.js";
+import { digitsOf, element, plainDigits, say, sayNamed, signOf, withUnit } from "./words.js";
 
 /** @typedef {import("./view.js").Columns} Columns */
 /** @typedef {import("./view.js").Scene} Scene */
@@ -297,8 +297,9 @@ export class EfficiencyMap extends View {
     const drives = ends[0] < 0 === ends[1] < 0;
     this.values = this.found[drives ? "efficiency" : "back_driving_efficiency"];
     const finite = this.values.filter((value) => Number.isFinite(value));
-    const low = finite.length ? Math.min(...finite) : 0;
-    const high = finite.length ? Math.max(...finite) : 1;
+    // what is below zero holds by itself: one colour for all of it leaves the others for what moves
+    const low = finite.length ? Math.max(0, Math.min(...finite)) : 0;
+    const high = finite.length ? Math.max(low, ...finite) : 1;
     plot.begin(
       { from: Math.min(0, ends[1]), to: Math.max(0, ends[1]), title: axisOf(scene, SPEED) },
       { from: Math.min(0, ends[0]), to: Math.max(0, ends[0]), title: axisOf(scene, LOAD) },
@@ -313,7 +314,7 @@ export class EfficiencyMap extends View {
     });
     plot.axes();
     plot.point(scene.case.shown(SPEED), scene.case.shown(LOAD));
-    this.low.textContent = `${digitsOf(100 * low, 3)} %`;
+    this.low.textContent = `${low === 0 ? "≤ 0" : digitsOf(100 * low, 3)} %`;
     this.high.textContent = `${digitsOf(100 * high, 3)} %`;
     this.sayShaded(this.found);
   }
@@ -391,19 +392,28 @@ export class Temperatures extends View {
     );
     plot.axes();
     plot.inside(() => {
+      this.lines.forEach(({ found }, place) => {
+        // only along the line itself: the others may hold there
+        plot.halo(
+          this.xs,
+          torques[place].map((value, point) => (found.valid[point] === 1 ? Number.NaN : value)),
+        );
+      });
       this.lines.forEach(({ colour, dash }, place) => {
         plot.line(this.xs, torques[place], colour, { dash });
       });
     });
     plot.point(scene.case.shown(SPEED), scene.outputs[TORQUE]);
-    const items = this.lines.map(({ degrees, found, colour }, place) => {
+    const items = this.lines.map(({ degrees, colour }) => {
       const swatch = element("span", { class: "swatch line", "aria-hidden": "true" });
       swatch.style.background = colour;
-      const isWhole = reasonsIn(scene.case, found).length === 0;
-      const end = torques[place];
-      const words = `${digitsOf(degrees, 3)} ${signOf("degC")}${isWhole ? "" : ` (${say("not valid at every speed")})`}`;
-      return element("li", { title: digitsOf(end[end.length - 1]) }, swatch, element("span", {}, words));
+      return element("li", {}, swatch, element("span", {}, inDegrees(degrees)));
     });
+    const reasons = this.lines
+      .map(({ degrees, found }) => ({ degrees, own: reasonsIn(scene.case, found) }))
+      .filter(({ own }) => own.length)
+      .map(({ degrees, own }) => `${inDegrees(degrees)}: ${own.join("; ")}`);
+    this.sayReasons(reasons);
     this.legend.replaceChildren(...items);
   }
 
@@ -411,13 +421,15 @@ export class Temperatures extends View {
     if (!this.isThere || !this.lines.length) return undefined;
     return {
       caption: `${say("Cold and hot")}: ${torqueTitle()}`,
-      head: [
-        axisOf(this.scene, SPEED),
-        ...this.lines.map(({ degrees }) => `${digitsOf(degrees, 3)} ${signOf("degC")}`),
-      ],
+      head: [axisOf(this.scene, SPEED), ...this.lines.map(({ degrees }) => inDegrees(degrees))],
       rows: Array.from(this.xs, (x, place) => [x, ...this.lines.map(({ found }) => found[TORQUE][place])]),
     };
   }
+}
+
+/** @param {number} degrees */
+function inDegrees(degrees) {
+  return `${plainDigits(Number(degrees.toPrecision(4)))} ${signOf("degC")}`;
 }
 
 /** What the shaft needs in the four quadrants of load and speed. */
@@ -430,7 +442,7 @@ export class Quadrants extends View {
       hasCanvas: false,
     });
     this.grid = element("table", { class: "quadrants" });
-    this.section.append(element("div", { class: "scroll", tabindex: "0" }, this.grid));
+    this.section.append(element("div", { class: "scroll", tabindex: "0" }, this.grid), this.note);
   }
 
   paint() {
@@ -471,7 +483,8 @@ export class Quadrants extends View {
         element("span", {}, words),
         element("span", {}, [share, isValid ? "" : say("not valid")].filter(Boolean).join(" · ")),
       ];
-      return element("td", isHere ? { class: "here" } : {}, element("div", {}, ...inside));
+      const marks = [isHere ? "here" : "", isValid ? "" : "outside"].join(" ");
+      return element("td", { class: marks }, element("div", {}, ...inside));
     };
     const corner = element("td", { class: "corner" }, withUnit(say("drive torque"), "N m"));
     const top = [say("speed −"), say("speed +")].map((text) => element("th", { scope: "col" }, text));
@@ -482,5 +495,6 @@ export class Quadrants extends View {
       element("thead", {}, element("tr", {}, corner, ...top)),
       element("tbody", {}, row(say("load +"), 0), row(say("load −"), 2)),
     );
+    this.sayShaded(found);
   }
 }

@@ -3,7 +3,7 @@
 
 /**
  * A function of a module, as the contents name it.
- * @typedef {{function: string, inputs: string[], outputs: string[], constants: Record<string, number>}} Spec
+ * @typedef {{function: string, inputs: string[], outputs: string[], constants: Record<string, number | null>}} Spec
  * Numbers by name: one for all points, or one for each; null is none.
  * @typedef {Record<string, number | ArrayLike<number> | null>} Values
  * @typedef {Record<string, Float64Array>} Found
@@ -114,7 +114,7 @@ export class Kernel {
    * @returns {Found}
    */
   evaluate(spec, values, count) {
-    const inputs = spec.inputs.map((name) => givenOf(values, name));
+    const inputs = spec.inputs.map((name) => inputOf(values, name));
     const sizes = spec.outputs.map(() => count);
     const arrays = this.call(spec.function, inputs, sizes, count, (i, o) => [count, 1, count, i, o]);
     /** @type {Found} */
@@ -122,7 +122,9 @@ export class Kernel {
     spec.outputs.forEach((name, i) => {
       found[name] = arrays[i];
     });
-    for (const [name, value] of Object.entries(spec.constants)) found[name] = new Float64Array(count).fill(value);
+    for (const [name, value] of Object.entries(spec.constants)) {
+      found[name] = new Float64Array(count).fill(value ?? Number.NaN);
+    }
     return found;
   }
 }
@@ -131,7 +133,7 @@ export class Kernel {
  * @param {Values} values
  * @param {string} name
  */
-function givenOf(values, name) {
+function inputOf(values, name) {
   const value = values[name];
   if (value === undefined) throw new Error(`no value of ${name}`);
   return value ?? Number.NaN; // what is not given
@@ -178,7 +180,7 @@ export function evaluateByBall(kernel, solver, parts, values, count) {
  * @param {number} count
  */
 function loadsOf(kernel, solver, parts, values, count) {
-  const varying = parts.numbers.inputs.filter((name) => typeof givenOf(values, name) !== "number");
+  const varying = parts.numbers.inputs.filter((name) => typeof inputOf(values, name) !== "number");
   /** @type {Map<string, number>} */
   const known = new Map();
   /** @type {number[]} */

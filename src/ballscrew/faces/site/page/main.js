@@ -16,7 +16,7 @@ import { byId, element, inPlace, keep, kept, languageOf, say, sayNamed, speak, u
 const REST = 160;
 /** Milliseconds of computing for one chart while a slider moves, and when it rests. */
 const BUDGET = 8;
-const BUDGET_AT_REST = 150;
+const BUDGET_AT_REST = 80;
 /** Milliseconds of a point that was not measured yet: of a nut whose balls are solved one by one, and of others. */
 const USUAL_PACE = [2, 0.01];
 const SCHEME_KEPT = "ballscrew-site-scheme";

@@ -4,13 +4,15 @@ import { plainDigits } from "./words.js";
 
 /** @typedef {{ from: number, to: number, title: string, log?: boolean }} Axis */
 
-const LEFT = 62;
+const LEFT = 70;
 const RIGHT = 14;
 const TOP = 12;
 const BOTTOM = 42;
 /** Pixels between two ticks. */
 const TICK_X = 80;
 const TICK_Y = 44;
+/** Stripes on a map, whose colours are those of no scheme. */
+const MAP_STRIPES = "#1b2127";
 const FONT = '12px system-ui, "Segoe UI", "DejaVu Sans", sans-serif';
 
 /** Colours of the page, which differ by its scheme. @type {Record<string, string>} */
@@ -296,18 +298,19 @@ export class Plot {
    * @param {number} y
    * @param {number} width
    * @param {number} height
+   * @param {string} [colour]
    */
-  stripes(x, y, width, height) {
+  stripes(x, y, width, height, colour = colours.careful) {
     const { pen } = this;
     pen.save();
     pen.beginPath();
     pen.rect(x, y, width, height);
     pen.clip();
     pen.globalAlpha = 0.1;
-    pen.fillStyle = colours.careful;
+    pen.fillStyle = colour;
     pen.fillRect(x, y, width, height);
     pen.globalAlpha = 0.45;
-    pen.strokeStyle = colours.careful;
+    pen.strokeStyle = colour;
     pen.lineWidth = 1;
     pen.beginPath();
     for (let place = x - height - ((x - height) % 9); place < x + width; place += 9) {
@@ -316,6 +319,18 @@ export class Plot {
     }
     pen.stroke();
     pen.restore();
+  }
+
+  /**
+   * Shade along a line where the model does not hold.
+   *
+   * @param {ArrayLike<number>} xs
+   * @param {ArrayLike<number>} ys
+   */
+  halo(xs, ys) {
+    this.pen.globalAlpha = 0.25;
+    this.line(xs, ys, colours.careful, { width: 11 });
+    this.pen.globalAlpha = 1;
   }
 
   /** A line across the chart at a height. @param {number} value */
@@ -361,6 +376,7 @@ export class Plot {
     const { pen } = this;
     const width = Math.abs(this.x(xs[1]) - this.x(xs[0]));
     const height = Math.abs(this.y(ys[1]) - this.y(ys[0]));
+    const outside = new Path2D();
     for (let row = 0; row < ys.length; row += 1) {
       for (let column = 0; column < xs.length; column += 1) {
         const { colour, isValid } = cell(row, column);
@@ -368,24 +384,13 @@ export class Plot {
         const y = this.y(ys[row]) - height / 2;
         pen.fillStyle = colour;
         pen.fillRect(x, y, width + 0.6, height + 0.6);
-        if (!isValid) this.stripes(x, y, width, height);
+        if (!isValid) outside.rect(x, y, width, height);
       }
     }
-  }
-
-  /**
-   * A number written at a place of the chart.
-   *
-   * @param {string} text
-   * @param {number} x
-   * @param {number} y
-   */
-  write(text, x, y) {
-    const { pen } = this;
-    pen.fillStyle = colours.soft;
-    pen.textAlign = "left";
-    pen.textBaseline = "bottom";
-    pen.fillText(text, x, y);
+    pen.save();
+    pen.clip(outside);
+    this.stripes(LEFT, TOP, this.right - LEFT, this.bottom - TOP, MAP_STRIPES);
+    pen.restore();
   }
 }
 

@@ -132,7 +132,11 @@ export class View {
 
   /** @param {Record<string, ArrayLike<number>>} found */
   sayShaded(found) {
-    const reasons = reasonsIn(this.scene.case, found);
+    this.sayReasons(reasonsIn(this.scene.case, found));
+  }
+
+  /** @param {string[]} reasons */
+  sayReasons(reasons) {
     const text = reasons.length ? `${say("Shaded, the model does not hold:")} ${reasons.join("; ")}.` : "";
     if (this.note.textContent !== text) this.note.textContent = text;
   }

@@ -9,8 +9,11 @@ import { caseOf, titleOf } from "./designs.js";
 import { byId } from "./dom.js";
 import * as drawings from "./drawing.js";
 import * as inputs from "./inputs.js";
+import { localEngine } from "./local_engine.js";
 import { inWords, labelOf } from "./messages.js";
-import { showFailure } from "./plot.js";
+import * as moving from "./moving.js";
+import { followDiamond } from "./operating_point.js";
+import { isVisible, move, showFailure } from "./plot.js";
 import * as results from "./results.js";
 import { withoutCards } from "./schema.js";
 import { ask, keep, known, Latest, linesOf, Problem, sendJson, sendLines } from "./server.js";
@@ -26,10 +29,18 @@ const STEP_OF_BAND = { screw: 2, nut: 4 };
 const BAND_DELAY = 400;
 /** Milliseconds to wait where the server has too much to do, as it says itself. */
 const BUSY_DELAY = 1000;
+/** Milliseconds after which what was moved rests, and the server is asked. */
+const REST = 200;
+/** Milliseconds that the curves of one frame may take: the others follow when it rests. */
+const TIME_OF_CURVES = 50;
+/** Curves are drawn with the numbers where this many points take less than this many milliseconds. */
+const MOST_POINTS = 500;
+const TIME_IN_FRAME = 8;
 /** Milliseconds after which a page in the background counts as painted. */
 const PAINT_TIMEOUT = 500;
 
 /** @typedef {{ case: Record<string, unknown> }} Body */
+/** Inputs that are moved, whether axes stay as they are, and when it began. @typedef {{ values: import("./moving.js").Values, isHeld: boolean, start: number }} Moved */
 /**
  * Everything on the page: the case, its answer and band, the sweeps of its charts, the other designs and models.
  *
@@ -147,6 +158,17 @@ async function measurePaint(name, start, signal) {
   if (!signal.aborted) performance.measure(name, { start });
 }
 
+/**
+ * Wait; until then somebody may have moved on.
+ *
+ * @param {number} time
+ */
+function wait(time) {
+  return new Promise((resolve) => {
+    setTimeout(resolve, time);
+  });
+}
+
 /** Let the browser show what was drawn and handle what was typed. */
 function nextTask() {
   return new Promise((resolve) => {
@@ -175,7 +197,18 @@ class Answers {
   /** @type {Displayed} */
   #displayed = { band: null, starts: [] };
 
+  /** What is shown of a change before the server has answered. @type {Moved | undefined} */
+  #moved;
+  /** The numbers of it that are on the page. @type {{ answer: Run, moved: Moved } | undefined} */
+  #shown;
+  /** Its next frame. @type {number | undefined} */
+  #frame;
+  /** Its next curves, where they do not fit into a frame. @type {ReturnType<typeof setTimeout> | undefined} */
+  #curves;
+  #never = new AbortController();
+
   constructor() {
+    followDiamond((values) => this.#followDiamond(values));
     drawings.NARROW.addEventListener("change", () => {
       if (this.#displayed.drawing) drawings.show(this.#displayed.drawing);
     });
@@ -206,10 +239,17 @@ class Answers {
       const designs = atOnePoint(bodies, own);
       const beside = designs.filter((one) => !isSame(one, body) && !(known("run", one) && known("check", one)));
       const asked = { body, whole: { case: found[show] }, designs, beside, band, start, signal };
+      const values = this.#displayed.answer && !results.isStale() && localEngine.valuesOf(body);
+      if (values) {
+        this.#move({ values, isHeld: false, start });
+        await wait(REST);
+        if (signal.aborted) return;
+      }
       try {
         await this.#follow(asked);
       } catch (error) {
         if (signal.aborted) return;
+        if (this.#moved) this.#moveBack();
         const hasFaults = error instanceof Problem && error.faults.length;
         results.fail(hasFaults ? inputs.showFaults(error.faults) : results.refusal(linesOf(error)));
         await this.#showTable(asked, await others(asked, error));
@@ -219,6 +259,93 @@ class Answers {
     } finally {
       if (!signal.aborted) byId("results").setAttribute("aria-busy", "false");
     }
+  }
+
+  /** Somebody is about to change something: have the module of the case at hand. */
+  prepare() {
+    const { body } = this.#displayed;
+    localEngine.want();
+    if (body) localEngine.learn(body);
+  }
+
+  /**
+   * Show a change at once, by the module in the browser.
+   *
+   * @param {Moved} moved
+   */
+  #move(moved) {
+    this.#moved = moved;
+    this.#frame ??= requestAnimationFrame(() => this.#drawMoved());
+  }
+
+  #drawMoved() {
+    this.#frame = undefined;
+    const { answer: before, band } = this.#displayed;
+    const moved = this.#moved;
+    if (!moved || !before) return;
+    const answer = moving.answerOf(before, moved.values);
+    byId("results").classList.add("moving");
+    results.show(answer, { band: band && { state: "pending" } });
+    this.#shown = { answer, moved };
+    if (localEngine.timeOf(MOST_POINTS) < TIME_IN_FRAME) this.#drawMovedCurves();
+    else this.#curves ??= setTimeout(() => this.#drawMovedCurves()); // the numbers are painted before
+    measurePaint("moved", moved.start, this.#never.signal);
+  }
+
+  /** Draw the curves of the numbers that are shown. */
+  #drawMovedCurves() {
+    this.#curves = undefined;
+    if (!this.#shown) return;
+    const {
+      answer,
+      moved: { values, isHeld, start },
+    } = this.#shown;
+    const { alongSpeed, alongLoad, everywhere } = this.#displayed;
+    const isSeen = (/** @type {string[]} */ ...ids) => ids.some(isVisible);
+    const before = {
+      ...(alongSpeed && isSeen("torque-chart", "film-chart") && { over_speed: alongSpeed }),
+      ...(alongLoad && isSeen("pressure-chart") && { over_load: alongLoad }),
+      ...(everywhere && isSeen("map-chart") && { over_both: everywhere }),
+    };
+    move(["torque-chart", "film-chart", "pressure-chart", "map-chart"], isHeld, () => {
+      const found = moving.curvesOf(before, values, isHeld, TIME_OF_CURVES);
+      if (found.over_speed) {
+        charts.torque(found.over_speed, answer, vocabulary.mechanisms);
+        curves.film(found.over_speed, answer);
+      }
+      if (found.over_load) curves.pressure(found.over_load, answer);
+      if (found.over_both) charts.map(found.over_both, answer);
+    });
+    measurePaint("moved curves", start, this.#never.signal);
+  }
+
+  /** What was moved is answered. */
+  #rest() {
+    if (this.#frame !== undefined) cancelAnimationFrame(this.#frame);
+    clearTimeout(this.#curves);
+    this.#frame = this.#curves = undefined;
+    this.#moved = this.#shown = undefined;
+    byId("results").classList.remove("moving");
+  }
+
+  /** Show the answer of before again. */
+  #moveBack() {
+    this.#rest();
+    this.redisplay();
+  }
+
+  /**
+   * Follow the diamond of a chart, which no field has taken over yet.
+   *
+   * @param {Record<string, number> | undefined} point
+   */
+  #followDiamond(point) {
+    const { body, answer } = this.#displayed;
+    const values = body && answer && !results.isStale() && localEngine.valuesOf(body);
+    if (!values) return false;
+    if (point) this.#move({ values: { ...values, ...point }, isHeld: true, start: performance.now() });
+    else this.#moveBack();
+    return true;
   }
 
   /**
@@ -355,7 +482,10 @@ class Answers {
     if (signal.aborted || !answer) return;
     if (!isWarm) temperatures.leaveOut(answer);
     await measurePaint("all", start, signal);
-    if (!signal.aborted) this.showBand(asked.band);
+    if (signal.aborted) return;
+    this.showBand(asked.band);
+    localEngine.check(body, answer);
+    localEngine.learn(body);
   }
 
   /**
@@ -371,6 +501,7 @@ class Answers {
     const before = this.#displayed.key === key ? this.#displayed : { band: null, starts };
     const { checks: checked, band, bandAlongSpeed } = before;
     this.#displayed = { body, whole, key, answer, checks: checked, band, bandAlongSpeed, designs, asked, starts };
+    this.#rest();
     inputs.showAnswer(answer);
     results.succeed();
     if (wanted && !this.#displayed.band) this.#displayed.band = { state: "pending" };

@@ -158,6 +158,10 @@ function addListeners() {
   byId("bath").addEventListener("click", bath.turn);
   byId("share").addEventListener("click", copyLink);
   byId("models-button").addEventListener("click", () => answers.compareModels());
+  for (const id of ["form", "results"]) {
+    for (const type of ["focusin", "pointerdown"])
+      byId(id).addEventListener(type, () => answers.prepare(), { once: true });
+  }
   byId("form").addEventListener("submit", (event) => event.preventDefault());
   // the fragment of the address is the state: the link to the results must not replace it
   within(document.body, ".skip").addEventListener("click", (event) => {

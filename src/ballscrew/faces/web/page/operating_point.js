@@ -142,8 +142,21 @@ const FIELDS = {
  */
 
 /**
- * Let the diamond of a chart be dragged. The field takes the value when it is let go: until then the chart stays as it
- * is under the pointer.
+ * Told of the values in SI of a diamond that is dragged, or that it is let go and stays where it was; true where all
+ * follows it.
+ *
+ * @type {(values: Record<string, number> | undefined) => boolean}
+ */
+let follower = () => false;
+
+/** Have somebody follow a diamond that is dragged. @param {typeof follower} listener */
+export function followDiamond(listener) {
+  follower = listener;
+}
+
+/**
+ * Let the diamond of a chart be dragged. The field takes the value when it is let go: until then the axes of the chart
+ * stay as they are under the pointer.
  *
  * @param {string} id
  * @param {() => Handle | undefined} handle that of the chart as it is drawn now
@@ -161,6 +174,7 @@ export function letDrag(id, handle) {
   });
   holder.addEventListener("pointerup", () => drop());
   holder.addEventListener("pointercancel", () => {
+    if (at) follower(undefined);
     at = undefined;
   });
 
@@ -182,7 +196,8 @@ export function letDrag(id, handle) {
     /** @param {any} axis @param {number} pixel */
     const value = (axis, pixel) => axis.p2d(Math.min(axis._length, Math.max(0, pixel - axis._offset)));
     at = held.place(value(xaxis, event.clientX - left), value(yaxis, event.clientY - top));
-    globalThis.Plotly.restyle(plot, { x: [[at[0]]], y: [[at[1]]] }, [held.trace]);
+    const values = { [held.x]: inSI(held.x, at[0]), ...(held.y && { [held.y]: inSI(held.y, at[1]) }) };
+    if (!follower(values)) globalThis.Plotly.restyle(plot, { x: [[at[0]]], y: [[at[1]]] }, [held.trace]);
   }
 
   function drop() {
@@ -236,7 +251,15 @@ export function letDrag(id, handle) {
  */
 function commit(name, shown) {
   const [path, si] = FIELDS[name];
-  put(path, units.toSI(shown, units.unitOf(name), si), si);
+  put(path, inSI(name, shown), si);
+}
+
+/**
+ * @param {string} name
+ * @param {number} shown the value in the unit that the chart shows
+ */
+function inSI(name, shown) {
+  return units.toSI(shown, units.unitOf(name), FIELDS[name][1]);
 }
 
 /** Where a point of a plot is on the screen. @param {any} plot @param {[number, number]} point @returns {[number, number]} */

@@ -3,6 +3,7 @@
 import { byId, csv, element, table, within } from "./dom.js";
 import { letDrag } from "./operating_point.js";
 import { save } from "./saving.js";
+import { sketch } from "./sketch.js";
 import { hasComma, localised, text, textOr } from "./texts.js";
 
 /** @typedef {{ ink: string, line: string, panel: string, accent: string, second: string }} Colours */
@@ -23,14 +24,22 @@ import { hasComma, localised, text, textOr } from "./texts.js";
  * @property {import("./operating_point.js").Handle} [drag] its diamond, where that can be dragged
  */
 
-/** plotly.js is large: the numbers do not wait for it. @type {Promise<void>} */
-const loaded = new Promise((resolve) => {
-  if (globalThis.Plotly) resolve();
-  else byId("plotly").addEventListener("load", () => resolve());
-});
-loaded.then(() => {
-  for (const words of document.querySelectorAll(".chart > .loading")) words.remove();
-});
+/** @type {Promise<void> | undefined} */
+let loading;
+
+/** plotly.js is large: it is run when there is a first chart, which comes after the numbers. */
+function loaded() {
+  loading ??= new Promise((resolve) => {
+    const { href } = /** @type {HTMLLinkElement} */ (byId("plotly"));
+    const script = element("script", { src: href });
+    script.addEventListener("load", () => {
+      for (const words of document.querySelectorAll(".chart > .loading")) words.remove();
+      resolve();
+    });
+    document.head.append(script);
+  });
+  return loading;
+}
 const CONFIG = { responsive: true, displaylogo: false, displayModeBar: false };
 const FONT = 'system-ui, "DejaVu Sans", sans-serif';
 const ON_PAPER = { width: 660, height: 210 };
@@ -176,6 +185,10 @@ class Charts {
   #dragged = new Set();
   /** @type {Colours | undefined} */
   #colours;
+  /** Sizes of sketches. @type {WeakMap<HTMLCanvasElement, { width: number, height: number }>} */
+  #sizes = new WeakMap();
+  /** How charts are drawn while something moves. @type {{ isHeld: boolean } | undefined} */
+  #moving;
   #observer = new IntersectionObserver((entries) => this.#look(entries), { rootMargin: "250px" });
 
   constructor() {
@@ -215,10 +228,31 @@ class Charts {
    * @param {Chart} chart
    */
   async draw(id, chart) {
-    await loaded;
+    if (this.#moving || !globalThis.Plotly) this.#sketch(id, chart);
+    if (this.#moving) return;
+    await loaded();
+    this.#place(id, chart);
+    if (this.#visible.has(id)) await this.#show(id, this.#screen);
+    else this.#postpone(id);
+  }
+
+  /** Draw a chart when it comes into the viewport. @param {string} id */
+  #postpone(id) {
+    this.#pending.add(id);
+    byId(id).querySelector("canvas")?.remove();
+  }
+
+  /**
+   * Put a chart into its place, without its plot.
+   *
+   * @param {string} id
+   * @param {Chart} chart
+   */
+  #place(id, chart) {
     this.#charts.set(id, chart);
     const holder = byId(id);
     holder.hidden = false;
+    holder.classList.remove("behind");
     if (!holder.querySelector(".plot")) this.#frame(id, chart, holder);
     if (chart.drag && !this.#dragged.has(id)) {
       this.#dragged.add(id);
@@ -227,8 +261,58 @@ class Charts {
     within(holder, ".plot").setAttribute("aria-label", chart.description);
     showLegend(id, chart.legend(this.#screen));
     showNumbers(chart, holder);
-    if (this.#visible.has(id)) await this.#show(id, this.#screen);
-    else this.#pending.add(id);
+  }
+
+  /**
+   * Draw charts at once, as sketches over their plots, until they are drawn again. Those that are not are dimmed.
+   *
+   * @param {string[]} ids of charts that are moved
+   * @param {boolean} isHeld whether axes stay as they are, since one of them is under the hand
+   * @param {() => void} work
+   */
+  move(ids, isHeld, work) {
+    this.#moving = { isHeld };
+    for (const id of ids) byId(id).classList.add("behind");
+    try {
+      work();
+    } finally {
+      this.#moving = undefined;
+    }
+  }
+
+  /** @param {string} id */
+  isVisible(id) {
+    return this.#visible.has(id);
+  }
+
+  /**
+   * @param {string} id
+   * @param {Chart} chart
+   */
+  #sketch(id, chart) {
+    this.#place(id, chart);
+    if (!this.#visible.has(id)) {
+      this.#postpone(id);
+      return;
+    }
+    const holder = byId(id);
+    const plot = /** @type {any} */ (within(holder, ".plot"));
+    let canvas = holder.querySelector("canvas");
+    let size = canvas && this.#sizes.get(canvas);
+    if (!canvas || !size) {
+      // its place is measured once: asking for it makes the browser lay out the page
+      const { offsetLeft: left, offsetTop: top, offsetWidth: width, offsetHeight: height } = plot;
+      size = { width, height };
+      canvas = element("canvas", { "aria-hidden": true });
+      for (const [name, value] of Object.entries({ left, top, width, height })) {
+        canvas.style.setProperty(name, `${value}px`);
+      }
+      this.#sizes.set(canvas, size);
+      holder.append(canvas);
+    }
+    const { xaxis, yaxis } = plot._fullLayout ?? {};
+    const ranges = this.#moving?.isHeld && xaxis ? { x: xaxis.range, y: yaxis.range } : undefined;
+    sketch(canvas, size, chart.figure(this.#screen), this.#screen, ranges);
   }
 
   /**
@@ -272,8 +356,10 @@ class Charts {
   async #show(id, palette, more = {}) {
     const chart = this.#charts.get(id);
     if (!chart) return;
+    await loaded();
     const { traces, layout: own } = chart.figure(palette);
     await globalThis.Plotly.react(within(byId(id), ".plot"), traces, { ...own, ...more }, CONFIG);
+    byId(id).querySelector("canvas")?.remove();
   }
 
   /**
@@ -328,6 +414,10 @@ const charts = new Charts();
 export const watch = (place) => charts.watch(place);
 /** @type {Charts["draw"]} */
 export const draw = (id, chart) => charts.draw(id, chart);
+/** @type {Charts["move"]} */
+export const move = (ids, isHeld, work) => charts.move(ids, isHeld, work);
+/** @type {Charts["isVisible"]} */
+export const isVisible = (id) => charts.isVisible(id);
 /** @type {Charts["hide"]} */
 export const hide = (id) => charts.hide(id);
 /** @type {Charts["showFailure"]} */

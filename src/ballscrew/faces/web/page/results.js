@@ -339,6 +339,11 @@ export function fail({ lines, said }) {
   announcer.announce(before ? `${said} ${standing}` : said);
 }
 
+/** True where the answer on the page is not that of its case. */
+export function isStale() {
+  return byId("results").classList.contains("stale");
+}
+
 export function succeed() {
   byId("results").classList.remove("waiting");
   byId("results").classList.remove("stale", "empty");

@@ -1,0 +1,260 @@
+// The model in the browser: the module of the structure of the case on the page, with which its numbers and curves are
+// computed while something is moved. No formula stands here: what is computed is recorded from the model.
+
+import { Engine } from "../../site/page/engine.js";
+import { answerAt, sendJson } from "./server.js";
+import * as units from "./units.js";
+
+/** @typedef {{ case: Record<string, unknown> }} Body */
+/** @typedef {import("../../site/page/engine.js").Values} Values */
+/** @typedef {import("../../site/page/engine.js").Found} Found */
+/** @typedef {{ axial_load: number, screw_speed: number }} Point */
+/** Values of the axes of curves, by the curve and the axis. @typedef {Record<string, Record<string, number[]>>} Axes */
+/**
+ * What is known of a case: its tables by their paths, and what the server has said of its structure.
+ *
+ * @typedef {{ texts: Map<string, string>, about: CaseModule, engine: Engine }} Known
+ */
+
+/** Milliseconds until a module that is being made is asked for again. */
+const AGAIN = 1500;
+/** The one structure of an engine. */
+const HERE = "here";
+/** Digits of a value of an axis, as the server has them. */
+const DIGITS = 6;
+/** How far numbers of both may be apart: another compiler of the same formulas. */
+const CLOSE = 1e-9;
+const TEMPERATURE = "temperature";
+
+/** Compiled modules by their files. @type {Map<string, Promise<WebAssembly.Module>>} */
+const compiled = new Map();
+
+/** @param {string} file */
+function moduleOf(file) {
+  const known = compiled.get(file);
+  if (known) return known;
+  const made = answerAt(`modules/${file}`, {}).then((answer) => WebAssembly.compileStreaming(answer));
+  compiled.set(file, made);
+  made.catch(() => compiled.delete(file));
+  return made;
+}
+
+/**
+ * Everything in tables by its path, as JSON.
+ *
+ * @param {Record<string, unknown>} tables
+ * @param {string} [above]
+ * @param {Map<string, string>} [found]
+ */
+function textsOf(tables, above = "", found = new Map()) {
+  for (const [name, value] of Object.entries(tables)) {
+    const isTable = value !== null && typeof value === "object" && !Array.isArray(value);
+    if (isTable) textsOf(/** @type {Record<string, unknown>} */ (value), `${above}${name}.`, found);
+    else found.set(`${above}${name}`, JSON.stringify(value));
+  }
+  return found;
+}
+
+/**
+ * The value in SI of what is typed in a field; none for what is no number, or beyond its bounds.
+ *
+ * @param {string} text as JSON
+ * @param {CaseModule["places"][string]} place
+ */
+function valueAt(text, { unit, above, at_least, below, at_most, whole }) {
+  const written = JSON.parse(text);
+  const parsed = typeof written === "number" ? { number: written, unit: "" } : units.parse(written, unit);
+  if (!parsed) return undefined;
+  const value = typeof written === "number" ? written : units.toSI(parsed.number, parsed.unit, unit);
+  const isWithin =
+    value > (above ?? Number.NEGATIVE_INFINITY) &&
+    value >= (at_least ?? Number.NEGATIVE_INFINITY) &&
+    value < (below ?? Number.POSITIVE_INFINITY) &&
+    value <= (at_most ?? Number.POSITIVE_INFINITY);
+  return isWithin && (!whole || Number.isInteger(value)) ? value : undefined;
+}
+
+/**
+ * The values of an axis around a value: from a share of its far end to it, and their negatives where that is negative.
+ *
+ * @param {CaseModule["axes"][string][string]} axis
+ * @param {number} value
+ */
+function axisAround({ share, points, points_of_sign, far: otherwise }, value) {
+  const far = 2 * value || otherwise;
+  const count = far < 0 ? points_of_sign : points;
+  const [end, first] = [Math.abs(far), Math.abs(far) / share];
+  const sizes = Array.from({ length: count }, (_, place) =>
+    Number((first + (place * (end - first)) / (count - 1)).toPrecision(DIGITS)),
+  );
+  return far < 0 ? [...sizes.toReversed().map((size) => -size), ...sizes] : sizes;
+}
+
+/** The engine of the case on the page, as far as it has one. */
+class LocalEngine {
+  /** @type {Known | undefined} */
+  #known;
+  #isWanted = false;
+  /** The case that is asked for, as JSON. */
+  #asked = "";
+  /** @type {ReturnType<typeof setTimeout> | undefined} */
+  #timer;
+  /** Milliseconds that a point takes, about. */
+  #ofPoint = 0;
+
+  /** Somebody is about to change something: from now on the module of the case is asked for. */
+  want() {
+    this.#isWanted = true;
+  }
+
+  /**
+   * Be ready for changes of a case, once one is wanted. Where there is no module the server is asked for everything.
+   *
+   * @param {Body} body
+   */
+  async learn(body) {
+    const key = JSON.stringify(body);
+    if (!this.#isWanted || key === this.#asked || this.valuesOf(body)) return;
+    clearTimeout(this.#timer);
+    this.#asked = key;
+    try {
+      /** @type {CaseModule} */
+      const about = await sendJson("module", body);
+      if (key !== this.#asked) return;
+      if (about.state === "pending") {
+        this.#timer = setTimeout(() => {
+          this.#asked = "";
+          this.learn(body);
+        }, AGAIN);
+      } else if (about.state === "ready") await this.#take(body, about, key);
+    } catch {
+      if (key === this.#asked) this.#asked = ""; // the server is asked for everything, as without a module
+    }
+  }
+
+  /**
+   * @param {Body} body
+   * @param {CaseModule} about
+   * @param {string} key
+   */
+  async #take(body, about, key) {
+    const { structure, oil, solver } = about;
+    if (!structure) return;
+    const one = /** @type {import("../../site/page/engine.js").Structure} */ (/** @type {unknown} */ (structure));
+    const oils = oil ? { file: oil.file, grades: { [HERE]: oil } } : { file: one.file, grades: {} };
+    const contents = { structures: { [HERE]: one }, oils, solver: solver ?? "" };
+    const engine = new Engine(/** @type {any} */ (contents), moduleOf);
+    await engine.load(HERE);
+    if (key !== this.#asked) return;
+    this.#known = { texts: textsOf(body.case), about, engine };
+    this.#ofPoint = 0;
+  }
+
+  /**
+   * All inputs of a case; none where it is of another structure, or something in it has changed that others follow from.
+   *
+   * @param {Body} body
+   * @returns {Values | undefined}
+   */
+  valuesOf(body) {
+    if (!this.#known) return undefined;
+    const { texts, about, engine } = this.#known;
+    const now = textsOf(body.case);
+    /** @type {Values} */
+    const values = { ...about.values };
+    if (now.size !== texts.size) return undefined;
+    for (const [path, text] of now) {
+      const before = texts.get(path);
+      if (before === text) continue;
+      const place = about.places[path];
+      const value = before !== undefined && place ? valueAt(text, place) : undefined;
+      if (value === undefined) return undefined;
+      if (place.input === TEMPERATURE) {
+        for (const [name, [number]] of Object.entries(engine.oil(HERE, value, 1))) values[name] = number;
+      } else values[place.input] = value;
+    }
+    return values;
+  }
+
+  /**
+   * The axes of the curves around a point.
+   *
+   * @param {Point} point
+   * @returns {Axes}
+   */
+  axesAround(point) {
+    const about = this.#known?.about.axes ?? {};
+    return Object.fromEntries(
+      Object.entries(about).map(([curve, axes]) => [
+        curve,
+        Object.fromEntries(
+          Object.entries(axes).map(([name, axis]) => [
+            name,
+            axisAround(axis, point[/** @type {keyof Point} */ (name)]),
+          ]),
+        ),
+      ]),
+    );
+  }
+
+  /**
+   * The outputs at points.
+   *
+   * @param {Values} values
+   * @param {Point[]} points
+   * @returns {Found}
+   */
+  at(values, points) {
+    if (!this.#known) throw new Error("no module is loaded");
+    const start = performance.now();
+    const given = {
+      ...values,
+      axial_load: Float64Array.from(points, (point) => point.axial_load),
+      screw_speed: Float64Array.from(points, (point) => point.screw_speed),
+    };
+    const found = this.#known.engine.evaluate(HERE, given, points.length);
+    const ofPoint = (performance.now() - start) / points.length;
+    this.#ofPoint = this.#ofPoint ? Math.min(this.#ofPoint, ofPoint) : ofPoint;
+    return found;
+  }
+
+  /** Milliseconds that so many points take, about. @param {number} points */
+  timeOf(points) {
+    return this.#ofPoint * points;
+  }
+
+  /**
+   * Compare the answer of the server with its own. It is done with where both are apart: that is a defect, and nobody
+   * shall see numbers that jump.
+   *
+   * @param {Body} body
+   * @param {Run} answer
+   */
+  check(body, answer) {
+    const values = this.valuesOf(body);
+    if (!values) return;
+    const [own, theirs] = [this.at(values, [pointOf(values)]).screw_torque[0], answer.results.screw_torque];
+    if (theirs !== null && !(Math.abs(own - theirs) <= CLOSE * Math.abs(theirs))) this.#known = undefined;
+  }
+}
+
+/** The operating point among the inputs. @param {Values} values @returns {Point} */
+export function pointOf({ axial_load: load, screw_speed: speed }) {
+  return { axial_load: Number(load), screw_speed: Number(speed) };
+}
+
+/**
+ * The points of a grid of axes, the last one the fastest.
+ *
+ * @param {Point} point what no axis varies
+ * @param {Record<string, number[]>} axes
+ */
+export function pointsOf(point, axes) {
+  let found = [point];
+  for (const [name, values] of Object.entries(axes)) {
+    found = found.flatMap((one) => values.map((value) => ({ ...one, [name]: value })));
+  }
+  return found;
+}
+
+export const localEngine = new LocalEngine();
