@@ -183,6 +183,27 @@ def test_the_checks_are_those_of_a_check(page, found, name):
         assert mine["missing"] in (check.missing, "")
 
 
+@pytest.mark.parametrize(
+    ("start", "structure"), [(kinds.PAPER, ROW), (REXROTH, DOUBLE), (REXROTH, OVERSIZE)], ids=["row", "double", "four"]
+)
+def test_records_at_random_points_are_those_of_the_program(page, start, structure):
+    points = scattered(page, start, structure, seed=7)[:15]
+    for point, each in zip(points, page.judged(points), strict=True):
+        given, parts = point["given"], {}
+        if given:
+            ends = Ends[given["ends"].upper().replace("-", "_")]
+            parts = {
+                "installation": Installation(unsupported_length=given["unsupported_length"], ends=ends),
+                "limits": Limits(running_time=given["limits.running_time"]),
+            }
+        case = case_at(start, structure, point["inputs"], **parts)
+        made, judgement = run(case), checked("random", case)
+        compare(each["records"]["verdicts"], [one.document() for one in made.verdicts])
+        compare(each["records"]["warnings"], [one.document() for one in made.conditions])
+        compare(each["records"]["checks"], [check.record.document() for check in judgement.checks])
+        compare([each["records"]["all"]], [judgement.verdicts[0].document()])
+
+
 def test_the_cases_say_much(found):
     """Nothing above is true for want of records."""
     ids = {one["id"] for each in found.values() for what in ("verdicts", "warnings") for one in each["records"][what]}

@@ -1,4 +1,4 @@
-"""The section across the path of a ball: circles that touch it, meet at the bottom of the groove, and end at its edge."""
+"""The section across the path of a ball: circles touch it, meet at the bottom of the groove, and end at its edge."""
 
 import math
 
