@@ -217,6 +217,9 @@ def test_each_chart_has_its_numbers_and_words(visit):
         section.scroll_into_view_if_needed()
         here.rest(600)
         assert section.locator("canvas").get_attribute("aria-label"), section.get_attribute("id")
+        if section.get_attribute("id") == "ball":  # no chart: its few numbers are in its words
+            assert "45.77°" in section.locator("canvas").get_attribute("aria-label")
+            continue
         assert section.locator("tbody tr").count() > 10, section.get_attribute("id")
 
 
