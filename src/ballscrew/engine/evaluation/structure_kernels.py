@@ -126,7 +126,8 @@ class StructureKernel:
         call = self.kernel.at_one_point(held, found)
 
         def at(values: Sequence[float], _: Sequence[Any] = found) -> None:  # the arrays live as long as the function
-            held[places] = values
+            for place, value in zip(places, values, strict=True):  # sooner done than by an array of places
+                held[place] = value
             call()
 
         if oil is None:
