@@ -584,3 +584,17 @@ def test_a_single_output_may_be_a_plain_name(seed_screw, seed_oil):
         bs.FrictionModel.corrected(), seed_screw, seed_oil, outputs="efficiency", axial_load=[1e3], screw_speed=9
     )
     assert list(ds.data_vars) == ["efficiency"]
+
+
+def test_a_material_that_varies_is_a_coordinate_and_no_attribute(model, seed_screw, seed_oil):
+    moduli = [2.0e11, 3.2e11]
+    ds = bs.sweep(
+        model, seed_screw, seed_oil, axial_load=1e3, screw_speed=30.0, **{"ball_material.young_modulus": moduli}
+    )
+    assert ds["ball_material.young_modulus"].attrs["units"] == "Pa"
+    assert "screw_ball_material_young_modulus" not in ds.attrs
+    assert ds.attrs["screw_nut_material_young_modulus"] == seed_screw.nut_material.young_modulus
+    for modulus, torque in zip(moduli, ds["screw_torque"].to_numpy(), strict=True):
+        ceramic = dataclasses.replace(seed_screw, ball_material=bs.Material(young_modulus=modulus))
+        result = model(ceramic, seed_oil, axial_load=1e3, screw_speed=30.0)
+        assert torque == pytest.approx(float(result.screw_torque), rel=1e-12)

@@ -5,10 +5,12 @@ import math
 import numpy as np
 import pytest
 
+from ballscrew.cases.case_files import case_file
 from ballscrew.faces.report.contact_geometry import drawn_ball
 from ballscrew.faces.report.drawing_section import BALL, RADIUS, Groove
 from ballscrew.faces.site import judging, kinds
 from ballscrew.faces.web import languages
+from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
 from ballscrew.physics.sizing.judged import JUDGED, judged, outputs
 from ballscrew.questions.check.compute import checked
@@ -181,6 +183,27 @@ def test_the_checks_are_those_of_a_check(page, found, name):
         assert mine["missing"] in (check.missing, "")
 
 
+@pytest.mark.parametrize(
+    ("start", "structure"), [(kinds.PAPER, ROW), (REXROTH, DOUBLE), (REXROTH, OVERSIZE)], ids=["row", "double", "four"]
+)
+def test_records_at_random_points_are_those_of_the_program(page, start, structure):
+    points = scattered(page, start, structure, seed=7)[:15]
+    for point, each in zip(points, page.judged(points), strict=True):
+        given, parts = point["given"], {}
+        if given:
+            ends = Ends[given["ends"].upper().replace("-", "_")]
+            parts = {
+                "installation": Installation(unsupported_length=given["unsupported_length"], ends=ends),
+                "limits": Limits(running_time=given["limits.running_time"]),
+            }
+        case = case_at(start, structure, point["inputs"], **parts)
+        made, judgement = run(case), checked("random", case)
+        compare(each["records"]["verdicts"], [one.document() for one in made.verdicts])
+        compare(each["records"]["warnings"], [one.document() for one in made.conditions])
+        compare(each["records"]["checks"], [check.record.document() for check in judgement.checks])
+        compare([each["records"]["all"]], [judgement.verdicts[0].document()])
+
+
 def test_the_cases_say_much(found):
     """Nothing above is true for want of records."""
     ids = {one["id"] for each in found.values() for what in ("verdicts", "warnings") for one in each["records"][what]}
@@ -254,3 +277,83 @@ def test_a_groove_goes_from_its_bottom_to_its_edge_through_the_contact(found):
                 assert np.hypot(*(at[what] - middle)) == pytest.approx(places[f"{body}.loaded.radius"], rel=1e-9)
             assert at["bottom"][0] == 0.0
             assert abs(at["from"][0]) <= abs(at["contact"][0]) <= abs(at["to"][0])
+
+
+# -- in a browser ---------------------------------------------------------------------------------
+
+DOUBLE_OF_PAGE = "rexroth-32x10x3.969-5-double"
+
+
+def test_the_page_judges_what_is_given_to_it(visit):
+    """A length and a time are typed in, the checks follow, and the case that is taken away says the same."""
+    here = visit().open(f"#start={DOUBLE_OF_PAGE}").rest()
+    page = here.page
+    before = {one["id"]: one["holds"] for one in here.state()["checks"]}
+    assert (before["check.buckling"], before["check.running_time"]) == (None, None)
+    for name, text in (("unsupported_length", "3000"), ("limits.running_time", "1e9")):
+        field = page.locator(f"[id='given-{name}']")
+        field.fill(text)
+        field.blur()
+    page.locator("[id='given-ends']").select_option("supported-supported")
+    here.rest()
+    state = here.state()
+    made = checked("page", case_file.build(state["case"], rows=catalogue()))
+    assert [parts_of(one) for one in state["checks"]] == [
+        {**parts_of(check.record.document()), "text": with_signs(check.text)} for check in made.checks
+    ]
+    assert state["verdicts"][0]["text"] == made.verdict
+    assert [one["id"] for one in state["verdicts"] if one["id"].startswith("verdict.")] == [
+        one.id for one in made.verdicts
+    ]
+    assert page.locator("#checks tbody tr.fails").count() == sum(check.holds is False for check in made.checks) > 0
+    assert "fails" in page.locator("#verdicts li").first.inner_text()
+    # the address holds what was given
+    again = visit().open(page.evaluate("location.hash")).rest()
+    assert [one["text"] for one in again.state()["checks"]] == [one["text"] for one in state["checks"]]
+
+
+def with_signs(text):
+    return text.replace("N m", "N·m").replace("mm rpm", "mm·rpm")
+
+
+def test_what_is_given_wrongly_is_marked_and_not_taken(visit):
+    here = visit().open(f"#start={DOUBLE_OF_PAGE}").rest()
+    field = here.page.locator("[id='given-unsupported_length']")
+    for text in ("-3", "long"):
+        field.fill(text)
+        field.blur()
+        assert field.get_attribute("aria-invalid") == "true"
+    assert "installation" not in here.state()["case"]
+    field.fill("")
+    field.blur()
+    assert field.get_attribute("aria-invalid") == "false"
+
+
+def test_the_panel_is_german_where_its_visitor_is(visit):
+    here = visit(language="de-DE").open(f"#start={DOUBLE_OF_PAGE}&axial_load=30000").rest()
+    words = here.page.locator("#checks").inner_text()
+    assert "Prüfungen" in words
+    assert "statische Tragzahl" in words
+    assert "Vorspannung aufgehoben" in here.page.locator("#verdicts").inner_text()
+    here.page.locator("#ball").scroll_into_view_if_needed()
+    assert "Kontaktwinkel" in here.rest(700).page.locator("#ball").inner_text()
+
+
+def test_the_ball_is_drawn(visit):
+    """The canvas has ink, and more of it where a flank carries more."""
+    here = visit().open(f"#start={DOUBLE_OF_PAGE}").rest()
+    here.page.locator("#ball").scroll_into_view_if_needed()
+    here.rest(700)
+    coloured = """() => {
+      const canvas = document.querySelector("#ball canvas");
+      const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d", { willReadFrequently: true });
+      copy.drawImage(canvas, 0, 0);
+      const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
+      let accent = 0;
+      for (let i = 0; i < data.length; i += 4) if (data[i + 2] > data[i] + 90 && data[i + 3] > 200) accent += 1;
+      return accent;
+    }"""
+    few = here.page.evaluate(coloured)
+    here.slide("operation.axial_load", 30000)
+    here.rest(1000)
+    assert here.page.evaluate(coloured) > few > 20

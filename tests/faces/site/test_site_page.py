@@ -217,9 +217,10 @@ def test_each_chart_has_its_numbers_and_words(visit):
         section.scroll_into_view_if_needed()
         here.rest(600)
         assert section.locator("canvas").get_attribute("aria-label"), section.get_attribute("id")
-        numbers = section.locator("tbody tr").count()
-        said = section.locator(".hint").all_inner_texts()  # of the picture of the ball
-        assert numbers > 10 or "Contact angle" in said[-1], section.get_attribute("id")
+        if section.get_attribute("id") == "ball":  # no chart: its few numbers are in its words
+            assert "45.77°" in section.locator("canvas").get_attribute("aria-label")
+            continue
+        assert section.locator("tbody tr").count() > 10, section.get_attribute("id")
 
 
 def test_checks_are_said(visit):

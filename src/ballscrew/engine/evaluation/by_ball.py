@@ -217,7 +217,7 @@ def _compiled(cut: CutByBall, text: str, kept_as: str | None, optimisation: int 
     """The same with its kernel, which is kept under a name where there is one."""
     if kept_as is None:
         return cut.with_kernel(Kernel.of(text, cut.sources))
-    with kept.lock:
+    with kept.making:
         found = kept.get(kept_as, _read)
         if found is None:
             machine_code = kernels.code_of(text, optimisation)

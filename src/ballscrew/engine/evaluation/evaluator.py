@@ -430,7 +430,7 @@ def _at_strided_point(
         for value, (least, greatest) in zip(values, bounds, strict=True):
             if not least <= value <= greatest:
                 return dict(nothing)
-        if any(values[i] % 1 for i in whole):
+        if whole and any(values[i] % 1 for i in whole):
             return dict(nothing)
         call(values)
         return {name: result[0] for name, result in named}

@@ -106,6 +106,8 @@ class Configuration(ByValue):
 
     def changed(self, values: Mapping[str, Any]) -> Configuration:
         """The subject with other values of some inputs, those of the operating point left aside."""
+        if not values:
+            return self
         parts = self.by_section
         where = {name: part for name, (part, _) in self.inputs.items()}
         of_oil = {name: value for name, value in values.items() if where[name] == "lubricant"}

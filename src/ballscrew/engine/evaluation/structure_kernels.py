@@ -126,7 +126,8 @@ class StructureKernel:
         call = self.kernel.at_one_point(held, found)
 
         def at(values: Sequence[float], _: Sequence[Any] = found) -> None:  # the arrays live as long as the function
-            held[places] = values
+            for place, value in zip(places, values, strict=True):  # sooner done than by an array of places
+                held[place] = value
             call()
 
         if oil is None:
@@ -222,7 +223,9 @@ class _Kept:
     """What was kept of structures: in memory, on disk, or made now."""
 
     def __init__(self) -> None:
-        self.lock = threading.RLock()
+        #: Held while something is made: one after another, as others may want the same.
+        self.making = threading.RLock()
+        self._lock = threading.RLock()
         #: Names of what cannot be recorded or compiled.
         self.impossible: set[str] = set()
         self._found: OrderedDict[str, Any] = OrderedDict()
@@ -230,7 +233,7 @@ class _Kept:
 
     def get(self, name: str, read: Callable[[bytes, bytes], Any]) -> Any | None:
         """That of a name; None where there is none."""
-        with self.lock:
+        with self._lock:
             if name in self._found:
                 self._found.move_to_end(name)
                 return self._found[name]
@@ -244,7 +247,7 @@ class _Kept:
             return self.add(name, made)
 
     def add(self, name: str, made: Any) -> Any:
-        with self.lock:
+        with self._lock:
             self._found[name] = made
             if len(self._found) > MOST_IN_MEMORY:
                 self._found.popitem(last=False)
@@ -252,7 +255,7 @@ class _Kept:
 
     def asked(self, name: str, work: int) -> int:
         """Count work that was asked for, and return all of it."""
-        with self.lock:
+        with self._lock:
             total = self._asked.pop(name, 0) + work
             self._asked[name] = total
             if len(self._asked) > 16 * MOST_IN_MEMORY:
@@ -316,7 +319,7 @@ class Structure:
         """Its kernel, compiled now where it is not known; None where it cannot be had."""
         if self.name is None:
             return None
-        with kept.lock:
+        with kept.making:
             found = self.known()
             if found is not None or self.name in kept.impossible:
                 return found

@@ -1,7 +1,7 @@
 """The words of the static page in other languages than English.
 
 Words of fields, parts of the torque and reasons are those of the page of the server; only what the static page says
-itself stands in ``texts/de.json``, by its English words or by the name of what it is of.
+itself stands in ``page/texts/de.json``, by its English words or by the name of what it is of.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ def texts(contents: Mapping[str, Any]) -> dict[str, dict[str, str]]:
 
 
 def _german(contents: Mapping[str, Any]) -> dict[str, str]:
-    served, own = _table("web", "page/texts/de.json"), _table("site", "texts/de.json")
+    served, own = _table("web", "page/texts/de.json"), _table("site", "page/texts/de.json")
     fields = [f"field.{field['path']}.{part}" for field in contents["fields"].values() for part in ("label", "help")]
     for name in contents["judging"]["given"]:
         path = name if name.startswith("limits.") else f"installation.{name}"

@@ -18,7 +18,7 @@
  * @typedef {{
  *   title: string, make: string, source: string, kind: string, tables: Tables, grade: string | null,
  *   temperature: number | null, values: Record<string, number>,
- *   nuts: Record<string, { values: Record<string, number>, tables: Tables }>,
+ *   nuts: Record<string, { values: Record<string, number>, tables: Tables }>, judged: any,
  * }} Start
  */
 /** @typedef {{ file: string, function: string, inputs: string[], outputs: string[], constants: Record<string, number> }} Structure */

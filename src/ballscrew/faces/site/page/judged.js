@@ -21,10 +21,19 @@ const ASKED = [
 ];
 const FULL = 1;
 
-/** A number in the unit it is shown in. @param {number | null} value @param {Shown} quantity */
-function shownIn(value, { factor, offset, shown_in: unit }) {
+/** The limit that is by the maker of the nut where none is given. */
+const OF_MAKER = "limits.diameter_speed_product";
+
+/** @param {number} value @param {Shown} quantity */
+function inUnitOf(value, { factor, offset }) {
+  return (value - offset) / factor;
+}
+
+/** A number with the unit it is shown in. @param {number | null} value @param {Shown} quantity */
+function shownIn(value, quantity) {
+  const unit = quantity.shown_in;
   if (value === null || !Number.isFinite(value)) return "–";
-  return `${digitsOf((value - offset) / factor)} ${signOf(unit)}`.trim();
+  return `${digitsOf(inUnitOf(value, quantity))} ${signOf(unit)}`.trim().replace(" °", "°");
 }
 
 /** The checks with value, limit, what is used of it, and words; above them what is given for them. */
@@ -39,8 +48,7 @@ export class Checks extends View {
     this.asked = element("div", { class: "asked" });
     this.facts = element("p", { class: "hint" });
     this.table.className = "checks";
-    const scroll = element("div", { class: "scroll", tabindex: "0" }, this.table);
-    this.section.append(this.asked, scroll, this.facts);
+    this.section.append(this.asked, element("div", { class: "scroll", tabindex: "0" }, this.table), this.facts);
     this.written = "";
   }
 
@@ -57,8 +65,8 @@ export class Checks extends View {
     const field = element("input", { id, type: "text", inputmode: "decimal", autocomplete: "off" });
     const given = one.state.given[name];
     field.value = typeof given === "number" ? plainDigits(given) : "";
-    const usual = quantity.default === null ? say("not given") : shownIn(quantity.default, quantity).split(" ")[0];
-    field.placeholder = usual;
+    const usual = name === OF_MAKER ? one.start.judged.speed_limit.value : quantity.default;
+    field.placeholder = usual === null ? "–" : plainDigits(Number(inUnitOf(usual, quantity).toPrecision(4)));
     field.addEventListener("change", () => {
       const shown = numberIn(field.value);
       const isGiven = field.value.trim() !== "";
@@ -89,7 +97,7 @@ export class Checks extends View {
     const written = JSON.stringify(lines);
     if (written === this.written) return;
     this.written = written;
-    const head = ["Check", "Value", "Limit", "Used", "In words"].map((words) =>
+    const head = ["Check", "Value", "Limit", "Used", "Result"].map((words) =>
       element("th", { scope: "col" }, say(words)),
     );
     const rows = lines.map(({ title, value, limit, used, state, words }) =>
@@ -182,7 +190,9 @@ export class BallView extends View {
       body: colourOf("line"),
       accent: colourOf("accent"),
     };
-    const words = { nut: say("nut"), screw: say("screw"), angle: `α ${this.#angles().join(", ")}` };
+    const angles = this.#angles();
+    // two pairs of flanks leave no room for both angles
+    const words = { nut: say("nut"), screw: say("screw"), angle: angles.length > 1 ? "" : `α ${angles[0]}` };
     drawBall(plot.pen, plot, this.places, colours, words);
     this.note.className = "hint";
     const said = this.#said();
