@@ -20,6 +20,8 @@ CASE = ROOT / "examples" / "catalogue_screw.toml"
 START = ROOT / "out" / "docs" / "index.html"
 DOUBLE = "rexroth-40x10x6-6-double"
 LARGEST = 300_000  # bytes of a picture
+#: The static page, and the case that it shows.
+STATIC, STATIC_SIZE = f"start={DOUBLE}", {"width": 1360, "height": 860}
 COMMAND = [sys.executable, "-m", "ballscrew.faces.cli"]
 
 DESKTOP, PHONE = {"width": 1360, "height": 1500}, {"width": 390, "height": 844}
@@ -116,6 +118,20 @@ def first_page(pdf: bytes) -> bytes:
         return typst.compile(page, root=folder, format="png", ppi=90)
 
 
+def of_static_page(browser: Browser) -> None:
+    """Screenshot of the static page."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "page.html"
+        kinds = ["--model", "reference", "--nut", "row", "--nut", "double", "--nut", "double+elastic"]
+        subprocess.run([*COMMAND, "site", file, "--single", *kinds], check=True, capture_output=True)
+        page = browser.new_page(color_scheme="light", viewport=STATIC_SIZE)
+        page.goto(f"{file.as_uri()}#{STATIC}")
+        page.wait_for_selector("html[data-ready]")
+        page.wait_for_timeout(1000)
+        save("static_page.png", page.screenshot())
+        page.close()
+
+
 def of_docs(browser: Browser) -> None:
     """Screenshot of the start page of the documentation."""
     if not START.exists():
@@ -130,7 +146,7 @@ def of_docs(browser: Browser) -> None:
 def main() -> None:
     """Write all pictures."""
     IMAGES.mkdir(exist_ok=True)
-    chromium = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    chromium = shutil.which("chromium-headless-shell") or shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
     server = subprocess.Popen([*COMMAND, "serve", "--port", "0"], stdout=subprocess.PIPE, encoding="utf-8")
     try:
         assert server.stdout is not None
@@ -141,6 +157,7 @@ def main() -> None:
             of_page(browser, found[0])
             of_cards(browser, found[0])
             of_print(browser, found[0])
+            of_static_page(browser)
             of_report()
             of_docs(browser)
             browser.close()
