@@ -1,4 +1,4 @@
-"""What is judged of a screw besides its friction: the same as the program says of a row, and on arrays as on numbers."""
+"""What is judged of a screw besides its friction: as the program says of a row, and on arrays as on numbers."""
 
 import math
 
