@@ -273,3 +273,12 @@ def test_a_program_is_read_as_it_was_written():
     assert again.nonnegative == program.nonnegative
     with pytest.raises(ValueError, match="popen"):
         from_document({**as_document(program), "steps": [(99, "popen", [("step", 0)], False)]})
+
+
+def test_an_exponent_that_is_fixed_counts_where_balls_differ():
+    screw = dataclasses.replace(bs.catalogue()[ROW].screw(nut=ELASTIC["double"]), loaded_balls=10)
+    model = bs.FrictionModel.olaru2005()
+    changed = dataclasses.replace(model, film=dataclasses.replace(model.film, speed_exponent=0.6))
+    ready = bs.evaluator(model, screw, OIL, outputs=["screw_torque"], **{"film.speed_exponent": 0.6})
+    result = changed(screw, OIL, axial_load=3e3, screw_speed=50.0)
+    assert ready(3e3, 50.0)["screw_torque"] == pytest.approx(float(result.screw_torque), rel=1e-12)

@@ -178,7 +178,10 @@ class Kernel:
 
 def kept(name: str) -> tuple[bytes, bytes] | None:
     """What was kept on disk for this processor and this compiler under a name: a header, and machine code."""
-    found = _load(_digest(name))
+    found = None
+    with contextlib.suppress(OSError, RuntimeError):  # a look at the folder, before the compiler is loaded
+        if any(path.name.startswith(_short(name)) for path in cache_folder().iterdir()):
+            found = _load(f"{_short(name)}{_digest(name)}")
     if found is None:
         return None
     header, newline, machine_code = found.partition(b"\n")
@@ -187,7 +190,12 @@ def kept(name: str) -> tuple[bytes, bytes] | None:
 
 def keep(name: str, header: bytes, machine_code: bytes) -> None:
     """Keep machine code on disk under a name, with a header of one line."""
-    _save(_digest(name), header + b"\n" + machine_code)
+    _save(f"{_short(name)}{_digest(name)}", header + b"\n" + machine_code)
+
+
+def _short(name: str) -> str:
+    """How files begin that are kept under a name, for whatever processor."""
+    return f"{hashlib.sha256(name.encode()).hexdigest()[:16]}-"
 
 
 def is_cached(text: str) -> bool:
