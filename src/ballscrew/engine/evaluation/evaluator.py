@@ -65,10 +65,10 @@ def evaluator(
     The model is recorded here, and compiled where the compiler is installed (the extra ``fast``); arrays are evaluated
     on so many ``threads``. One kernel, kept on disk, serves all screws of a kind: the first one on a machine takes
     seconds, others milliseconds; compiling that takes more than a second is logged before it starts, as information of
-    the logger ``ballscrew``. With the ``engine`` ``"compiled"`` a kernel of just these inputs is compiled, whose other
-    numbers are constants: it takes seconds for each case, and half the time at each point, which pays from some ten
-    million points on. ``"numpy"`` compiles nothing. What a model holds is read now: an object that a law from outside
-    changes later has no effect. Copies and pickles record anew.
+    the logger ``ballscrew``. ``engine`` selects another: ``"compiled"`` compiles a kernel of just these inputs, whose
+    other numbers are constants, which takes seconds for each case and half the time at each point, and pays from some
+    ten million points on; ``"numpy"`` compiles nothing. What a model holds is read now: an object that a law from
+    outside changes later has no effect. Copies and pickles record anew.
 
     Raises :class:`~ballscrew.basis.errors.InputError` for unknown names, missing and bad fixed values, an engine that
     cannot be had, and derivatives of truth values or of a law that cannot be recorded.
