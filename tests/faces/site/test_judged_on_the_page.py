@@ -306,7 +306,7 @@ def test_the_page_judges_what_is_given_to_it(visit):
         one.id for one in made.verdicts
     ]
     assert page.locator("#checks tbody tr.fails").count() == sum(check.holds is False for check in made.checks) > 0
-    assert "fails" in page.locator("#verdicts li").first.inner_text()
+    assert "fails" in page.locator("#whole").inner_text()
     # the address holds what was given
     again = visit().open(page.evaluate("location.hash")).rest()
     assert [one["text"] for one in again.state()["checks"]] == [one["text"] for one in state["checks"]]
@@ -334,6 +334,7 @@ def test_the_panel_is_german_where_its_visitor_is(visit):
     words = here.page.locator("#checks").inner_text()
     assert "Prüfungen" in words
     assert "statische Tragzahl" in words
+    assert "“Laufzeit”" in words  # what is to be given, by the name of its field
     assert "Vorspannung aufgehoben" in here.page.locator("#verdicts").inner_text()
     here.page.locator("#ball").scroll_into_view_if_needed()
     assert "Kontaktwinkel" in here.rest(700).page.locator("#ball").inner_text()

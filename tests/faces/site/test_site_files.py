@@ -122,3 +122,10 @@ def test_the_bundle_refuses_what_it_cannot_join(monkeypatch):
     texts["a.js"] = 'import { b } from "./main.js";\n'
     with pytest.raises(ValueError, match="circle"):
         bundle.script.__wrapped__()
+
+
+def test_names_at_the_top_of_the_scripts_are_unique():
+    """They become one script: a name that stands twice is no script at all."""
+    names = re.findall(r"^(?:const|let|class|function|async function) (\w+)", bundle.script(), re.MULTILINE)
+    assert len(names) > 100
+    assert sorted(names) == sorted(set(names))

@@ -79,8 +79,10 @@ export class Headline {
       event.preventDefault(); // the address is that of the case
       byId("checks").scrollIntoView();
     });
+    byId("whole").replaceChildren(link);
     const lines = records.map(({ severity }, place) => element("li", { class: severity }, texts[place]));
-    byId("verdicts").replaceChildren(element("li", {}, link), ...lines);
+    byId("verdicts").replaceChildren(...lines);
+    byId("judged").hidden = lines.length === 0;
   }
 
   /** @param {string} name */

@@ -36,6 +36,21 @@ function shownIn(value, quantity) {
   return `${digitsOf(inUnitOf(value, quantity))} ${signOf(unit)}`.trim().replace(" °", "°");
 }
 
+/** The words of what is asked for. @param {string} name */
+function labelOfGiven(name) {
+  const path = name.startsWith("limits.") ? name : `installation.${name}`;
+  return sayNamed(`field.${path}.label`, spaced(name));
+}
+
+/** In the panel what is to be given has the name of its field there. */
+const IN_PANEL = {
+  ...inPlace,
+  say: (/** @type {string} */ template) => {
+    const name = template === "installation" ? ASKED[0] : template;
+    return ASKED.includes(name) ? `“${labelOfGiven(name)}”` : inPlace.say(template);
+  },
+};
+
 /** The checks with value, limit, what is used of it, and words; above them what is given for them. */
 export class Checks extends View {
   /** @param {import("./view.js").Scene} scene @param {string} id */
@@ -74,9 +89,7 @@ export class Checks extends View {
       field.setAttribute("aria-invalid", String(fault !== ""));
       if (!fault) this.scene.give(name, isGiven ? shown : undefined);
     });
-    const path = name.startsWith("limits.") ? name : `installation.${name}`;
-    const words = sayNamed(`field.${path}.label`, spaced(name));
-    return labelled(words, id, field, signOf(quantity.shown_in));
+    return labelled(labelOfGiven(name), id, field, signOf(quantity.shown_in));
   }
 
   #ends() {
@@ -137,7 +150,7 @@ export class Checks extends View {
       limit: shownIn(record.limit, quantity),
       used: record.utilisation,
       state: record.holds === null ? "open" : record.holds ? "holds" : "fails",
-      words: textOf(contents, record.message, inPlace),
+      words: textOf(contents, record.message, IN_PANEL),
     };
   }
 }
