@@ -18,7 +18,7 @@ pytestmark = pytest.mark.skipif(not kernel.available(), reason="needs the compil
 #: Both compute the same formulas, compiled for other machines: so far apart in rounding, of the largest number.
 CLOSE = 1e-12
 ELASTIC = (
-    "#A=hiwin-40-20k4&A.bodies.screw_diameter=33+mm&A.nut.preload=2+kN&A.lubricant.grade=ISO+VG+100"
+    "#A=hiwin-40-20k4&A.nut.type=double&A.bodies.screw_diameter=33+mm&A.nut.preload=2+kN&A.lubricant.grade=ISO+VG+100"
     "&A.lubricant.temperature=40+degC&A.operation.axial_load=2000+N&band=0"
 )
 PAPER = "#A=paper&A.lubricant.grade=ISO+VG+100&A.lubricant.viscosity=&A.lubricant.temperature=40+degC&band=0"
