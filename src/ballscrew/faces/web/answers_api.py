@@ -9,6 +9,7 @@ from typing import Any, ClassVar, Literal
 
 from fastapi import APIRouter, Request
 from pydantic import Field, RootModel
+from starlette.background import BackgroundTask
 from starlette.responses import StreamingResponse
 
 from ballscrew.basis.errors import InputError
@@ -108,7 +109,7 @@ async def answers(request: Request) -> Lines:
     body: AnswersBody = await read(request, AnswersBody)
     asked = _Asked(queue_of(request), body.case)
     run = await cancellable(request, asked.run())  # what is no case is refused before anything is sent
-    return Lines(_lines(asked, run, body.beside))
+    return Lines(_lines(asked, run, body.beside), background=BackgroundTask(asked.release))
 
 
 async def _lines(asked: _Asked, run: dict[str, Any], beside: Sequence[Tables]) -> AsyncIterator[bytes]:
@@ -166,6 +167,7 @@ class _Asked:
     def __init__(self, queue: RequestQueue, tables: Tables) -> None:
         self.queue, self.tables = queue, tables
         self._found: Run | None = None
+        self._is_heavy = False
 
     @property
     def found(self) -> Run:
@@ -200,11 +202,18 @@ class _Asked:
 
         if limits.is_short(case, plan):
             return await self.queue.short(work)
-        return await self.queue.heavy(memory.releasing(work))
+        self._is_heavy = True
+        return await self.queue.heavy(work)
+
+    async def release(self) -> None:
+        """Give back what heavy work has left behind: once, after the last line, as it takes as long as a curve."""
+        if self._is_heavy:
+            await self.queue.heavy(memory.releasing(lambda _: None))
 
     async def _of_run(self, work: Callable[[Run], dict[str, Any]]) -> dict[str, Any]:
         """Work on the run: quick, unless many balls are computed one by one."""
         found = self.found
         if limits.balls_of(found.case) > limits.MANY_BALLS:
-            return await self.queue.heavy(memory.releasing(lambda _: work(found)))
+            self._is_heavy = True
+            return await self.queue.heavy(lambda _: work(found))
         return await self.queue.quick(lambda: work(found))

@@ -14,7 +14,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import types
-from collections.abc import Container, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from typing import Annotated, Any, Literal, NamedTuple, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
@@ -24,6 +24,8 @@ from ballscrew.basis.quantities import Info, Quantity, Unit, info_of, unit_of
 
 T = TypeVar("T")
 
+#: Types of what is plain already.
+_PLAIN = frozenset({float, int, bool, str, type(None)})
 #: A part that is left out where it is None.
 LEFT_OUT = "left out"
 #: A part whose numbers are always finite.
@@ -148,6 +150,9 @@ def is_answer(annotation: Any) -> bool:
     )
 
 
+_is_answer: Callable[[type], bool] = functools.cache(is_answer)
+
+
 class Answer:
     """An answer whose parts are annotated properties."""
 
@@ -176,7 +181,10 @@ def from_attributes(cls: type[T], value: object, **others: Any) -> T:
 
 def document(value: Any) -> Any:
     """An answer as plain tables, lists, numbers, truth values and texts, all in SI."""
-    if is_answer(type(value)):
+    kind = type(value)
+    if kind in _PLAIN:
+        return value
+    if _is_answer(kind):
         return dict(_items(value))
     if isinstance(value, Mapping):
         return {str(key): document(each) for key, each in value.items()}
@@ -208,7 +216,7 @@ def units(answer: Any) -> dict[str, Any]:
 def _units(part: Part, value: Any) -> Any:
     if part.unit is not None:
         return part.unit
-    if is_answer(type(value)):
+    if _is_answer(type(value)):
         return units(value)
     kind, inner = get_origin(part.bare) or part.bare, get_args(part.bare)
     if is_answer(kind):

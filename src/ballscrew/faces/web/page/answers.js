@@ -32,7 +32,7 @@ const BUSY_DELAY = 1000;
 /** Milliseconds after which what was moved rests, and the server is asked. */
 const REST = 200;
 /** Milliseconds that the curves of one frame may take: the others follow when it rests. */
-const TIME_OF_CURVES = 50;
+const TIME_OF_CURVES = 30;
 /** Curves are drawn with the numbers where this many points take less than this many milliseconds. */
 const MOST_POINTS = 500;
 const TIME_IN_FRAME = 8;

@@ -25,6 +25,8 @@ const DIGITS = 6;
 /** How far numbers of both may be apart: another compiler of the same formulas. */
 const CLOSE = 1e-9;
 const TEMPERATURE = "temperature";
+/** Points of which the time says little of that of one. */
+const FEW = 10;
 
 /** Compiled modules by their files. @type {Map<string, Promise<WebAssembly.Module>>} */
 const compiled = new Map();
@@ -148,6 +150,7 @@ class LocalEngine {
     if (key !== this.#asked) return;
     this.#known = { texts: textsOf(body.case), about, engine };
     this.#ofPoint = 0;
+    document.documentElement.dataset.engine = "ready"; // for those who wait for it from outside
   }
 
   /**
@@ -213,8 +216,10 @@ class LocalEngine {
       screw_speed: Float64Array.from(points, (point) => point.screw_speed),
     };
     const found = this.#known.engine.evaluate(HERE, given, points.length);
-    const ofPoint = (performance.now() - start) / points.length;
-    this.#ofPoint = this.#ofPoint ? Math.min(this.#ofPoint, ofPoint) : ofPoint;
+    if (points.length > FEW) {
+      const ofPoint = (performance.now() - start) / points.length;
+      this.#ofPoint = this.#ofPoint ? (this.#ofPoint + ofPoint) / 2 : ofPoint;
+    }
     return found;
   }
 

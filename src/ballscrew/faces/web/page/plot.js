@@ -27,11 +27,11 @@ import { hasComma, localised, text, textOr } from "./texts.js";
 /** @type {Promise<void> | undefined} */
 let loading;
 
-/** plotly.js is large: it is run when there is a first chart, which comes after the numbers. */
+/** plotly.js is large: it is loaded when there is a first chart, which comes after the numbers and is sketched until then. */
 function loaded() {
   loading ??= new Promise((resolve) => {
-    const { href } = /** @type {HTMLLinkElement} */ (byId("plotly"));
-    const script = element("script", { src: href });
+    const { content } = /** @type {HTMLMetaElement} */ (byId("plotly"));
+    const script = element("script", { src: content });
     script.addEventListener("load", () => {
       for (const words of document.querySelectorAll(".chart > .loading")) words.remove();
       resolve();
