@@ -20,6 +20,7 @@ CASE = ROOT / "examples" / "catalogue_screw.toml"
 START = ROOT / "out" / "docs" / "index.html"
 DOUBLE = "rexroth-40x10x6-6-double"
 LARGEST = 300_000  # bytes of a picture
+BROWSERS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
 #: The static page, and the case that it shows.
 STATIC, STATIC_SIZE = f"start={DOUBLE}", {"width": 1360, "height": 860}
 COMMAND = [sys.executable, "-m", "ballscrew.faces.cli"]
@@ -146,7 +147,7 @@ def of_docs(browser: Browser) -> None:
 def main() -> None:
     """Write all pictures."""
     IMAGES.mkdir(exist_ok=True)
-    chromium = shutil.which("chromium-headless-shell") or shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    chromium = next(filter(None, map(shutil.which, BROWSERS)), None)
     server = subprocess.Popen([*COMMAND, "serve", "--port", "0"], stdout=subprocess.PIPE, encoding="utf-8")
     try:
         assert server.stdout is not None
