@@ -16,7 +16,7 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.evaluation.structures import inputs_of_structure, numbers_alone
-from ballscrew.exports.wasm_modules import NUT_DIAMETER, oils
+from ballscrew.exports.wasm_modules import NUT_DIAMETER, module_of_solver, oils
 from ballscrew.faces.web import openapi
 from ballscrew.faces.web.bodies import CaseBody, Tables, case_of, read
 from ballscrew.faces.web.endpoint_parts import as_json, cancellable, queue_of
@@ -31,6 +31,8 @@ from ballscrew.questions.shared.answer_parts import Tables as AnyTables
 
 #: A quantity as a case has it, with its unit or as a plain number.
 _WRITTEN = str | int | float
+#: A module that there is always.
+_SOLVER = module_of_solver().file
 
 router = APIRouter()
 
@@ -98,7 +100,7 @@ async def module(request: Request) -> Response:
     },
 )
 async def code(
-    request: Request, file: Annotated[str, Path(description="of the answer", examples=["none.wasm"])]
+    request: Request, file: Annotated[str, Path(description="of the answer", examples=[_SOLVER])]
 ) -> Response:
     """A module as WebAssembly; its name follows from its bytes."""
     found = _modules_of(request).code(file)

@@ -88,6 +88,7 @@ class Modules:
 
     def code(self, file: str) -> bytes | None:
         """The bytes of a module by the name of its file; None where it is not known, or no more."""
+        self.solver()
         return self._codes.get(file)
 
     def _get(self, name: str, make: Callable[[], KeptModule]) -> KeptModule | None:

@@ -12,7 +12,7 @@ import * as inputs from "./inputs.js";
 import { localEngine } from "./local_engine.js";
 import { inWords, labelOf } from "./messages.js";
 import * as moving from "./moving.js";
-import { followDiamond } from "./operating_point.js";
+import { diamond } from "./operating_point.js";
 import { isVisible, move, showFailure } from "./plot.js";
 import * as results from "./results.js";
 import { withoutCards } from "./schema.js";
@@ -208,7 +208,9 @@ class Answers {
   #never = new AbortController();
 
   constructor() {
-    followDiamond((values) => this.#followDiamond(values));
+    diamond.addEventListener("move", (event) => {
+      if (this.#followDiamond(/** @type {CustomEvent} */ (event).detail)) event.preventDefault();
+    });
     drawings.NARROW.addEventListener("change", () => {
       if (this.#displayed.drawing) drawings.show(this.#displayed.drawing);
     });
@@ -316,7 +318,7 @@ class Answers {
       if (found.over_load) curves.pressure(found.over_load, answer);
       if (found.over_both) charts.map(found.over_both, answer);
     });
-    measurePaint("moved curves", start, this.#never.signal);
+    measurePaint("moved_curves", start, this.#never.signal);
   }
 
   /** What was moved is answered. */
@@ -337,7 +339,7 @@ class Answers {
   /**
    * Follow the diamond of a chart, which no field has taken over yet.
    *
-   * @param {Record<string, number> | undefined} point
+   * @param {Record<string, number> | null} point where it is, null where it is let go and stays where it was
    */
   #followDiamond(point) {
     const { body, answer } = this.#displayed;

@@ -208,14 +208,14 @@ class LocalEngine {
    * @returns {Found}
    */
   at(values, points) {
-    if (!this.#known) throw new Error("no module is loaded");
+    const { engine } = /** @type {Known} */ (this.#known); // who has values has it
     const start = performance.now();
     const given = {
       ...values,
       axial_load: Float64Array.from(points, (point) => point.axial_load),
       screw_speed: Float64Array.from(points, (point) => point.screw_speed),
     };
-    const found = this.#known.engine.evaluate(HERE, given, points.length);
+    const found = engine.evaluate(HERE, given, points.length);
     if (points.length > FEW) {
       const ofPoint = (performance.now() - start) / points.length;
       this.#ofPoint = this.#ofPoint ? (this.#ofPoint + ofPoint) / 2 : ofPoint;

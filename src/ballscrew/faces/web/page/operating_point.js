@@ -142,16 +142,14 @@ const FIELDS = {
  */
 
 /**
- * Told of the values in SI of a diamond that is dragged, or that it is let go and stays where it was; true where all
- * follows it.
- *
- * @type {(values: Record<string, number> | undefined) => boolean}
+ * Tells by ``move`` of a diamond that is dragged: ``detail`` has its values in SI, or null where it is let go and stays
+ * where it was. Whoever follows it prevents the default, which is that it alone is drawn.
  */
-let follower = () => false;
+export const diamond = new EventTarget();
 
-/** Have somebody follow a diamond that is dragged. @param {typeof follower} listener */
-export function followDiamond(listener) {
-  follower = listener;
+/** @param {Record<string, number> | null} detail */
+function isFollowed(detail) {
+  return !diamond.dispatchEvent(new CustomEvent("move", { detail, cancelable: true }));
 }
 
 /**
@@ -174,7 +172,7 @@ export function letDrag(id, handle) {
   });
   holder.addEventListener("pointerup", () => drop());
   holder.addEventListener("pointercancel", () => {
-    if (at) follower(undefined);
+    if (at) isFollowed(null);
     at = undefined;
   });
 
@@ -197,7 +195,7 @@ export function letDrag(id, handle) {
     const value = (axis, pixel) => axis.p2d(Math.min(axis._length, Math.max(0, pixel - axis._offset)));
     at = held.place(value(xaxis, event.clientX - left), value(yaxis, event.clientY - top));
     const values = { [held.x]: inSI(held.x, at[0]), ...(held.y && { [held.y]: inSI(held.y, at[1]) }) };
-    if (!follower(values)) globalThis.Plotly.restyle(plot, { x: [[at[0]]], y: [[at[1]]] }, [held.trace]);
+    if (!isFollowed(values)) globalThis.Plotly.restyle(plot, { x: [[at[0]]], y: [[at[1]]] }, [held.trace]);
   }
 
   function drop() {

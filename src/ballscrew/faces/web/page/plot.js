@@ -24,22 +24,6 @@ import { hasComma, localised, text, textOr } from "./texts.js";
  * @property {import("./operating_point.js").Handle} [drag] its diamond, where that can be dragged
  */
 
-/** @type {Promise<void> | undefined} */
-let loading;
-
-/** plotly.js is large: it is loaded when there is a first chart, which comes after the numbers and is sketched until then. */
-function loaded() {
-  loading ??= new Promise((resolve) => {
-    const { content } = /** @type {HTMLMetaElement} */ (byId("plotly"));
-    const script = element("script", { src: content });
-    script.addEventListener("load", () => {
-      for (const words of document.querySelectorAll(".chart > .loading")) words.remove();
-      resolve();
-    });
-    document.head.append(script);
-  });
-  return loading;
-}
 const CONFIG = { responsive: true, displaylogo: false, displayModeBar: false };
 const FONT = 'system-ui, "DejaVu Sans", sans-serif';
 const ON_PAPER = { width: 660, height: 210 };
@@ -185,6 +169,8 @@ class Charts {
   #dragged = new Set();
   /** @type {Colours | undefined} */
   #colours;
+  /** @type {Promise<void> | undefined} */
+  #loading;
   /** Sizes of sketches. @type {WeakMap<HTMLCanvasElement, { width: number, height: number }>} */
   #sizes = new WeakMap();
   /** How charts are drawn while something moves. @type {{ isHeld: boolean } | undefined} */
@@ -204,6 +190,20 @@ class Charts {
   get #screen() {
     this.#colours ??= coloursOfScreen();
     return this.#colours;
+  }
+
+  /** plotly.js is large: it is loaded for the first chart, which comes after the numbers and is sketched until then. */
+  #loaded() {
+    this.#loading ??= new Promise((resolve) => {
+      const { content } = /** @type {HTMLMetaElement} */ (byId("plotly"));
+      const script = element("script", { src: content });
+      script.addEventListener("load", () => {
+        for (const words of document.querySelectorAll(".chart > .loading")) words.remove();
+        resolve();
+      });
+      document.head.append(script);
+    });
+    return this.#loading;
   }
 
   /**
@@ -230,7 +230,7 @@ class Charts {
   async draw(id, chart) {
     if (this.#moving || !globalThis.Plotly) this.#sketch(id, chart);
     if (this.#moving) return;
-    await loaded();
+    await this.#loaded();
     this.#place(id, chart);
     if (this.#visible.has(id)) await this.#show(id, this.#screen);
     else this.#postpone(id);
@@ -356,7 +356,7 @@ class Charts {
   async #show(id, palette, more = {}) {
     const chart = this.#charts.get(id);
     if (!chart) return;
-    await loaded();
+    await this.#loaded();
     const { traces, layout: own } = chart.figure(palette);
     await globalThis.Plotly.react(within(byId(id), ".plot"), traces, { ...own, ...more }, CONFIG);
     byId(id).querySelector("canvas")?.remove();
