@@ -3,7 +3,7 @@ import { readFile, writeFile } from "node:fs/promises";
 import { pathToFileURL } from "node:url";
 
 const [page, folder] = process.argv.slice(2);
-const { Engine } = await import(pathToFileURL(`${page}/engine.js`));
+const { Engine } = await import(pathToFileURL(`${page}/../../web/page/engine.js`));
 const { judgedAt, recordsOf, textOf } = await import(pathToFileURL(`${page}/judgements.js`));
 const { ballAt } = await import(pathToFileURL(`${page}/ball.js`));
 const { contents, points } = JSON.parse(await readFile(`${folder}/points.json`, "utf8"));

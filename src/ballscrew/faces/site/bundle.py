@@ -14,8 +14,8 @@ import re
 from collections.abc import Sequence
 from importlib import resources
 
-_ENTRY = "main.js"
-_IMPORT = re.compile(r'^import \{[^}]*\} from "\./([\w.]+)";\n', re.MULTILINE)
+_ENTRY, _ENGINE = "main.js", "engine.js"
+_IMPORT = re.compile(r'^import \{[^}]*\} from "(?:\./|\.\./\.\./web/page/)([\w.]+)";\n', re.MULTILINE)
 _EXPORT = re.compile(r"^export (?=const |let |function |async function |class )", re.MULTILINE)
 #: What no file of the page may have at its top, as the files become one.
 _ELSEWISE = re.compile(r"^(?:import|export)\b", re.MULTILINE)
@@ -23,8 +23,9 @@ _ELSEWISE = re.compile(r"^(?:import|export)\b", re.MULTILINE)
 
 @functools.cache
 def text_of(name: str) -> str:
-    """A file of the page."""
-    return resources.files("ballscrew.faces.site").joinpath("page", name).read_text(encoding="utf-8")
+    """A file of the page; the engine, which the page of the server has too, stands there."""
+    room = "web" if name == _ENGINE else "site"
+    return resources.files(f"ballscrew.faces.{room}").joinpath("page", name).read_text(encoding="utf-8")
 
 
 @functools.cache

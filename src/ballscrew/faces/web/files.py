@@ -24,7 +24,6 @@ _CACHE = "no-cache"
 #: They keep a file for good whose address has the digest of its content.
 FOR_GOOD = "public, max-age=31536000, immutable"
 _VIEWER = "api.html"
-_ENGINE = "engine.js"
 #: Where the page names the script of the charts; its address has its digest.
 _PLOTLY = "/plotly.js"
 #: Endings of files that are text, which is much shorter when it is compressed.
@@ -58,13 +57,6 @@ def add_to(app: FastAPI) -> None:
     page = _Folder(directory=Path(str(resources.files("ballscrew.faces.web").joinpath("page"))))
     viewer = _Folder(directory=_folder_of("fastapi_offline", "static"))
     app.mount("/page", page)
-    # what runs the modules of structures is that of the static page
-    engine = _Folder(directory=Path(str(resources.files("ballscrew.faces.site").joinpath("page"))))
-
-    async def send_engine(request: Request) -> Response:
-        return await engine.get_response(_ENGINE, request.scope)
-
-    app.add_api_route(f"/site/page/{_ENGINE}", send_engine, methods=["GET", "HEAD"], include_in_schema=False)
     app.mount("/viewer", viewer)
 
     async def send_viewer(request: Request) -> Response:

@@ -165,14 +165,12 @@ def _places(
     known = {name: subject.inputs[name] for name in inputs_of_structure(subject)}
     is_share = "%" in str(_at(tables, "nut.preload"))
     of_row = _at(tables, "screw.catalogue") is not None
+    # what follows from several fields, by the part, and by the name.
+    parts = {"screw": of_row or is_share or case.speed_of_nut, "model": case.calibration is not None}
+    names = {"screw_speed": case.speed_of_nut, "preload": is_share}
+    names |= dict.fromkeys(OF_A_GRADE, bool(case.oil) or grade is not None)
     for name, (part, quantity) in known.items():
-        if part == "screw" and (of_row or is_share or case.speed_of_nut):
-            continue
-        if (name == "screw_speed" and case.speed_of_nut) or (name == "preload" and is_share):
-            continue
-        if part == "model" and case.calibration is not None:
-            continue
-        if part == "lubricant" and name in OF_A_GRADE and (case.oil or grade is not None):
+        if parts.get(part, False) or names.get(name, False):
             continue
         path = name if name.startswith("losses.") else f"{part}.{name}"
         if isinstance(_at(tables, path), _WRITTEN):

@@ -12,7 +12,7 @@ const SMALL = 3;
 /**
  * The places of the most loaded ball and its grooves, in metres from its middle.
  *
- * @param {import("./engine.js").Engine} engine
+ * @param {import("../../web/page/engine.js").Engine} engine
  * @param {Record<string, any>} contents
  * @param {{ structure: string, inputs: Record<string, any>, outputs: Record<string, any> }} point
  * @returns {Places}

@@ -178,7 +178,7 @@ export class BallView extends View {
   /**
    * @param {import("./view.js").Scene} scene
    * @param {string} id
-   * @param {import("./engine.js").Engine} engine
+   * @param {import("../../web/page/engine.js").Engine} engine
    */
   constructor(scene, id, engine) {
     super(scene, id, {

@@ -57,7 +57,7 @@ function givenAt({ judging, starts }, { start, given }) {
 /**
  * The outputs at a point and at those beside it, and of the nut with which the screw is checked.
  *
- * @param {import("./engine.js").Engine} engine
+ * @param {import("../../web/page/engine.js").Engine} engine
  * @param {Contents} contents
  * @param {Point} point
  * @returns {Record<string, Numbers>}
@@ -65,7 +65,7 @@ function givenAt({ judging, starts }, { start, given }) {
 function computedAt(engine, contents, { structure, start, inputs }) {
   const { judging, structures, starts } = contents;
   const places = Object.keys(judging.beside);
-  /** @type {import("./engine.js").Values} */
+  /** @type {import("../../web/page/engine.js").Values} */
   const varied = { ...inputs };
   for (const name of new Set(places.flatMap((place) => Object.keys(judging.beside[place])))) {
     const others = places.map((place) => judging.beside[place][name] ?? inputs[name]);
@@ -87,7 +87,7 @@ function computedAt(engine, contents, { structure, start, inputs }) {
  * All that is judged at a point: masks and numbers of the rows, which values there are, and what follows from the
  * inputs besides.
  *
- * @param {import("./engine.js").Engine} engine
+ * @param {import("../../web/page/engine.js").Engine} engine
  * @param {Contents} contents
  * @param {Point} point
  */

@@ -3,7 +3,7 @@
 import { Case } from "./case.js";
 import { EfficiencyMap, OverSpeed, Parts, Quadrants, Temperatures } from "./charts.js";
 import { Controls } from "./controls.js";
-import { Engine } from "./engine.js";
+import { Engine } from "../../web/page/engine.js";
 import { Headline } from "./headline.js";
 import { BallView, Checks } from "./judged.js";
 import { judgedAt, recordsOf, textOf } from "./judgements.js";

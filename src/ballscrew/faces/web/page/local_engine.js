@@ -1,13 +1,13 @@
 // The model in the browser: the module of the structure of the case on the page, with which its numbers and curves are
 // computed while something is moved. No formula stands here: what is computed is recorded from the model.
 
-import { Engine } from "../../site/page/engine.js";
+import { Engine } from "./engine.js";
 import { answerAt, sendJson } from "./server.js";
 import * as units from "./units.js";
 
 /** @typedef {{ case: Record<string, unknown> }} Body */
-/** @typedef {import("../../site/page/engine.js").Values} Values */
-/** @typedef {import("../../site/page/engine.js").Found} Found */
+/** @typedef {import("./engine.js").Values} Values */
+/** @typedef {import("./engine.js").Found} Found */
 /** @typedef {{ axial_load: number, screw_speed: number }} Point */
 /** Values of the axes of curves, by the curve and the axis. @typedef {Record<string, Record<string, number[]>>} Axes */
 /**
@@ -142,7 +142,7 @@ class LocalEngine {
   async #take(body, about, key) {
     const { structure, oil, solver } = about;
     if (!structure) return;
-    const one = /** @type {import("../../site/page/engine.js").Structure} */ (/** @type {unknown} */ (structure));
+    const one = /** @type {import("./engine.js").Structure} */ (/** @type {unknown} */ (structure));
     const oils = oil ? { file: oil.file, grades: { [HERE]: oil } } : { file: one.file, grades: {} };
     const contents = { structures: { [HERE]: one }, oils, solver: solver ?? "" };
     const engine = new Engine(/** @type {any} */ (contents), moduleOf);
