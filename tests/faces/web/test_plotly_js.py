@@ -60,6 +60,8 @@ def test_a_chart_is_sketched_until_plotly_is_there(visit):
     """It is asked for when there is a first chart: the numbers do not wait for it."""
     held = []
     here = visit()
+    size = here.page.viewport_size
+    here.page.set_viewport_size({"width": 1280, "height": 3500})  # the chart is in it
     here.page.route("**/plotly-*.js", lambda route: held.append(route))
     here.page.goto(f"{here.address}/#band=0", wait_until="commit")
     here.page.wait_for_selector("#torque-chart canvas", state="attached")
@@ -72,3 +74,4 @@ def test_a_chart_is_sketched_until_plotly_is_there(visit):
     here.page.wait_for_selector("#torque-chart canvas", state="detached")
     here.page.wait_for_selector("html[data-ready]")
     here.settle()
+    here.page.set_viewport_size(size)
