@@ -18,6 +18,12 @@ def files():
     return site.site(**FEW)
 
 
+def contents_name(files):
+    """The script that holds the contents has the digest of the page in its name."""
+    (name,) = (name for name in files if name.startswith("contents-"))
+    return name
+
+
 def contents_of(script):
     return json.loads(re.fullmatch(r"globalThis\.ballscrewSite=(.*);\n", script, re.DOTALL)[1])
 
@@ -28,7 +34,7 @@ def test_two_builds_are_the_same_bytes(files):
 
 def test_a_module_has_the_name_of_its_content(files):
     modules = {name: content for name, content in files.items() if name.endswith(".wasm")}
-    assert len(modules) == 4  # the structure, the oils, the solver of elastic nuts, and what is judged
+    assert len(modules) == 5  # two structures, the oils, the solver of elastic nuts, and what is judged
     for name, content in modules.items():
         assert name == f"kernels/{hashlib.sha256(content).hexdigest()[:16]}.wasm"
         script = files[f"{name}.js"].decode()
@@ -37,7 +43,7 @@ def test_a_module_has_the_name_of_its_content(files):
 
 def test_the_worker_keeps_every_file_of_a_server(files):
     worker = files["service_worker.js"].decode()
-    known = contents_of(files["contents.js"].decode())
+    known = contents_of(files[contents_name(files)].decode())
     kept = json.loads(re.search(r"const KEPT = (\[.*?\]);", worker)[1])
     assert f'"{known["digest"]}"' in worker
     assert {name for name in files if not name.endswith(".wasm.js")} == {*kept, "service_worker.js"} - {"./"}
@@ -77,6 +83,44 @@ def test_an_earlier_page_goes_and_other_files_stay(files, tmp_path):
     assert {path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file()} == {
         *files, "kernels/notes.txt",
     }  # fmt: skip
+
+
+def test_a_page_of_somebody_else_stays(files, tmp_path):
+    own = tmp_path / "index.html"
+    own.write_text("<h1>my project</h1>")
+    with pytest.raises(InputError, match=r"site\.out: has a page of its own"):
+        site.write(tmp_path, files)
+    assert [path.name for path in tmp_path.iterdir()] == ["index.html"]
+    assert own.read_text() == "<h1>my project</h1>"
+
+
+def test_another_version_leaves_no_file_of_the_earlier_one(files, tmp_path):
+    site.write(tmp_path, files)
+    for name in ("contents", "page"):
+        (tmp_path / f"{name}-0123456789abcdef.js").write_text("")
+    site.write(tmp_path, files)
+    assert not list(tmp_path.glob("*-0123456789abcdef.js"))
+    document = files["index.html"].decode()
+    assert all(f'src="{name}"' in document for name in files if re.match(r"(contents|page)-", name))
+
+
+def test_a_single_file_takes_the_place_of_a_folder(files, tmp_path):
+    """Also the worker goes, which would show the earlier page for good."""
+    site.write(tmp_path, files)
+    site.write(tmp_path, {"index.html": site._MARK.encode()})
+    assert "unregister" in (tmp_path / "service_worker.js").read_text()
+    assert not [path for path in tmp_path.rglob("*.wasm*")]
+    assert not list(tmp_path.glob("page-*"))
+
+
+def test_the_name_of_a_file_is_one_of_a_single_page(files, tmp_path):
+    with pytest.raises(InputError, match="add --single"):
+        site.write(tmp_path / "screw.html", files)
+
+
+def test_a_row_has_the_nut_that_it_is_checked_with(files):
+    known = contents_of(files[contents_name(files)].decode())["contents"]
+    assert list(known["structures"]) == ["olaru2005/row", "olaru2005/single"]
 
 
 def test_a_single_file_has_the_name_that_is_asked_for(tmp_path):

@@ -26,6 +26,7 @@ def site(
     from ballscrew.faces.cli.progress import progress
     from ballscrew.faces.site import site as pages
 
+    pages.check_place(out, single=single)
     with progress("modules") as done:
         files = pages.site(model or (), nut or (), single=single, done=done)
     written = pages.write(out, files)

@@ -57,6 +57,7 @@ def contents(
         "mechanisms": words["mechanisms"],
         "reasons": words["reasons"],
         "symbols": words["symbols"],
+        "usual_temperature": kinds.OIL["temperature"],
         "starts": {name: _start(name) for name in kinds.start_tables()},
     }
     return {**found, "texts": texts(found)}

@@ -28,7 +28,7 @@ MODELS = ("reference", "olaru2005", "corrected")
 #: The start of the paper.
 PAPER = "paper"
 #: The oil, its temperature, the load and the speed of a screw of the catalogue, as its case file begins.
-_OIL = {"grade": "ISO VG 100", "temperature": "40 degC"}
+OIL: Mapping[str, str] = {"grade": "ISO VG 100", "temperature": "40 degC"}
 _SPEED = "600 rpm"
 #: Load of a screw of the catalogue, as a share of its dynamic load rating.
 _LOAD = 0.1
@@ -83,7 +83,7 @@ def start_tables() -> Mapping[str, Mapping[str, Any]]:
     for name, row in catalogue().items():
         force = units.written(_rounded(_LOAD * _rating(row)), load)
         operation = {"axial_load": force, "screw_speed": _SPEED}
-        found[name] = {"screw": {"catalogue": name}, "lubricant": dict(_OIL), "operation": operation}
+        found[name] = {"screw": {"catalogue": name}, "lubricant": dict(OIL), "operation": operation}
     return found
 
 

@@ -16,13 +16,24 @@ from ballscrew.basis.errors import Fault, InputError, nearest
 from ballscrew.compiler.kernels import wasm
 from ballscrew.faces.site import bundle, kinds
 from ballscrew.faces.site.contents import contents
-from ballscrew.faces.site.judging import module_of_judging
+from ballscrew.faces.site.judging import CHECKED_AS, module_of_judging
 from ballscrew.faces.site.modules import Module, module_of_oils, module_of_solver, module_of_structure, oils
 
 #: Files of the folder that are as they are in the package.
 _PLAIN = ("style.css", "icon.svg")
 _KERNELS = "kernels"
-_OLD_KERNEL = re.compile(r"[0-9a-f]{16}\.wasm(\.js)?")
+#: Files of an earlier page, by where they stand in the folder.
+_OLD = {
+    "*": re.compile(r"(?:contents|page)-[0-9a-f]{16}\.js"),
+    f"{_KERNELS}/*": re.compile(r"[0-9a-f]{16}\.wasm(\.js)?"),
+}
+#: What tells a page of this program from one of somebody else.
+_MARK = '<meta name="generator" content="ballscrew">'
+_WORKER = "service_worker.js"
+#: A worker that takes the place of one that is no more needed: browsers go on with the old one otherwise.
+_NO_WORKER = """addEventListener("install", () => skipWaiting());
+addEventListener("activate", (event) => event.waitUntil(registration.unregister()));
+"""
 #: Told of each module that is made: how many of how many.
 Progress = Callable[[int, int], None]
 
@@ -56,27 +67,46 @@ def site(
     return _single(known, codes) if single else _folder(known, codes)
 
 
+def check_place(out: Path, *, single: bool) -> None:
+    """Raise :class:`~ballscrew.basis.errors.InputError` where the page cannot be written, before it is made.
+
+    A document that is not of this program is not replaced.
+    """
+    if out.suffix == ".html":
+        if not single:
+            raise InputError(Fault("site.out", "is the name of a file", str(out), "name a folder, or add --single"))
+        check_writable("site.out", out)
+        return
+    if out.is_file():
+        raise InputError(Fault("site.out", "is a file", str(out), "name a folder, or a file .html with --single"))
+    document = out / "index.html"
+    if document.exists() and _MARK not in document.read_text(encoding="utf-8", errors="replace"):
+        raise InputError(Fault("site.out", "has a page of its own", str(document), "name another folder"))
+    check_writable("site.out", document)
+
+
 def write(out: Path, files: Mapping[str, bytes]) -> list[Path]:
-    """Write the files of the page into a folder, the document last; modules of an earlier page are removed.
+    """Write the files of the page into a folder, the document last; then those of an earlier page are removed.
 
     One file may have a name of its own that ends in ``.html``. Raises :class:`~ballscrew.basis.errors.InputError`
     where it cannot be written.
     """
-    if len(files) == 1 and out.suffix == ".html":
-        check_writable("site.out", out)
+    single = len(files) == 1
+    check_place(out, single=single)
+    if out.suffix == ".html":
         return [_written(out, *files.values())]
-    if out.is_file():
-        raise InputError(Fault("site.out", "is a file", str(out), "name a folder, or a file .html with --single"))
-    try:
-        (out / _KERNELS).mkdir(parents=True, exist_ok=True) if len(files) > 1 else out.mkdir(
-            parents=True, exist_ok=True
-        )
-    except OSError as error:
-        raise write_error("site.out", out, error) from None
+    if not single:
+        try:
+            (out / _KERNELS).mkdir(exist_ok=True)
+        except OSError as error:
+            raise write_error("site.out", out, error) from None
     paths = [_written(out / name, content) for name, content in files.items()]
-    for old in (out / _KERNELS).glob("*"):
-        if _OLD_KERNEL.fullmatch(old.name) and f"{_KERNELS}/{old.name}" not in files:
-            old.unlink(missing_ok=True)
+    for place, names in _OLD.items():
+        for old in out.glob(place):
+            if names.fullmatch(old.name) and old.relative_to(out).as_posix() not in files:
+                old.unlink(missing_ok=True)
+    if single and (out / _WORKER).exists():
+        _written(out / _WORKER, _NO_WORKER.encode())
     return paths
 
 
@@ -98,6 +128,9 @@ def _chosen(models: Sequence[str], nuts: Sequence[str]) -> list[tuple[str, str]]
     if faults:
         raise InputError(*faults)
     found = [pair for pair in kinds.structures() if (not models or pair[0] in models) and (not nuts or pair[1] in nuts)]
+    # a screw without a nut is judged with one
+    judged = [(model, CHECKED_AS[kind]) for model, kind in found if kind in CHECKED_AS]
+    found += [pair for pair in judged if pair not in found]
     if not found:
         given = f"{', '.join(models)} with {', '.join(nuts)}"
         raise InputError(Fault("site", "no such model has such a nut", given, "leave one of them out"))
@@ -106,7 +139,8 @@ def _chosen(models: Sequence[str], nuts: Sequence[str]) -> list[tuple[str, str]]
 
 def _digest(known: Mapping[str, Any], script: str) -> str:
     """The digest of a page: of what it computes, what it says, and how it looks."""
-    everything = [_json(known), script, *map(bundle.text_of, ("index.html", "service_worker.js", *_PLAIN))]
+    files = map(bundle.text_of, ("index.html", "service_worker.js", *_PLAIN))
+    everything = [_json(known), script, bundle.policy(), _json(_manifest()), *files]
     return hashlib.sha256("\n".join(everything).encode()).hexdigest()[:16]
 
 
@@ -134,15 +168,18 @@ def _folder(known: Mapping[str, Any], codes: Mapping[str, bytes]) -> dict[str, b
     texts = {
         **scripts,
         **{name: bundle.text_of(name) for name in _PLAIN},
-        "contents.js": _contents(known, digest, {}),
-        "page.js": script,
+        f"contents-{digest}.js": _contents(known, digest, {}),
+        f"page-{digest}.js": script,
         "manifest.webmanifest": _json(_manifest()),
     }
     files = {f"{_KERNELS}/{name}": code for name, code in codes.items()} | {n: t.encode() for n, t in texts.items()}
     kept = [name for name in files if name not in scripts]
     worker = bundle.text_of("service_worker.js").replace('"DIGEST"', f'"{digest}"')
     files["service_worker.js"] = worker.replace('["FILES"]', _json(["./", "index.html", *kept])).encode()
-    return {**files, "index.html": _document(bundle.policy()).encode()}
+    document = _document(bundle.policy())
+    for name in ("contents", "page"):  # named by the digest: no document ever loads what belongs to another one
+        document = document.replace(f'src="{name}.js"', f'src="{name}-{digest}.js"')
+    return {**files, "index.html": document.encode()}
 
 
 def _manifest() -> dict[str, Any]:

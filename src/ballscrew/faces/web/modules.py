@@ -11,15 +11,14 @@ import hashlib
 import json
 import os
 import queue
+import sys
 import threading
 from collections import OrderedDict
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
-from ballscrew.basis.errors import InputError
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.compiler.kernels import kernel, wasm
-from ballscrew.compiler.tracing.tape import CannotRecordError
 from ballscrew.engine.evaluation.fingerprint import recorder_digest
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.evaluation.structure_kernels import name_of
@@ -94,6 +93,8 @@ class Modules:
     def _get(self, name: str, make: Callable[[], KeptModule]) -> KeptModule | None:
         with self._lock:
             known = self._found.get(name) or self._add(name, _read(name))
+            if known is not None:
+                self._found.move_to_end(name)
             if isinstance(known, str):
                 raise NotMadeError(known)
             if known is None and name not in self._waiting and len(self._waiting) < MOST_WAITING:
@@ -113,22 +114,26 @@ class Modules:
             self._codes[made.document["file"]] = made.code
         if len(self._found) > MOST_IN_MEMORY:
             _, oldest = self._found.popitem(last=False)
-            if isinstance(oldest, KeptModule):
+            files = {one.document["file"] for one in self._found.values() if isinstance(one, KeptModule)}
+            if isinstance(oldest, KeptModule) and oldest.document["file"] not in files:
                 self._codes.pop(oldest.document["file"], None)
         return made
 
     def _work(self) -> None:
         """Make one module after the other, and give way to whoever waits for an answer."""
         with contextlib.suppress(OSError, AttributeError):
-            os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), _NICENESS)
+            if sys.platform == "linux":  # elsewhere the number of a thread may be that of another process
+                os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), _NICENESS)
         while True:
             name, make = self._tasks.get()
             made: KeptModule | str
             try:
                 made = make()
                 kernel.keep(name, json.dumps(made.document).encode(), made.code)
-            except (CannotRecordError, InputError, ValueError) as error:
-                made = str(error)
+            except (
+                Exception
+            ) as error:  # whatever it is, the next structure is made, and the page works without this one
+                made = str(error) or repr(error)
             with self._lock:
                 self._add(name, made)
                 self._waiting.discard(name)

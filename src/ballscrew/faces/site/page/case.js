@@ -30,7 +30,7 @@
  *   oils: { file: string, grades: Record<string, any> },
  *   fields: Record<string, Field>, results: Record<string, Result>,
  *   mechanisms: Record<string, { words: string, colour: string }>, reasons: Record<string, string>,
- *   judging: any, symbols: Record<string, string>, starts: Record<string, Start>, texts?: Record<string, Record<string, string>>,
+ *   judging: any, usual_temperature: string, symbols: Record<string, string>, starts: Record<string, Start>, texts?: Record<string, Record<string, string>>,
  * }} Contents
  */
 /**
@@ -44,8 +44,6 @@
 
 /** The start whose oil is given by its viscosity: the other numbers of such an oil are those of any oil. */
 const PLAIN_OIL = "paper";
-/** Temperature of an oil of a grade that was chosen for one without, degC. */
-const USUAL_TEMPERATURE = 40;
 
 /** How a shaft is held where nobody says. */
 const USUAL_ENDS = "fixed-supported";
@@ -112,7 +110,7 @@ export class Case {
   temperature() {
     const edited = this.state.edits.temperature;
     if (edited !== undefined) return this.inSi("temperature", edited);
-    return this.start.temperature ?? this.inSi("temperature", USUAL_TEMPERATURE);
+    return this.start.temperature ?? this.inSi("temperature", Number.parseFloat(this.contents.usual_temperature));
   }
 
   /**
@@ -202,7 +200,7 @@ export class Case {
     /** @type {Tables} */
     const found = structuredClone({ ...own.tables, model: { name: model }, ...own.nuts[kind].tables });
     if (grade !== (own.grade ?? "")) {
-      found.lubricant = grade ? { grade, temperature: `${USUAL_TEMPERATURE} degC` } : {};
+      found.lubricant = grade ? { grade, temperature: this.contents.usual_temperature } : {};
       if (!grade) this.#put(found, "viscosity", this.shown("viscosity"));
     }
     for (const [name, shown] of Object.entries(edits)) this.#put(found, name, shown);

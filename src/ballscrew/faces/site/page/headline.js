@@ -66,6 +66,9 @@ export class Headline {
   /** The verdict on the checks, and those on the operating point; conditions of the model stand below. */
   #writeVerdicts() {
     const { judged } = this.scene;
+    // while an elastic nut moves nothing is judged, and what was said of other numbers is not shown
+    byId("whole").style.visibility = judged ? "" : "hidden";
+    byId("verdicts").style.visibility = judged ? "" : "hidden";
     if (!judged) return;
     const others = judged.warnings.filter(({ id }) => !id.startsWith("validity."));
     const records = [...judged.verdicts, ...others];

@@ -44,6 +44,10 @@ export async function moduleOf(file) {
 /** Keep the page for when there is no network; only where a server sent it. */
 export function keepOffline() {
   if ("serviceWorker" in navigator && location.protocol.startsWith("http")) {
+    // another version takes over: this page would ask for modules that are there no more
+    if (navigator.serviceWorker.controller) {
+      navigator.serviceWorker.addEventListener("controllerchange", () => location.reload());
+    }
     navigator.serviceWorker.register("service_worker.js").catch(() => {});
   }
 }

@@ -1,8 +1,9 @@
 // Keeps the files of one version of the page, named by its digest, so that it opens without a network. What is kept of
-// an earlier version goes when this one takes over: no page computes with old modules.
-const NAME = `ballscrew-${"DIGEST"}`;
-const KEPT = ["FILES"];
+// an earlier version at the same address goes when this one takes over, and pages that are open are loaded again.
 const scope = /** @type {any} */ (globalThis);
+const HERE = `ballscrew ${scope.registration.scope} `;
+const NAME = `${HERE}${"DIGEST"}`;
+const KEPT = ["FILES"];
 
 scope.addEventListener("install", (/** @type {any} */ event) => {
   const kept = caches
@@ -12,7 +13,7 @@ scope.addEventListener("install", (/** @type {any} */ event) => {
 });
 
 scope.addEventListener("activate", (/** @type {any} */ event) => {
-  const old = caches.keys().then((names) => names.filter((name) => name.startsWith("ballscrew-") && name !== NAME));
+  const old = caches.keys().then((names) => names.filter((name) => name.startsWith(HERE) && name !== NAME));
   const gone = old.then((names) => Promise.all(names.map((name) => caches.delete(name))));
   event.waitUntil(gone.then(() => scope.clients.claim()));
 });

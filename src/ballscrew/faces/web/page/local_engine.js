@@ -97,6 +97,8 @@ class LocalEngine {
   /** @type {Known | undefined} */
   #known;
   #isWanted = false;
+  /** Files of modules that were apart from the server. @type {Set<string>} */
+  #refused = new Set();
   /** The case that is asked for, as JSON. */
   #asked = "";
   /** @type {ReturnType<typeof setTimeout> | undefined} */
@@ -141,7 +143,7 @@ class LocalEngine {
    */
   async #take(body, about, key) {
     const { structure, oil, solver } = about;
-    if (!structure) return;
+    if (!structure || this.#refused.has(String(structure.file))) return;
     const one = /** @type {import("./engine.js").Structure} */ (/** @type {unknown} */ (structure));
     const oils = oil ? { file: oil.file, grades: { [HERE]: oil } } : { file: one.file, grades: {} };
     const contents = { structures: { [HERE]: one }, oils, solver: solver ?? "" };
@@ -229,8 +231,8 @@ class LocalEngine {
   }
 
   /**
-   * Compare the answer of the server with its own. It is done with where both are apart: that is a defect, and nobody
-   * shall see numbers that jump.
+   * Compare the answer of the server with its own. Where both are apart the module is not used again: that is a defect,
+   * which is said, and nobody shall see numbers that jump.
    *
    * @param {Body} body
    * @param {Run} answer
@@ -238,8 +240,14 @@ class LocalEngine {
   check(body, answer) {
     const values = this.valuesOf(body);
     if (!values) return;
-    const [own, theirs] = [this.at(values, [pointOf(values)]).screw_torque[0], answer.results.screw_torque];
-    if (theirs !== null && !(Math.abs(own - theirs) <= CLOSE * Math.abs(theirs))) this.#known = undefined;
+    const found = this.at(values, [pointOf(values)]);
+    const [own, theirs] = [found.screw_torque[0], answer.results.screw_torque];
+    const isClose = theirs === null ? !Number.isFinite(own) : Math.abs(own - theirs) <= CLOSE * Math.abs(theirs);
+    const file = String(this.#known?.about.structure?.file ?? "");
+    if ((isClose && Boolean(found.valid[0]) === answer.results.valid) || !file) return;
+    console.error(`the module ${file} finds ${own} N m, the server ${theirs}: it is not used again`);
+    this.#refused.add(file);
+    this.#known = undefined;
   }
 }
 
