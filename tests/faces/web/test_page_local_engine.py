@@ -8,6 +8,7 @@ import time
 import pytest
 
 from ballscrew.compiler.kernels import kernel, wasm
+from ballscrew.compiler.tracing.tape import CannotRecordError
 from ballscrew.faces.web import modules
 from ballscrew.faces.web.module_api import _answer
 from ballscrew.faces.web.modules import Modules
@@ -229,7 +230,7 @@ def test_what_cannot_be_recorded_has_no_module(monkeypatch):
 
     def failing(*_):
         tried.append(1)
-        raise modules.CannotRecordError("no such step")
+        raise CannotRecordError("no such step")
 
     monkeypatch.setattr(modules, "module_of", failing)
     monkeypatch.setattr(modules.kernel, "kept", lambda _: None)

@@ -245,7 +245,7 @@ class LocalEngine {
     const isClose = theirs === null ? !Number.isFinite(own) : Math.abs(own - theirs) <= CLOSE * Math.abs(theirs);
     const file = String(this.#known?.about.structure?.file ?? "");
     if ((isClose && Boolean(found.valid[0]) === answer.results.valid) || !file) return;
-    console.error(`the module ${file} finds ${own} N m, the server ${theirs}: it is not used again`);
+    console.error(file, own, theirs);
     this.#refused.add(file);
     this.#known = undefined;
   }
