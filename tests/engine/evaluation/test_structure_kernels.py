@@ -19,8 +19,8 @@ from ballscrew.engine.evaluation import structure_kernels
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.engine.evaluation.plan import Configuration, Plan
-from ballscrew.engine.evaluation.structure_kernels import Structure
-from ballscrew.engine.evaluation.structures import numbers_alone, recorded_structure
+from ballscrew.engine.evaluation.structure_kernels import OilFollows, Structure
+from ballscrew.engine.evaluation.structures import inputs_of_structure, numbers_alone, recorded_structure
 from ballscrew.physics.equations import hertz
 from support.structures import CASES, NUTS, OIL, ROW, assert_same, by_model, case_of, forget_structures, points_of
 
@@ -282,3 +282,9 @@ def test_an_exponent_that_is_fixed_counts_where_balls_differ():
     ready = bs.evaluator(model, screw, OIL, outputs=["screw_torque"], **{"film.speed_exponent": 0.6})
     result = changed(screw, OIL, axial_load=3e3, screw_speed=50.0)
     assert ready(3e3, 50.0)["screw_torque"] == pytest.approx(float(result.screw_torque), rel=1e-12)
+
+
+def test_an_input_that_no_kernel_has_is_refused():
+    subject = case_of("single", "reference")
+    with pytest.raises(ValueError, match=r"no inputs of the recording: film\.speed_exponent"):
+        OilFollows.of(subject, ["temperature", "film.speed_exponent"], inputs_of_structure(subject))

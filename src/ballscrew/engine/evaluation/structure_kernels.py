@@ -35,6 +35,7 @@ from ballscrew.engine.evaluation.outputs import OPERATION, known_outputs
 from ballscrew.engine.evaluation.plan import Configuration, Plan
 from ballscrew.engine.evaluation.recordings import Structures, is_as_imported
 from ballscrew.engine.evaluation.structures import (
+    OF_STATE,
     inputs_of_structure,
     numbers_alone,
     outputs_of_structure,
@@ -184,9 +185,15 @@ class OilFollows:
 
     @classmethod
     def of(cls, subject: Configuration, varying: Sequence[str], places: Collection[str]) -> OilFollows | None:
-        """Those of inputs that vary; None where all of these are inputs of the recording."""
-        if all(own_name(name) in places for name in varying):
+        """Those of inputs that vary; None where all of these are inputs of the recording.
+
+        Raises ValueError for an input that neither the recording nor the oil follows.
+        """
+        missing = [name for name in varying if own_name(name) not in places]
+        if not missing:
             return None
+        if unknown := [name for name in missing if name not in OF_STATE]:
+            raise ValueError(f"no inputs of the recording: {', '.join(unknown)}")
         of_oil = [name for name in varying if subject.inputs[name][0] == "lubricant"]
         return cls(subject, of_oil, places)
 
