@@ -217,7 +217,7 @@ def test_quantities_with_units():
 @pytest.mark.compiles
 @pytest.mark.parametrize("name", ["film.speed_exponent", "pressure_modulus_slope", "ball_to_ball_force"])
 def test_an_input_that_is_a_constant_of_most_recordings_varies(name):
-    """An exponent, and numbers that the parts leave out: one by one and as arrays, they are the numbers of the model."""
+    """Exponents and numbers that the parts leave out: one by one and as arrays, results are those of the model."""
     sheared = dataclasses.replace(MODELS["reference"], full_film=LAWS["full_film"]["limiting-shear"]())
     model = MODELS["corrected"] if name == "ball_to_ball_force" else sheared
     screw = bs.catalogue()["rexroth-40x10x6-6-double"].screw(nut=bs.DoubleNut(preload=4326.0))
