@@ -9,11 +9,15 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
+from ballscrew.engine.evaluation import by_ball
 from ballscrew.engine.evaluation.by_ball import ENOUGH_TO_RECORD
+from ballscrew.engine.evaluation.engines import KNOWN
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.evaluation.plan import Configuration, Plan
+from ballscrew.engine.evaluation.recordings import Structures
 from ballscrew.physics.friction.loaded_balls import loads_of
+from support.structures import forget_structures
 
 OIL = bs.Lubricant.from_grade("ISO VG 100", 313.15)
 OLARU, REFERENCE = bs.FrictionModel.olaru2005(), bs.FrictionModel.reference()
@@ -219,3 +223,22 @@ def test_sizes_that_vary_at_one_preload(kind):
     outputs = ["screw_torque", "rigidity", "remaining_preload"]
     plan = plan_of(NUTS[kind], OLARU, outputs, {**POINTS, "lead": sizes})
     assert_same(filled(plan, "compiled"), filled(plan, "numpy"))
+
+
+@pytest.mark.compiles
+def test_of_what_goes_to_a_file_no_bit_depends_on_the_kernels_that_are_kept(monkeypatch, tmp_path):
+    """Neither on what this process has compiled, nor on what was asked of it before."""
+    forget_structures(monkeypatch, tmp_path)
+    monkeypatch.setattr(by_ball, "_structures", Structures())
+    plan = plan_of(NUTS["scattered"])
+    found = []
+    for _ in range(2):
+        evaluation = Evaluation.of(plan, recorded=True)
+        results = evaluation.empty(plan.total)
+        evaluation.fill(results, slice(0, plan.total))
+        found.append(
+            (evaluation.attributes, evaluation.fingerprint, {name: v.tobytes() for name, v in results.items()})
+        )
+        assert Evaluation.of(plan, "compiled").engine == "compiled"
+        assert Evaluation.of(plan).reason == KNOWN  # what is only looked at is quicker
+    assert found[0] == found[1]

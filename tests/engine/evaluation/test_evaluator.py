@@ -13,6 +13,7 @@ from ballscrew.engine.evaluation.derivatives import derivatives
 from ballscrew.engine.evaluation.outputs import DEFAULT_OUTPUTS, known_outputs
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 from ballscrew.physics.components import laws
+from ballscrew.physics.friction.law_names import LAWS
 
 MODELS = {name: getattr(bs.FrictionModel, name)() for name in ("olaru2005", "corrected", "reference")}
 ENGINES = ["numpy", pytest.param("compiled", marks=pytest.mark.compiles)]
@@ -211,3 +212,25 @@ def test_quantities_with_units():
     assert np.array_equal(found, f([1000.0, 2000.0], 60.0)["screw_torque"])
     with pytest.raises(bs.InputError, match=r"evaluator\.axial_load: wrong unit"):
         f(1.0 * unit.mm, 60.0)
+
+
+@pytest.mark.compiles
+@pytest.mark.parametrize("name", ["film.speed_exponent", "pressure_modulus_slope", "ball_to_ball_force"])
+def test_an_input_that_is_a_constant_of_most_recordings_varies(name):
+    """Exponents and numbers that the parts leave out: one by one and as arrays, results are those of the model."""
+    sheared = dataclasses.replace(MODELS["reference"], full_film=LAWS["full_film"]["limiting-shear"]())
+    model = MODELS["corrected"] if name == "ball_to_ball_force" else sheared
+    screw = bs.catalogue()["rexroth-40x10x6-6-double"].screw(nut=bs.DoubleNut(preload=4326.0))
+    oil = bs.Lubricant.from_grade("ISO VG 100", 313.15)
+    values = {
+        "film.speed_exponent": (0.6, 0.7),
+        "pressure_modulus_slope": (0.01, 0.04),
+        "ball_to_ball_force": (0.5, 5.0),
+    }
+    f = bs.evaluator(model, screw, oil, inputs=(*INPUTS[:2], name), outputs=("screw_torque",))
+    found = f(5e3, 30.0, np.array(values[name]))["screw_torque"]
+    points = {"axial_load": 5e3, "screw_speed": 30.0, name: list(values[name])}
+    expected = bs.sweep(model, screw, oil, outputs=["screw_torque"], engine="model", **points)["screw_torque"]
+    assert abs(found[1] - found[0]) > 1e-6
+    np.testing.assert_allclose(found, expected.to_numpy(), rtol=1e-11)
+    np.testing.assert_allclose([f(5e3, 30.0, x)["screw_torque"] for x in values[name]], found, rtol=1e-12)

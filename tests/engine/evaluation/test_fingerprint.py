@@ -6,14 +6,17 @@ import os
 import subprocess
 import sys
 import threading
+import time
 import types
 
 import numpy as np
 import pytest
 
 import ballscrew as bs
+from ballscrew.basis import version
 from ballscrew.compiler.tracing.tape import CannotRecordError
 from ballscrew.engine.evaluation import evaluation as evaluations
+from ballscrew.engine.evaluation import fingerprint
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.plan import Configuration, Plan
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
@@ -356,3 +359,16 @@ def test_a_law_sent_to_another_process_is_the_same():
             assert fingerprint_of(sent) == fingerprint_of(law), held
     finally:
         cloudpickle.unregister_pickle_by_value(sys.modules[__name__])
+
+
+@pytest.mark.parametrize("name", ["exports/wasm_modules.py", "data/oil_grades.toml", "physics/friction/model.py"])
+def test_whatever_modules_and_kernels_follow_from_counts(monkeypatch, tmp_path, name):
+    file = tmp_path / name
+    file.parent.mkdir(parents=True)
+    monkeypatch.setattr(fingerprint, "_FOLDER", tmp_path)
+    monkeypatch.setattr(version, "IMPORTED_AT", time.time() + 60.0, raising=False)
+    found = []
+    for content in ("a", "b", "a"):
+        file.write_text(content)
+        found.append(fingerprint.recorder_digest.__wrapped__())
+    assert found[0] == found[2] != found[1]

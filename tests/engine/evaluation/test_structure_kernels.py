@@ -5,8 +5,11 @@ from __future__ import annotations
 import dataclasses
 import json
 import os
+import shutil
 import subprocess
 import sys
+import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,8 +22,8 @@ from ballscrew.engine.evaluation import structure_kernels
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.engine.evaluation.plan import Configuration, Plan
-from ballscrew.engine.evaluation.structure_kernels import Structure
-from ballscrew.engine.evaluation.structures import numbers_alone, recorded_structure
+from ballscrew.engine.evaluation.structure_kernels import OilFollows, Structure
+from ballscrew.engine.evaluation.structures import inputs_of_structure, numbers_alone, recorded_structure
 from ballscrew.physics.equations import hertz
 from support.structures import CASES, NUTS, OIL, ROW, assert_same, by_model, case_of, forget_structures, points_of
 
@@ -282,3 +285,44 @@ def test_an_exponent_that_is_fixed_counts_where_balls_differ():
     ready = bs.evaluator(model, screw, OIL, outputs=["screw_torque"], **{"film.speed_exponent": 0.6})
     result = changed(screw, OIL, axial_load=3e3, screw_speed=50.0)
     assert ready(3e3, 50.0)["screw_torque"] == pytest.approx(float(result.screw_torque), rel=1e-12)
+
+
+def test_an_input_that_no_kernel_has_is_refused():
+    subject = case_of("single", "reference")
+    with pytest.raises(ValueError, match=r"no inputs of the recording: film\.speed_exponent"):
+        OilFollows.of(subject, ["temperature", "film.speed_exponent"], inputs_of_structure(subject))
+
+
+#: A process that keeps a kernel, whose source has changed since it was imported or not.
+LONG_RUNNING = """
+import sys
+import time
+from pathlib import Path
+from pathlib import Path
+import ballscrew as bs
+from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
+from ballscrew.engine.evaluation import fingerprint
+model = bs.FrictionModel.olaru2005()
+file = Path(bs.__file__).with_name("physics") / "friction" / "model.py"
+assert sys.argv[1] in str(file)
+if sys.argv[2] == "changed":
+    file.write_text(file.read_text() + "# another source")
+f = bs.evaluator(model, SCREW, OIL, outputs=["screw_torque"])
+print(f.engine_reason, float(f(1e3, 10.0)["screw_torque"]))
+"""
+
+
+def test_a_process_whose_source_has_changed_keeps_nothing(tmp_path):
+    """What it computes is what it imported, whatever its files say now; it is no slower."""
+    shutil.copytree(Path(bs.__file__).parent, tmp_path / "ballscrew", ignore=shutil.ignore_patterns("__pycache__"))
+    time.sleep(0.1)
+    said = {}
+    for how in ("changed", "same"):
+        cache = tmp_path / how
+        environment = {**os.environ, "PYTHONPATH": str(tmp_path), "BALLSCREW_CACHE": str(cache)}
+        command = [sys.executable, "-c", LONG_RUNNING, str(tmp_path), how]
+        said[how] = subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout
+        kept = list((cache / "kernels").iterdir()) if (cache / "kernels").exists() else []
+        assert bool(kept) == (how == "same"), kept
+    assert said["changed"] == said["same"]
+    assert "is there" in said["same"]

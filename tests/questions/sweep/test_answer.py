@@ -2,14 +2,17 @@
 
 import pytest
 
+from ballscrew import evaluator
 from ballscrew.basis.output.json_text import plain
 from ballscrew.cases.case_files import case_file
+from ballscrew.engine.evaluation.engines import KNOWN
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.shared import declared
 from ballscrew.questions.sweep import band, compute, document
 from ballscrew.questions.sweep.answer import SweepResults
 from support.answers import undescribed
 from support.commands import ROOT
+from support.structures import forget_structures
 
 CASE = case_file.load(ROOT / "examples" / "olaru2005.toml")
 AXES = ("axial_load=1:4:3 kN", "screw_speed=10,100 rpm")
@@ -36,3 +39,18 @@ def test_every_output_is_in_the_document_as_it_is_in_the_dataset(banded):
 
 def test_every_part_is_described():
     assert list(undescribed(SweepResults)) == []
+
+
+@pytest.mark.compiles
+@pytest.mark.parametrize("name", ["map.nc", "map.csv"])
+def test_no_bit_of_a_file_depends_on_the_kernels_that_are_kept(monkeypatch, tmp_path, name):
+    forget_structures(monkeypatch, tmp_path / "cache")
+    to = tmp_path / name
+    plan = compute.plan(CASE, AXES, ("efficiency", "screw_torque"), to)
+    before = compute.sweep(CASE, plan, to=to)
+    banded = band.with_band(CASE, plan, before, BandOptions(samples=64), recorded=True)
+    assert evaluator(CASE.model, CASE.screw, CASE.lubricant).engine_reason == KNOWN
+    band.with_band(CASE, plan, before, BandOptions(samples=4096))  # so many that a kernel is compiled
+    assert compute.sweep(CASE, plan).engine_reason == KNOWN  # what is only looked at is quicker
+    assert compute.sweep(CASE, plan, to=to).identical(before)
+    assert band.with_band(CASE, plan, before, BandOptions(samples=64), recorded=True).identical(banded)

@@ -158,8 +158,8 @@ def by_ball(
     """A plan for a nut whose balls differ, made ready; or the reason why the model itself has to evaluate it.
 
     ``varying`` names the inputs that vary where it is not the axes of the plan. Without an ``engine`` little work is
-    left to the model itself, unless it is ``always`` recorded, until so much of its kind has been asked for that a
-    recording pays.
+    left to the model itself until so much of its kind has been asked for that a recording pays. With ``always`` it is
+    recorded however little it is, and neither what is compiled nor what was asked for before counts.
     """
     names = inputs_of_structure(plan.subject, [*plan.axes, *(varying or ())])
     wanted = outputs_of_structure(plan.subject, plan.outputs)
@@ -170,7 +170,7 @@ def by_ball(
     for quick in (False, True) if key is not None and engine != "numpy" else ():
         name = name_of(f"by ball, {quick}", plan.subject, tuple(wanted), names)
         cut: CutByBall | None = None if name is None else kept.get(name, _read)
-        if cut is not None and (not quick or work < ENOUGH_TO_OPTIMISE):
+        if cut is not None and (engine or not always) and (not quick or work < ENOUGH_TO_OPTIMISE):
             return ByBall(plan, cut, "compiled", ASKED_FOR if engine else KNOWN)
         kept_as |= {} if name is None else {quick: name}
     made_of = None if key is None else _structures.get(key)
@@ -184,7 +184,8 @@ def by_ball(
             program = recorded_structure(subject, wanted, names)
             made_of = Recording(program) if key is None else _structures.add(key, program)
         is_quick = len(made_of.program.steps) > MOST_STEPS_OPTIMISED and work < ENOUGH_TO_OPTIMISE
-        return _by_an_engine(plan, engine, names, made_of, asked, (kept_as.get(is_quick), 0 if is_quick else None))
+        how = kept_as.get(is_quick), 0 if is_quick else None
+        return _by_an_engine(plan, engine, names, made_of, work if always else asked, how, anew=always)
     except CannotRecordError as error:
         return f"the model itself, on plain arrays: {error}"
 
@@ -196,13 +197,15 @@ def _by_an_engine(
     made_of: Recording,
     asked: int,
     how: tuple[str | None, int | None],
+    *,
+    anew: bool,
 ) -> ByBall | str:
     stages, cut = made_of.once("stages", lambda: stages_by_ball(made_of.program, names))
     why = why_numpy(engine)
     try:
         if engine != "numpy" and kernels.available():
             text = _text(made_of, stages, cut)
-            if engine or worth_compiling(cut.points, asked, text):
+            if engine or worth_compiling(cut.points, asked, text, anew=anew):
                 found = _compiled(CutByBall.of(stages, cut, names, f"{text}\n{made_of.program.text}"), text, *how)
                 return ByBall(plan, found, "compiled", ASKED_FOR if engine else PAYS)
     except UnknownOperationError as unknown:

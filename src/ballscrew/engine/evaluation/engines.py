@@ -69,9 +69,12 @@ def may_be_compiled(program: Program, points: int, engine: Engine | None) -> boo
     return engine == "compiled" or _numpy_seconds(program, points) > SHORT_SECONDS
 
 
-def worth_compiling(program: Program, points: int, text: str) -> bool:
-    """True where a kernel is faster than NumPy: already compiled, or worth its compile time."""
-    if kernels.is_cached(text):
+def worth_compiling(program: Program, points: int, text: str, *, anew: bool = False) -> bool:
+    """True where a kernel is faster than NumPy: already compiled, unless that may not count, or worth its compile time.
+
+    With ``anew`` it is said as where nothing is compiled yet.
+    """
+    if not anew and kernels.is_cached(text):
         return True
     return _numpy_seconds(program, points) > COMPILING_SECONDS + COMPILING_STEP_SECONDS * len(program.steps)
 

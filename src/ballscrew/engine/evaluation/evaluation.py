@@ -139,7 +139,7 @@ class Evaluation:
             why = why_numpy(engine)
             if may_be_compiled(program, points, engine):
                 made = (_Grid.of(plan) if times == 1 else None) or _Points.of(plan, made_of)
-                if engine or worth_compiling(made.program, points, made.text):
+                if engine or worth_compiling(made.program, points, made.text, anew=recorded):
                     chosen = ASKED_FOR if engine else PAYS
                     identify = functools.partial(_fingerprint, plan, "compiled", program, lambda: made.formulas)
                     return cls(plan, "compiled", chosen, identify, made.compiled(), LARGEST_BLOCK, made.row_length)

@@ -160,7 +160,7 @@ class Evaluator:
 
     def _structure_kernel(self, plan: Plan) -> StructureKernel | None:
         """The kernel for all numbers of such a screw, where the inputs are among them; compiled now if it is new."""
-        structure = Structure(plan.subject, plan.outputs, list(plan.axes))
+        structure = Structure(plan.subject, plan.outputs, list(dict.fromkeys((*plan.axes, *self.inputs))))
         return structure.kernel()
 
     def _prepare_by_ball(self, plan: Plan, fixed: Mapping[str, Any], engine: Engine | None) -> None:

@@ -10,6 +10,7 @@ fingerprint is random.
 
 from __future__ import annotations
 
+import contextlib
 import copyreg
 import dataclasses
 import enum
@@ -26,6 +27,7 @@ from typing import Any
 
 import numpy as np
 
+from ballscrew.basis import version
 from ballscrew.engine.evaluation.origins import library, name_in_library, origin
 
 #: Names by which code gets at what is not among its values: files, the environment, other code.
@@ -49,9 +51,12 @@ _GENERATED = frozenset({
     "__init__", "__repr__", "__eq__", "__lt__", "__le__", "__gt__", "__ge__", "__setattr__", "__delattr__",
     "__replace__",
 })  # fmt: skip
-#: The folder of the package, and the folders in it whose source a recording follows from.
+#: The folder of the package, and the files in it that a recording, its kernel and its module follow from.
 _FOLDER = Path(__file__).parents[2]
-_OF_RECORDINGS = ("basis", "compiler", "physics", "engine")
+_OF_RECORDINGS = ("basis/**/*.py", "compiler/**/*.py", "physics/**/*.py", "engine/**/*.py",
+                  "exports/wasm_modules.py", "data/*.toml")  # fmt: skip
+#: How coarse the clock of files may be, in seconds.
+_TICK = 0.02
 _PLAIN = frozenset({type(None), bool, int, float, complex, str, bytes, type(...)})
 _SLOTS = types.MemberDescriptorType, types.GetSetDescriptorType
 _COMPILED = types.MethodDescriptorType, types.WrapperDescriptorType, types.ClassMethodDescriptorType
@@ -97,9 +102,27 @@ def package_digest() -> str:
 
 @functools.cache
 def recorder_digest() -> str:
-    """A digest of what a recording and its kernel follow from: the source of four folders, Python and NumPy."""
-    found = _digest_of(path for name in _OF_RECORDINGS for path in (_FOLDER / name).rglob("*.py"))
+    """A digest of what a recording, its kernel and its module follow from: source and data, Python and NumPy.
+
+    It is random where files have changed since the import: what runs is what they were before.
+    """
+    found = _digest_of(_files_of_recordings())
+    if not stands_as_imported():  # asked after reading, so that no change falls between
+        found = secrets.token_hex(32)
     return f"{found} {sys.version} {np.__version__}"
+
+
+def stands_as_imported() -> bool:
+    """Return whether no file that a recording follows from has changed since the package was imported."""
+    with contextlib.suppress(OSError):  # removed just now
+        # whoever installs a package may set back the time of the content, but not that of the file
+        changed = (max(status.st_mtime, status.st_ctime) for status in map(Path.stat, _files_of_recordings()))
+        return max(changed, default=0.0) < version.IMPORTED_AT - _TICK
+    return False
+
+
+def _files_of_recordings() -> list[Path]:
+    return [path for pattern in _OF_RECORDINGS for path in _FOLDER.glob(pattern)]
 
 
 def _digest_of(paths: Iterable[Path]) -> str:

@@ -30,11 +30,12 @@ from ballscrew.compiler.tracing.merging import merged_program
 from ballscrew.compiler.tracing.program import Interpreter, Program, Source
 from ballscrew.compiler.tracing.tape import CannotRecordError, Tape
 from ballscrew.engine.evaluation.engines import ENOUGH_TO_COMPILE
-from ballscrew.engine.evaluation.fingerprint import recorder_digest
+from ballscrew.engine.evaluation.fingerprint import recorder_digest, stands_as_imported
 from ballscrew.engine.evaluation.outputs import OPERATION, known_outputs
 from ballscrew.engine.evaluation.plan import Configuration, Plan
 from ballscrew.engine.evaluation.recordings import Structures, is_as_imported
 from ballscrew.engine.evaluation.structures import (
+    OF_STATE,
     inputs_of_structure,
     numbers_alone,
     outputs_of_structure,
@@ -184,9 +185,15 @@ class OilFollows:
 
     @classmethod
     def of(cls, subject: Configuration, varying: Sequence[str], places: Collection[str]) -> OilFollows | None:
-        """Those of inputs that vary; None where all of these are inputs of the recording."""
-        if all(own_name(name) in places for name in varying):
+        """Those of inputs that vary; None where all of these are inputs of the recording.
+
+        Raises ValueError for an input that neither the recording nor the oil follows.
+        """
+        missing = [name for name in varying if own_name(name) not in places]
+        if not missing:
             return None
+        if unknown := [name for name in missing if name not in OF_STATE]:
+            raise ValueError(f"no inputs of the recording: {', '.join(unknown)}")
         of_oil = [name for name in varying if subject.inputs[name][0] == "lubricant"]
         return cls(subject, of_oil, places)
 
@@ -350,9 +357,14 @@ class Structure:
 
 
 def keep(name: str, header: Mapping[str, Any], machine_code: bytes) -> None:
-    """Keep machine code on disk, with a header of names and numbers; what JSON does not know stays in this process."""
+    """Keep machine code on disk, with a header of names and numbers; what JSON does not know stays in this process.
+
+    So does all of it where the source has changed since it was imported.
+    """
     with contextlib.suppress(TypeError):
-        kernels.keep(name, json.dumps(header, default=_plain).encode(), machine_code)
+        text = json.dumps(header, default=_plain).encode()
+        if stands_as_imported():
+            kernels.keep(name, text, machine_code)
 
 
 def _plain(value: Any) -> Any:

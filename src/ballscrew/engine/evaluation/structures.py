@@ -35,7 +35,7 @@ from ballscrew.physics.solvers.load_distribution import BallLoads, KindLoads
 #: What each ball has of the solved loads.
 OF_BALLS = ("forward_load", "backward_load", "forward_angle", "backward_angle")
 #: What sets numbers of the oil, which are inputs themselves.
-_OF_STATE = frozenset({TEMPERATURE.name, *INPUTS_OF_SHEET})
+OF_STATE = frozenset({TEMPERATURE.name, *INPUTS_OF_SHEET})
 #: What no recording depends on: only the solver of the loads does, or only what has set numbers that are inputs.
 _ASIDE = frozenset({"bodies", "deviations", "grade", "sheet", "temperature", "made_as"})
 #: Outputs that are recorded together.
@@ -57,7 +57,7 @@ def inputs_of_structure(subject: Configuration, varying: Sequence[str] = ()) -> 
     for name, (part, _) in subject.inputs.items():
         own = own_name(name)
         is_exponent = part == "model" and name.rpartition(".")[2].endswith("exponent") and name not in varied
-        if part == "operation" or name in _OF_STATE or own in seen or is_exponent:
+        if part == "operation" or name in OF_STATE or own in seen or is_exponent:
             continue
         seen.add(own)
         if own in varied or read_input(parts[part], name) is not None:

@@ -90,7 +90,24 @@ def sweep(
             plan, to, engine=engine, block_size=block_size, threads=threads, done=done, cluster=cluster,
             verify=verify, trust=trust,
         )  # fmt: skip
-    evaluation = Evaluation.of(plan, engine)
+    return in_memory(plan, engine, block_size=block_size, threads=threads, done=done)
+
+
+def in_memory(
+    plan: Plan,
+    engine: SweepEngine | None = None,
+    *,
+    block_size: int | None = None,
+    threads: int | None = None,
+    done: Callable[[int, int], None] | None = None,
+    recorded: bool = False,
+) -> xr.Dataset:
+    """The dataset of a plan; ``recorded`` as of :meth:`~ballscrew.engine.evaluation.evaluation.Evaluation.of`.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for an engine that cannot be had, and for bad values of an axis
+    that is checked where it is read.
+    """
+    evaluation = Evaluation.of(plan, engine, recorded=recorded)
     results = evaluation.empty(plan.total)
     evaluation.fill(results, slice(0, plan.total), block_size=block_size, threads=threads, done=done)
     return plan.dataset(results).assign_attrs(evaluation.attributes)

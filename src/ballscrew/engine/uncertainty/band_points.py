@@ -69,9 +69,10 @@ def bands_of(
     level: float,
     engine: SweepEngine | None,
     done: Callable[[int], None] | None = None,
+    recorded: bool = False,
 ) -> PointBands:
     """The bands of :func:`~ballscrew.engine.uncertainty.bands.band` at the points of a group; ``done`` gets the
-    samples.
+    samples, and ``recorded`` is as of :meth:`~ballscrew.engine.evaluation.evaluation.Evaluation.of`.
     """
     computed = evaluated_outputs(outputs)
     evaluator = BandEvaluator.of(
@@ -82,7 +83,7 @@ def bands_of(
     points = len(group.uncertain)
     ends = {name: np.full((5, points), np.nan) for name in outputs}
     invalid = np.empty(points)
-    for place, found in enumerate(_samples(group, evaluator, shares, engine, done)):
+    for place, found in enumerate(_samples(group, evaluator, shares, engine, done, recorded=recorded)):
         factor = sample_law_factors(evaluator.law_factors_at(place), shares[evaluator.inputs :])
         both = Sample(**{name: found[name] for name in computed}, factor=factor)
         alone = both._replace(factor=np.ones(1))
@@ -106,6 +107,8 @@ def _samples(
     shares: Values,
     engine: SweepEngine | None,
     done: Callable[[int], None] | None,
+    *,
+    recorded: bool,
 ) -> Iterator[dict[str, NDArray[Any]]]:
     """The outputs of the samples of each point."""
     points, count = len(group.uncertain), shares.shape[1]
@@ -122,7 +125,7 @@ def _samples(
         axes = {name: xr.DataArray(values, dims="sample") for name, values in drawn.at(places).items()}
         if evaluation is None:
             plan = Plan.of(group.subject, evaluator.sampler.outputs, {**drawn.constant, **axes}, "samples")
-            evaluation = Evaluation.of(plan, engine, math.ceil(points / at_a_time))
+            evaluation = Evaluation.of(plan, engine, math.ceil(points / at_a_time), recorded=recorded)
         else:
             evaluation = evaluation.at(axes)
         total = len(places) * count

@@ -117,7 +117,7 @@ def sweep(
         if banded:
             from ballscrew.questions.sweep.band import with_band  # for those only who ask
 
-            dataset = with_band(loaded, plan, dataset, options.of_bands, done)
+            dataset = with_band(loaded, plan, dataset, options.of_bands, done, recorded=to is not None)
     if verbose:
         say_engine(dataset.attrs)
     if as_json:

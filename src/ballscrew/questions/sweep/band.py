@@ -44,13 +44,20 @@ class _Inputs(NamedTuple):
 
 @overflow_as_input_error()
 def with_band(
-    case: Case, plan: Plan, dataset: xr.Dataset, options: BandOptions, done: Callable[[int, int], None] | None = None
+    case: Case,
+    plan: Plan,
+    dataset: xr.Dataset,
+    options: BandOptions,
+    done: Callable[[int, int], None] | None = None,
+    *,
+    recorded: bool = False,
 ) -> xr.Dataset:
     """The dataset of a sweep with the ends of the band of each output, and of the validity, beside it.
 
     At each point they are those of :func:`~ballscrew.questions.band.compute.band` of the case with the point's values
     in place: an uncertain input that is varied has there what its default says of the new value. ``done`` gets the
-    samples. Points that cannot be have no band. Raises :class:`~ballscrew.basis.errors.InputError` that names options
+    samples. Points that cannot be have no band. For a file samples are ``recorded``: no bit depends on the kernels that
+    are kept. Raises :class:`~ballscrew.basis.errors.InputError` that names options
     of the command line.
     """
     count = options.samples
@@ -74,7 +81,9 @@ def with_band(
             if done is not None:
                 done(start + finished, total)
 
-        found = bands_of(group, plan.outputs, count=count, seed=_SEED, level=level, engine=None, done=tell)
+        found = bands_of(
+            group, plan.outputs, count=count, seed=_SEED, level=level, engine=None, done=tell, recorded=recorded
+        )
         for name, both in ends.items():
             for end, values in zip(both, found.both[name], strict=True):
                 end[places] = values

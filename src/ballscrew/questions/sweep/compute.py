@@ -406,16 +406,18 @@ def sweep(
         wanted = tuple(name for name in names if name not in _heat())
         return self_heating.swept(case, wanted, {**plan.axes, **fixed}, done)
     oil = {f"lubricant_{name}": value for name, value in case.oil.items() if name not in plan.axes}
+    subject = Configuration(case.model, case.screw, case.lubricant)
     if to is not None and is_store(to):
-        subject = Configuration(case.model, case.screw, case.lubricant)
         swept = Swept.of(subject, tuple(names), varied | fixed)
         return stream(swept, to, done=done, cluster=cluster, attributes=oil, verify=verify, trust=trust)
-    # files of all kinds have the same bits; what is only looked at may be quicker
-    few = to is None and math.prod(len(values) for values in plan.axes.values()) <= FEW_POINTS
-    few &= not case.screw.nut.one_by_one  # balls that differ count how often they are asked for
+    if to is not None:  # files of all kinds have the same bits, whatever is compiled already
+        return sweeps.in_memory(
+            Swept.of(subject, tuple(names), varied | fixed, later=True), done=done, recorded=True
+        ).assign_attrs(oil)
+    # what is only looked at may be quicker
+    points = math.prod(len(values) for values in plan.axes.values())
+    few = points <= FEW_POINTS and not case.screw.nut.one_by_one  # balls that differ count how often they are asked for
     if few:  # other nuts do so here
-        subject = Configuration(case.model, case.screw, case.lubricant)
-        points = math.prod(len(values) for values in plan.axes.values())
         few = Structure(subject, tuple(names), [*varied, *fixed]).ready(points) is None
     dataset = sweeps.sweep(
         case.model, case.screw, case.lubricant, outputs=tuple(names),
