@@ -109,7 +109,7 @@ def test_a_single_file_takes_the_place_of_a_folder(files, tmp_path):
     site.write(tmp_path, files)
     site.write(tmp_path, {"index.html": site._MARK.encode()})
     assert "unregister" in (tmp_path / "service_worker.js").read_text()
-    assert not [path for path in tmp_path.rglob("*.wasm*")]
+    assert not list(tmp_path.rglob("*.wasm*"))
     assert not list(tmp_path.glob("page-*"))
 
 

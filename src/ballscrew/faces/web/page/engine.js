@@ -135,7 +135,7 @@ export class Kernel {
  */
 function inputOf(values, name) {
   const value = values[name];
-  if (value === undefined) throw new Error(`no value of ${name}`);
+  if (value === undefined) throw new RangeError(name);
   return value ?? Number.NaN; // what is not given
 }
 
@@ -354,7 +354,7 @@ export class Engine {
   /** @param {string} file */
   #loaded(file) {
     const kernel = this.#ready.get(file);
-    if (kernel === undefined) throw new Error(`${file} is not loaded`);
+    if (kernel === undefined) throw new RangeError(file);
     return kernel;
   }
 
