@@ -38,6 +38,7 @@ ALLOWED = {
     "checks.js": {'name.replaceAll("_", " ")': NAMES},
     "compare.js": {'row.slot.replaceAll("_", " ")': NAMES},
     "consequences.js": {'path.split(".")': PATHS},
+    "engine.js": {'structure.split("/")': NAMES},
     "designs.js": {"const NOT_IN_FILES = ": ADDRESSES, "file?.replace(": ADDRESSES,
                    "replaceAll(NOT_IN_FILES": ADDRESSES, 'path.split(".")': PATHS, 'one.split(".")': PATHS},
     "dom.js": {'/[",\\n]/.test(text)': "a cell of CSV"},

@@ -166,13 +166,10 @@ def by_ball(
     work = plan.total * times * plan.subject.balls
     why = "the model itself, on plain arrays: the work is too short to record it"
     key = structure_key(plan.subject, tuple(wanted), names)
-    kept_as: dict[bool, str] = {}
-    for quick in (False, True) if key is not None and engine != "numpy" else ():
-        name = name_of(f"by ball, {quick}", plan.subject, tuple(wanted), names)
-        cut: CutByBall | None = None if name is None else kept.get(name, _read)
-        if cut is not None and (engine or not always) and (not quick or work < ENOUGH_TO_OPTIMISE):
-            return ByBall(plan, cut, "compiled", ASKED_FOR if engine else KNOWN)
-        kept_as |= {} if name is None else {quick: name}
+    kept_as = {} if key is None or engine == "numpy" else _names(plan.subject, tuple(wanted), names)
+    cut = _kept_of(kept_as, work) if engine or not always else None
+    if cut is not None:
+        return ByBall(plan, cut, "compiled", ASKED_FOR if engine else KNOWN)
     made_of = None if key is None else _structures.get(key)
     asked = work if key is None else _structures.asked(key, work)
     enough = ENOUGH_TO_RECORD if plan.subject.nut.contacts_per_ball == 2 else ENOUGH_OF_FOUR_CONTACTS
@@ -188,6 +185,21 @@ def by_ball(
         return _by_an_engine(plan, engine, names, made_of, work if always else asked, how, anew=always)
     except CannotRecordError as error:
         return f"the model itself, on plain arrays: {error}"
+
+
+def _names(subject: Configuration, outputs: tuple[str, ...], names: Sequence[str]) -> dict[bool, str]:
+    """The names under which kernels are kept, by whether they were compiled quickly."""
+    found = {quick: name_of(f"by ball, {quick}", subject, outputs, names) for quick in (False, True)}
+    return {quick: name for quick, name in found.items() if name is not None}
+
+
+def _kept_of(kept_as: Mapping[bool, str], work: int) -> CutByBall | None:
+    """What is kept, the optimised one first; one that was compiled quickly is not for long work."""
+    for quick, name in kept_as.items():
+        cut: CutByBall | None = kept.get(name, _read)
+        if cut is not None and (not quick or work < ENOUGH_TO_OPTIMISE):
+            return cut
+    return None
 
 
 def _by_an_engine(
