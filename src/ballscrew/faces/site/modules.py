@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 
 from ballscrew.compiler.kernels import kernel
-from ballscrew.engine.evaluation.structure_kernels import name_of
+from ballscrew.engine.evaluation.structure_kernels import keep, name_of
 from ballscrew.engine.evaluation.structures import inputs_of_structure
 from ballscrew.exports.wasm_modules import (
     BALL,
@@ -40,5 +40,5 @@ def module_of_structure(model: str, kind: str) -> Module:
         return Module.of(json.loads(found[0]), found[1])
     made = module_of(subject)
     if name is not None:
-        kernel.keep(name, json.dumps(made.described).encode(), made.code)
+        keep(name, made.described, made.code)
     return made

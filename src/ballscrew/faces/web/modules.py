@@ -21,7 +21,7 @@ from ballscrew.basis.quantities import quantities_of
 from ballscrew.compiler.kernels import kernel, wasm
 from ballscrew.engine.evaluation.fingerprint import recorder_digest
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.engine.evaluation.structure_kernels import name_of
+from ballscrew.engine.evaluation.structure_kernels import keep, name_of
 from ballscrew.engine.evaluation.structures import inputs_of_structure
 from ballscrew.exports.wasm_modules import (
     OUTPUTS,
@@ -129,7 +129,7 @@ class Modules:
             made: KeptModule | str
             try:
                 made = make()
-                kernel.keep(name, json.dumps(made.document).encode(), made.code)
+                keep(name, made.document, made.code)
             except (
                 Exception
             ) as error:  # whatever it is, the next structure is made, and the page works without this one
