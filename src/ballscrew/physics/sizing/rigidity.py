@@ -134,7 +134,7 @@ def rigidity_iso3408(
             assumed.append(
                 translatable("the load is beyond that which relieves one half: there the nut is stiffer than R_nu says")
             )
-    elif holds_somewhere((load == 0) & (preload <= 0)):
+    elif holds_somewhere(load == 0):
         assumed.append(translatable("no rigidity of the nut: without preload it takes a load"))
     if isinstance(nut, OversizeBallNut):
         assumed.append(
