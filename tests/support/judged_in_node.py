@@ -6,7 +6,8 @@ import subprocess
 from pathlib import Path
 
 from ballscrew.faces.site import kinds
-from support.modules_in_node import NODE, PAGE, Modules
+from support.modules_in_node import PAGE, Modules
+from support.node import node
 
 SCRIPT = Path(__file__).with_name("node_judgements.mjs")
 
@@ -30,7 +31,7 @@ class JudgedPage(Modules):
     def judged(self, points):
         """What the page finds at points."""
         (self.folder / "points.json").write_text(json.dumps({"contents": self.contents, "points": points}))
-        command = [NODE, SCRIPT, PAGE, self.folder]
+        command = [node(), SCRIPT, PAGE, self.folder]
         done = subprocess.run(command, capture_output=True, text=True, timeout=600)
         assert done.returncode == 0, done.stderr
         return json.loads((self.folder / "judged.json").read_text())

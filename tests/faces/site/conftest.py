@@ -4,19 +4,16 @@ from __future__ import annotations
 
 import functools
 import http.server
-import shutil
 import threading
 from pathlib import Path
 from typing import Any
 
 import pytest
-from playwright.sync_api import Page, sync_playwright
+from playwright.sync_api import Page
 
 from ballscrew.compiler.kernels import wasm
 from ballscrew.faces.site import site
 
-BROWSERS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
-CHROMIUM = next(filter(None, map(shutil.which, BROWSERS)), None)
 #: A row, and nuts with a preload, rigid and elastic: what differs in the page.
 MODELS = ("reference",)
 NUTS = ("row", "double", "double+elastic")
@@ -54,16 +51,6 @@ def address(folder):
     yield f"http://127.0.0.1:{server.server_port}/{PATH}"
     server.shutdown()
     server.server_close()
-
-
-@pytest.fixture(scope="session")
-def browser():
-    if CHROMIUM is None:
-        pytest.skip("needs chromium: apt-get install chromium")
-    with sync_playwright() as playwright:
-        found = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"], timeout=180_000)
-        yield found
-        found.close()
 
 
 class Visit:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import re
-import shutil
 import signal
 import tempfile
 import tomllib
@@ -16,7 +15,7 @@ from typing import Any, Literal
 import httpx
 import psutil
 import pytest
-from playwright.sync_api import ConsoleMessage, Error, Page, Request, sync_playwright
+from playwright.sync_api import ConsoleMessage, Error, Page, Request
 
 from support.commands import Commands
 
@@ -138,10 +137,6 @@ def elastic():
 
 # -- the page in a browser --------------------------------------------------------------------------
 
-#: The first has no window, nor what fills in forms there: a third of the work of a key that is typed.
-BROWSERS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
-CHROMIUM = next(filter(None, map(shutil.which, BROWSERS)), None)
-
 
 class Visit:
     """Somebody at the page: what they see, and what went wrong behind it."""
@@ -245,16 +240,6 @@ class Visit:
 
     def posts(self) -> int:
         return sum("/api/v1/" in one for one in self.requests)
-
-
-@pytest.fixture(scope="session")
-def browser():
-    if CHROMIUM is None:
-        pytest.skip("needs chromium: apt-get install chromium")
-    with sync_playwright() as playwright:
-        found = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"], timeout=180_000)
-        yield found
-        found.close()
 
 
 @pytest.fixture(scope="session")

@@ -21,7 +21,7 @@ def test_headers(server, path, status):
     assert found.status_code == status
     assert all(found.headers[name] for name in STRICT)
     assert "'unsafe-eval'" not in found.headers["content-security-policy"]
-    assert "script-src 'self';" in found.headers["content-security-policy"]
+    assert "script-src 'self' 'wasm-unsafe-eval';" in found.headers["content-security-policy"]
     assert "server" not in found.headers
     assert found.headers["cache-control"] == ("no-store" if "/v1/" in path or status >= 400 else "no-cache")
 

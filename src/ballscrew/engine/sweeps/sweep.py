@@ -90,7 +90,9 @@ def sweep(
             plan, to, engine=engine, block_size=block_size, threads=threads, done=done, cluster=cluster,
             verify=verify, trust=trust,
         )  # fmt: skip
-    return in_memory(plan, engine, block_size=block_size, threads=threads, done=done)
+    # of rigid nuts the bits are those of a store, whatever kernels are kept
+    recorded = not plan.subject.nut.one_by_one
+    return in_memory(plan, engine, block_size=block_size, threads=threads, done=done, recorded=recorded)
 
 
 def in_memory(

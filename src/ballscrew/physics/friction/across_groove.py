@@ -157,7 +157,9 @@ def _of_elastic_bodies(screw: BallScrew, beta: Angle) -> Force:
         for _ in range(NEWTON_STEPS):
             found = half(force[place], growth[place])
             too_far = float(found.deflection) - earlier[place] - at_rest + middle * (force[place] - preload[place])
-            force[place] = max(force[place] - too_far / (1 / float(found.rigidity) + middle), 0.0)
+            rigidity = float(found.rigidity)
+            softness = 1 / rigidity if rigidity else np.inf  # of balls that just touch
+            force[place] = max(force[place] - too_far / (softness + middle), 0.0)
     return force[()]
 
 

@@ -14,6 +14,7 @@ from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty import sensitivity as analysis
 from ballscrew.engine.uncertainty.sensitivity import ANOTHER_METHOD, Method, Sensitivity
 from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.components.screw import MATERIALS
 from ballscrew.questions.sensitivity.options import SensitivityOptions
 
 
@@ -28,6 +29,8 @@ class SensitivityReport:
     def describe(self, name: str) -> str:
         """The meaning of an input, short enough for a table."""
         law, _, field = name.rpartition(".")
+        if law in MATERIALS:
+            return f"{law} {field}".replace("_", " ")
         # "decay" and "share of load" alone say little
         if name == TEMPERATURE.name or field == "share_of_load" or (law and "_" not in field):
             return self.known[name][1].info.meaning

@@ -34,7 +34,6 @@ from ballscrew.engine.evaluation.outputs import (
 )
 from ballscrew.engine.evaluation.plan import STARVED, Configuration, starvation_of
 from ballscrew.engine.evaluation.plan import Plan as Swept
-from ballscrew.engine.evaluation.structure_kernels import Structure
 from ballscrew.engine.sweeps import sweep as sweeps
 from ballscrew.engine.sweeps.cluster import cluster_client
 from ballscrew.engine.sweeps.stream import stream
@@ -414,11 +413,8 @@ def sweep(
         return sweeps.in_memory(
             Swept.of(subject, tuple(names), varied | fixed, later=True), done=done, recorded=True
         ).assign_attrs(oil)
-    # what is only looked at may be quicker
-    points = math.prod(len(values) for values in plan.axes.values())
-    few = points <= FEW_POINTS and not case.screw.nut.one_by_one  # balls that differ count how often they are asked for
-    if few:  # other nuts do so here
-        few = Structure(subject, tuple(names), [*varied, *fixed]).ready(points) is None
+    # what is only looked at may be quicker; balls that differ count how often they are asked for
+    few = math.prod(len(values) for values in plan.axes.values()) <= FEW_POINTS and not case.screw.nut.one_by_one
     dataset = sweeps.sweep(
         case.model, case.screw, case.lubricant, outputs=tuple(names),
         engine="model" if few else None, done=done, **varied, **fixed,
