@@ -51,6 +51,5 @@ def test_no_bit_of_a_file_depends_on_the_kernels_that_are_kept(monkeypatch, tmp_
     banded = band.with_band(CASE, plan, before, BandOptions(samples=64), recorded=True)
     assert evaluator(CASE.model, CASE.screw, CASE.lubricant).engine_reason == KNOWN
     band.with_band(CASE, plan, before, BandOptions(samples=4096))  # so many that a kernel is compiled
-    assert compute.sweep(CASE, plan).engine_reason == KNOWN  # what is only looked at is quicker
     assert compute.sweep(CASE, plan, to=to).identical(before)
     assert band.with_band(CASE, plan, before, BandOptions(samples=64), recorded=True).identical(banded)
