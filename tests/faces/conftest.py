@@ -3,7 +3,6 @@
 import shutil
 
 import pytest
-from playwright.sync_api import sync_playwright
 
 #: The first has no window, nor what fills in forms there: a third of the work of a key that is typed.
 BROWSERS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
@@ -14,6 +13,8 @@ CHROMIUM = next(filter(None, map(shutil.which, BROWSERS)), None)
 def browser():
     if CHROMIUM is None:
         pytest.skip("needs chromium: apt-get install chromium")
+    from playwright.sync_api import sync_playwright  # tests of the command line run without it
+
     with sync_playwright() as playwright:
         found = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"], timeout=180_000)
         yield found
