@@ -240,5 +240,5 @@ def test_of_what_goes_to_a_file_no_bit_depends_on_the_kernels_that_are_kept(monk
             (evaluation.attributes, evaluation.fingerprint, {name: v.tobytes() for name, v in results.items()})
         )
         assert Evaluation.of(plan, "compiled").engine == "compiled"
-        assert Evaluation.of(plan).reason == KNOWN  # what is only looked at is quicker
+        assert Evaluation.of(plan, shared=True).reason == KNOWN
     assert found[0] == found[1]

@@ -250,7 +250,7 @@ def test_so_many_points_asked_for_one_after_another_are_compiled(monkeypatch, tm
     engines = []
     for _ in range(6):
         points = {"axial_load": xr.DataArray(np.linspace(1.0, 9e3, 4000), dims="point"), "screw_speed": 30.0}
-        engines.append(Evaluation.of(Plan.of(subject, None, points)).engine)
+        engines.append(Evaluation.of(Plan.of(subject, None, points), shared=True).engine)
     assert engines == ["numpy"] * 4 + ["compiled"] * 2
 
 
@@ -260,7 +260,9 @@ def test_a_fingerprint_tells_numbers_apart_that_one_kernel_serves():
         screw = bs.catalogue()[ROW].screw(nut=bs.DoubleNut(preload=preload))
         subject = Configuration(bs.FrictionModel.olaru2005(), screw, OIL)
         kernel_of(subject)
-        evaluation = Evaluation.of(Plan.of(subject, ["screw_torque"], {"axial_load": LOADS, "screw_speed": 30.0}))
+        evaluation = Evaluation.of(
+            Plan.of(subject, ["screw_torque"], {"axial_load": LOADS, "screw_speed": 30.0}), shared=True
+        )
         assert evaluation.engine == "compiled"
         found.add(evaluation.fingerprint)
     assert len(found) == 2

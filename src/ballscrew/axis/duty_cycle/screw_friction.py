@@ -15,8 +15,6 @@ from ballscrew.basis.errors import faults_of, raise_if_any
 from ballscrew.basis.quantities import Info, Length, Ratio
 from ballscrew.engine.evaluation.evaluator import evaluator
 from ballscrew.engine.evaluation.outputs import known_outputs
-from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.engine.evaluation.structure_kernels import Structure
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import transmission
@@ -174,12 +172,7 @@ class ModelledScrew(ByValue):
         elif not np.isnan(temperature[:1]).all() and float(temperature[0]) != oil.temperature:
             oil = oil.at(float(temperature[0]))
         balls = self.screw.nut.halves * int(self.screw.loaded_balls) if self.screw.nut.one_by_one else 1
-        subject = Configuration(self.model, self.screw, oil)
-        if (
-            self.recorded
-            or len(axial_load) * balls > WORTH_RECORDING
-            or Structure(subject, names, tuple(values)).ready(len(axial_load)) is not None
-        ):
+        if self.recorded or len(axial_load) * balls > WORTH_RECORDING:
             return evaluator(self.model, self.screw, oil, inputs=tuple(values), outputs=names)(**values)
         result = self.model(self.screw, oil, **values, loads=self.loads_at(axial_load))
         known = known_outputs(self.screw.nut)

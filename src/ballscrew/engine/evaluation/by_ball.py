@@ -154,12 +154,14 @@ def by_ball(
     varying: Sequence[str] | None = None,
     *,
     always: bool = False,
+    shared: bool = False,
 ) -> ByBall | str:
     """A plan for a nut whose balls differ, made ready; or the reason why the model itself has to evaluate it.
 
     ``varying`` names the inputs that vary where it is not the axes of the plan. Without an ``engine`` little work is
     left to the model itself until so much of its kind has been asked for that a recording pays. With ``always`` it is
-    recorded however little it is, and neither what is compiled nor what was asked for before counts.
+    recorded however little it is, and neither what is compiled nor what was asked for before counts. A kernel that an
+    earlier process has kept is taken for an ``engine`` that was asked for, or where it may be ``shared``.
     """
     names = inputs_of_structure(plan.subject, [*plan.axes, *(varying or ())])
     wanted = outputs_of_structure(plan.subject, plan.outputs)
@@ -167,7 +169,7 @@ def by_ball(
     why = "the model itself, on plain arrays: the work is too short to record it"
     key = structure_key(plan.subject, tuple(wanted), names)
     kept_as = {} if key is None or engine == "numpy" else _names(plan.subject, tuple(wanted), names)
-    cut = _kept_of(kept_as, work) if engine or not always else None
+    cut = _kept_of(kept_as, work) if engine or shared else None
     if cut is not None:
         return ByBall(plan, cut, "compiled", ASKED_FOR if engine else KNOWN)
     made_of = None if key is None else _structures.get(key)

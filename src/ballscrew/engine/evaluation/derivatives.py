@@ -76,7 +76,7 @@ def derivatives(
     slopes = slopes_of(Configuration(model, screw, lubricant), outputs, by, varied)
     if method == "jax":
         return _by_jax(slopes)
-    evaluation = Evaluation.of(slopes, engine)
+    evaluation = Evaluation.of(slopes, engine, shared=True)
     results = evaluation.empty(slopes.total)
     evaluation.fill(results, slice(0, slopes.total), threads=threads, done=done)
     return slopes.dataset(results).assign_attrs(evaluation.attributes)

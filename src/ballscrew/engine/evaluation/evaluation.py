@@ -101,12 +101,15 @@ class Evaluation:
         times: int = 1,
         *,
         recorded: bool = False,
+        shared: bool = False,
         section: str = "sweep",
     ) -> Evaluation:
         """Make a plan ready; the engine is chosen by the size of the work and by what is compiled already.
 
         ``times`` says how often all of it will be evaluated (see :meth:`at`). ``recorded`` records balls that differ
-        however little work it is, and no kernel that is there by chance counts. Faults stand under ``section``.
+        however little work it is, and no kernel that is there by chance counts. ``shared`` takes the kernel that all
+        numbers of such a screw share, where it is known or pays: for what is refined until it converges, as the last
+        bits then follow from what this machine has compiled before. Faults stand under ``section``.
 
         Raises :class:`~ballscrew.basis.errors.InputError` for an engine that cannot be had.
         """
@@ -114,7 +117,7 @@ class Evaluation:
         if engine == "model":
             return _by_numpy(plan, None, f"the model itself: {ASKED_FOR}")
         if plan.subject.nut.one_by_one and type(plan) is Plan:
-            ready = by_ball(plan, engine, times, always=recorded)
+            ready = by_ball(plan, engine, times, always=recorded, shared=shared)
             if isinstance(ready, ByBall):
                 return _by_ball(plan, ready)
             if engine == "compiled":
@@ -127,7 +130,7 @@ class Evaluation:
                     )
                 )
             return _by_numpy(plan, None, ready)
-        if engine is None and not recorded:
+        if engine is None and shared:
             known = _of_structure(plan, times)
             if known is not None:
                 return _by_structure(plan, known)

@@ -148,8 +148,7 @@ class StructureKernel:
 
         Raises :class:`~ballscrew.basis.errors.InputError` for fixed values that do not fit together.
         """
-        fixed = plan.fixed
-        return self.over(plan.subject, {n: fixed[n] for n in fixed}, plan.varying)
+        return self.over(plan.subject, plan.fixed, plan.varying)
 
     def over(
         self, subject: Configuration, fixed: Mapping[str, float], varying: Sequence[str]
@@ -361,10 +360,10 @@ def keep(name: str, header: Mapping[str, Any], machine_code: bytes) -> None:
 
     So does all of it where the source has changed since it was imported.
     """
-    with contextlib.suppress(TypeError):
-        text = json.dumps(header, default=_plain).encode()
-        if stands_as_imported():
-            kernels.keep(name, text, machine_code)
+    if not stands_as_imported():
+        return
+    with contextlib.suppress(TypeError):  # what JSON does not know, of a law's own making
+        kernels.keep(name, json.dumps(header, default=_plain).encode(), machine_code)
 
 
 def _plain(value: Any) -> Any:

@@ -90,9 +90,7 @@ def sweep(
             plan, to, engine=engine, block_size=block_size, threads=threads, done=done, cluster=cluster,
             verify=verify, trust=trust,
         )  # fmt: skip
-    # of rigid nuts the bits are those of a store, whatever kernels are kept
-    recorded = not plan.subject.nut.one_by_one
-    return in_memory(plan, engine, block_size=block_size, threads=threads, done=done, recorded=recorded)
+    return in_memory(plan, engine, block_size=block_size, threads=threads, done=done)
 
 
 def in_memory(

@@ -98,7 +98,7 @@ class Response:
         rows = {name: xr.DataArray(values, dims="row") for name, values in points.items()}
         held = dict(zip(names, start.tolist(), strict=True))
         plan = slopes_of(subject, TORQUES, list(names), {**rows, **held})
-        return cls(tuple(names), start, Evaluation.of(plan, engine, times))
+        return cls(tuple(names), start, Evaluation.of(plan, engine, times, shared=True))
 
     def at(self, points: Mapping[str, NDArray[np.float64]]) -> Response:
         """The same at other rows, which are not checked."""

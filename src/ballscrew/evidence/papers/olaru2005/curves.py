@@ -19,9 +19,6 @@ from ballscrew.physics.friction.validity import REASONS
 DRAWN = ("olaru2005", "corrected")
 _PARTS = tuple(f"contribution_{mechanism}" for mechanism in MECHANISMS)
 
-#: The same bits on every run and machine, whatever kernels are kept there.
-_ENGINE = "numpy"
-
 
 def curves() -> xr.Dataset:
     """All curves in one dataset, in SI, with a dimension ``model``.
@@ -52,7 +49,6 @@ def _of_model(model: FrictionModel) -> xr.Dataset:
             case.SCREW,
             case.OIL,
             outputs=outputs,
-            engine=_ENGINE,
             axial_load=case.AXIAL_LOAD,
             **varied,
             screw_speed=case.SPEEDS,
@@ -101,7 +97,6 @@ def _over_load(model: FrictionModel) -> Mapping[str, xr.Dataset]:
         case.SCREW,
         case.OIL,
         outputs=("screw_torque", "ideal_torque", "efficiency", "contact_load"),
-        engine=_ENGINE,
         axial_load=case.LOADS,
         screw_speed=case.SCREW_SPEED,
     ).drop_vars("screw_speed")
