@@ -21,7 +21,15 @@ import numpy as np
 
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.engine.evaluation.structures import inputs_of_structure
-from ballscrew.exports.wasm_modules import NUT_DIAMETER, module_of, module_of_oils, module_of_solver, oils, outputs_of
+from ballscrew.exports.wasm_modules import (
+    NUT_DIAMETER,
+    KeptModule,
+    module_of,
+    module_of_oils,
+    module_of_solver,
+    oils,
+    outputs_of,
+)
 from ballscrew.faces.site import kinds
 from ballscrew.faces.site.contents import contents
 from ballscrew.faces.site.judging import Judging, module_of_judging
@@ -76,7 +84,7 @@ def row(structure: tuple[str, str], judging: Judging, folder: Path) -> str:
     for each in (module, every, solver, judging.module):
         (folder / each.file).write_bytes(each.code)
     name = "/".join(structure)
-    known = contents({structure: module}, every, oils(), solver.file, judging)
+    known = contents({structure: KeptModule.of(module)}, every, oils(), solver.file, judging)
     count = POINTS_OF_ELASTIC if subject.nut.one_by_one else POINTS
     points = points_of(subject, count)
     found, _ = evaluated(folder, known, {"structure": name, "one": {NUT_DIAMETER: None}}, points)

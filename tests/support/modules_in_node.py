@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 import ballscrew
+from ballscrew.exports.wasm_modules import module_of_oils, module_of_solver, oils
 from ballscrew.faces.site import kinds, modules
 from ballscrew.faces.site.contents import contents
 from ballscrew.faces.site.judging import module_of_judging
@@ -23,10 +24,10 @@ class Modules:
     def __init__(self, folder, structures):
         self.folder = folder
         made = {pair: modules.module_of_structure(*pair) for pair in structures}
-        oils, solver, judging = modules.module_of_oils(), modules.module_of_solver(), module_of_judging()
-        for module in (*made.values(), oils, solver, judging.module):
+        of_oils, solver, judging = module_of_oils(), module_of_solver(), module_of_judging()
+        for module in (*made.values(), of_oils, solver, judging.module):
             (folder / module.file).write_bytes(module.code)
-        self.contents = contents(made, oils, modules.oils(), solver.file, judging)
+        self.contents = contents(made, of_oils, oils(), solver.file, judging)
 
     def evaluate(self, structure, points, one=None):
         """The outputs at points, arrays of one length by name; what is the same at all of them stands in ``one``."""

@@ -7,7 +7,9 @@ have the same ones, the static one and the served one, and the same program that
 from __future__ import annotations
 
 import dataclasses
+import functools
 import hashlib
+import json
 from collections.abc import Collection, Mapping, Sequence
 from importlib import resources
 from typing import Any, NamedTuple
@@ -15,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ballscrew.basis.quantities import Info, Quantity, quantities_of
-from ballscrew.compiler.kernels import wasm
+from ballscrew.compiler.kernels import kernel, wasm
 from ballscrew.compiler.kernels.emission import kernel_text
 from ballscrew.compiler.tracing.merging import merged_program
 from ballscrew.compiler.tracing.program import Program, Renumbering, Source
@@ -126,11 +128,28 @@ class Module(NamedTuple):
         """What runs it has to know, as a document: its file, and what each function reads and gives."""
         return {"file": self.file, **described(self.functions[0]), **_parted(self.by_ball)}
 
+
+class KeptModule(NamedTuple):
+    """A module as it is kept on disk and sent to a page: what runs it has to know, and its bytes."""
+
+    document: Mapping[str, Any]
+    code: bytes
+
     @classmethod
-    def of(cls, document: Mapping[str, Any], code: bytes) -> Module:
-        """A module as it was kept, of one function or of a nut by ball."""
-        parts = document.get("by_ball")
-        return cls(code, (_function(document),), None if parts is None else _by_ball_of(parts))
+    def of(cls, module: Module) -> KeptModule:
+        """That of a module which was made now."""
+        return cls(json.loads(json.dumps(module.described)), module.code)
+
+    @property
+    def file(self) -> str:
+        """The name of its file."""
+        return self.document["file"]
+
+
+def kept_module(name: str) -> KeptModule | None:
+    """A module from the disk by the name of its structure; None where there is none."""
+    found = kernel.kept(name)
+    return None if found is None else KeptModule(json.loads(found[0]), found[1])
 
 
 def described(function: Function) -> dict[str, Any]:
@@ -141,26 +160,6 @@ def described(function: Function) -> dict[str, Any]:
         "outputs": list(function.outputs),
         "constants": dict(function.constants),
     }
-
-
-def _function(document: Mapping[str, Any]) -> Function:
-    inputs, outputs = (tuple(document[which]) for which in ("inputs", "outputs"))
-    return Function(document["function"], inputs, outputs, document["constants"])
-
-
-def _by_ball_of(document: Mapping[str, Any]) -> ByBall:
-    ball = document["ball"]
-    inputs = tuple((source, name) for source, name in ball["inputs"])
-    return ByBall(
-        halves=document["halves"],
-        four_contacts=document["four_contacts"],
-        swells=document["swells"],
-        numbers=_function(document["numbers"]),
-        points=_function(document["points"]),
-        ball=OfBall(ball["function"], inputs, tuple(ball["outputs"]), tuple(ball["reduced"])),
-        reductions=tuple((what, values, place) for what, values, place in document["reductions"]),
-        behind=_function(document["behind"]),
-    )
 
 
 def _parted(parts: ByBall | None) -> dict[str, Any]:
@@ -254,11 +253,13 @@ def _numbers(subject: Configuration, names: tuple[str, ...]) -> tuple[tuple[str,
     return every, program
 
 
+@functools.cache
 def module_of_solver() -> Module:
     """The solver of the balls between elastic bodies, as ``make interpreter`` compiles it of its source in C."""
     return Module(resources.files("ballscrew").joinpath("data/exports/wasm32/loads.wasm").read_bytes(), ())
 
 
+@functools.cache
 def oils() -> tuple[str, ...]:
     """The grades of oil of which all numbers but the slope of the pressure modulus follow the temperature."""
     return tuple(grade for grade in grades() if _at(grade, _ANY_TEMPERATURE).pressure_modulus_slope is None)

@@ -78,7 +78,7 @@ def test_no_bit_depends_on_blocks_and_threads():
     subject = case_of("single", "reference")
     kernel_of(subject)
     points = {"axial_load": xr.DataArray(np.linspace(-9e3, 9e3, 20_001), dims="point"), "screw_speed": 30.0}
-    evaluation = Evaluation.of(Plan.of(subject, ["screw_torque"], points))
+    evaluation = Evaluation.of(Plan.of(subject, ["screw_torque"], points), shared=True)
     assert evaluation.reason == "a kernel for all numbers of such a screw is there"
     found = []
     for how in ({"threads": 1}, {"threads": 2, "block_size": 1001}, {"threads": 3, "block_size": 64}):

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page
 
-from ballscrew.compiler.kernels import wasm
+from ballscrew.compiler.kernels import kernel
 from ballscrew.faces.site import site
 
 #: A row, and nuts with a preload, rigid and elastic: what differs in the page.
@@ -35,7 +35,7 @@ class Plain(http.server.SimpleHTTPRequestHandler):
 @pytest.fixture(scope="session")
 def folder(tmp_path_factory) -> Path:
     """The page as a folder below a root."""
-    if not wasm.available():
+    if not kernel.available():
         pytest.skip('needs a compiler: pip install "ballscrew[fast]"')
     root = tmp_path_factory.mktemp("site")
     site.write(root / PATH, site.site(MODELS, NUTS))

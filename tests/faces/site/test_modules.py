@@ -6,6 +6,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.engine.evaluation.outputs import OPERATION, known_outputs
 from ballscrew.engine.evaluation.structures import inputs_of_structure, structure_key
+from ballscrew.exports.wasm_modules import BALL, NUT_DIAMETER, KeptModule, module_of, module_of_oils, outputs_of
 from ballscrew.faces.site import kinds, modules
 from support.modules_in_node import Modules, start_of
 
@@ -43,7 +44,7 @@ def points_of(subject, count, seed=1):
 
 def compare(subject, points, found):
     result = subject.at({name: values[0] if name in WHOLE else values for name, values in points.items()})
-    known = modules.outputs_of(subject.nut)
+    known = outputs_of(subject.nut)
     count = len(points["axial_load"])
     torque = np.abs(np.broadcast_to(result.screw_torque, count))
     assert {"screw_torque", "efficiency", "valid", "contribution_spin"} <= found.keys() == known.keys()
@@ -53,7 +54,7 @@ def compare(subject, points, found):
         if known[name].dtype is bool:
             assert np.array_equal(expected, values), name
             continue
-        if name in modules.BALL and subject.nut.one_by_one:  # without load the most loaded ball is one of many
+        if name in BALL and subject.nut.one_by_one:  # without load the most loaded ball is one of many
             values, expected = (np.where(points["axial_load"] == 0, 0.0, each) for each in (values, expected))
         if name == "residual":  # what is left of a balance is rounding
             assert np.nanmax(values) < 1e-9
@@ -77,14 +78,14 @@ def test_a_module_gives_the_numbers_of_the_model(built, structure):
 def test_a_module_gives_the_numbers_of_elastic_nuts(built, structure):
     subject = start_of(structure)
     points = points_of(subject, POINTS["elastic"])
-    compare(subject, points, built.evaluate(structure, points, {modules.NUT_DIAMETER: None}))
+    compare(subject, points, built.evaluate(structure, points, {NUT_DIAMETER: None}))
 
 
 def test_a_curve_over_the_speed_solves_the_balls_once_and_is_that_of_the_model(built):
     structure = ELASTIC[0]
     subject = start_of(structure)
     one = {name: float(subject.value_of(name)) for name in inputs_of_structure(subject) if name not in OPERATION}
-    one |= {"axial_load": 4000.0, modules.NUT_DIAMETER: 0.07}
+    one |= {"axial_load": 4000.0, NUT_DIAMETER: 0.07}
     points = {"screw_speed": np.linspace(-60.0, 60.0, 31)}
     found = built.evaluate(structure, points, one)
     nut = bs.DoubleNut(
@@ -101,15 +102,14 @@ def test_a_curve_over_the_speed_solves_the_balls_once_and_is_that_of_the_model(b
 def test_two_builds_are_equal_and_a_kept_one_is_the_same(structure, tmp_path, monkeypatch):
     monkeypatch.setenv("BALLSCREW_CACHE", str(tmp_path))
     made = modules.module_of_structure(*structure)
-    assert made == modules.module_of(start_of(structure))
-    assert made.described == modules.module_of_structure(*structure).described  # from the disk
-    assert made == modules.module_of_structure(*structure)
+    assert made == KeptModule.of(module_of(start_of(structure)))
+    assert made == modules.module_of_structure(*structure)  # from the disk
     monkeypatch.setattr(modules, "module_of", None)  # not made again
     assert made == modules.module_of_structure(*structure)
 
 
 def test_the_module_of_the_oils_is_the_same_bytes():
-    assert modules.module_of_oils() == modules.module_of_oils()
+    assert module_of_oils() == module_of_oils()
 
 
 @pytest.mark.parametrize("kind", kinds.KINDS)

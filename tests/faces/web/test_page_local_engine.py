@@ -7,7 +7,7 @@ import time
 
 import pytest
 
-from ballscrew.compiler.kernels import kernel, wasm
+from ballscrew.compiler.kernels import kernel
 from ballscrew.compiler.tracing.tape import CannotRecordError
 from ballscrew.faces.web import modules
 from ballscrew.faces.web.module_api import _answer
@@ -218,7 +218,7 @@ def test_places_are_fields_that_nothing_else_follows_from(server):
 
 
 def test_without_a_compiler_there_is_no_module(monkeypatch):
-    monkeypatch.setattr(wasm, "available", lambda: False)
+    monkeypatch.setattr(kernel, "available", lambda: False)
     found = _answer(Modules(), starts()["paper"]["case"])
     assert (found["state"], found["structure"]) == ("none", None)
     assert "ballscrew[fast]" in found["reason"]

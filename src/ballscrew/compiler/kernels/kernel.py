@@ -267,11 +267,17 @@ def _optimise(text: str, optimisation: int | None = None) -> tuple[Any, Any]:
     module = llvm.parse_assembly(text)
     module.verify()
     machine = _machine(optimisation)
+    optimise(module, machine)
+    return machine, module
+
+
+def optimise(module: Any, machine: Any) -> None:
+    """Insert functions where they are called, for any processor: vectors are explicit, and stay as they are written."""
+    llvm = _llvm()
     tuning = llvm.create_pipeline_tuning_options(speed_level=ASSEMBLY_OPTIMISATION)
-    tuning.loop_vectorization = tuning.slp_vectorization = tuning.loop_unrolling = False  # vectors are explicit
+    tuning.loop_vectorization = tuning.slp_vectorization = tuning.loop_unrolling = False
     passes = llvm.create_pass_builder(machine, tuning)
     passes.getModulePassManager().run(module, passes)
-    return machine, module
 
 
 def cache_folder() -> Path:

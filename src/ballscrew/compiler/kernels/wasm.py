@@ -56,16 +56,8 @@ def module_of(parts: Sequence[Part]) -> bytes:
         whole.link_in(one)
     machine = llvm.Target.from_triple(TRIPLE).create_target_machine(features=FEATURES, opt=kernels.CODE_OPTIMISATION)
     whole.triple = TRIPLE
-    tuning = llvm.create_pipeline_tuning_options(speed_level=kernels.ASSEMBLY_OPTIMISATION)
-    tuning.loop_vectorization = tuning.slp_vectorization = tuning.loop_unrolling = False  # vectors are explicit
-    passes = llvm.create_pass_builder(machine, tuning)
-    passes.getModulePassManager().run(whole, passes)
+    kernels.optimise(whole, machine)
     return _linked(machine.emit_object(whole), [part.name for part in parts])
-
-
-def available() -> bool:
-    """Return whether the compiler is installed (the extra ``fast``)."""
-    return kernels.available()
 
 
 @functools.cache

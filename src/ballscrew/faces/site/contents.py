@@ -11,7 +11,7 @@ from ballscrew.basis.version import __version__
 from ballscrew.engine.evaluation.outputs import OPERATION, known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.evaluation.structures import inputs_of_structure
-from ballscrew.exports.wasm_modules import NUT_DIAMETER, Module, described
+from ballscrew.exports.wasm_modules import NUT_DIAMETER, KeptModule, Module, described
 from ballscrew.faces.site import kinds
 from ballscrew.faces.site.judging import Judging, contents_of_judging, of_start
 from ballscrew.faces.site.texts import texts
@@ -19,16 +19,9 @@ from ballscrew.faces.web.vocabulary import vocabulary
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.sizing.catalogue import catalogue
 
-#: Format of what follows, for a page of another version.
-FORMAT = 1
-#: The sections of a case file by the part that an input belongs to.
-_SECTIONS: Mapping[str, str] = {
-    "operation": "operation", "screw": "screw", "lubricant": "lubricant", "model": "model", "nut": "nut",
-}  # fmt: skip
-
 
 def contents(
-    modules: Mapping[tuple[str, str], Module], oils: Module, grades: tuple[str, ...], solver: str, judging: Judging
+    modules: Mapping[tuple[str, str], KeptModule], oils: Module, grades: tuple[str, ...], solver: str, judging: Judging
 ) -> dict[str, Any]:
     """The contents as one JSON document; numbers are in SI.
 
@@ -37,23 +30,22 @@ def contents(
     """
     words = vocabulary()
     subjects = {pair: kinds.subject_of(kinds.case_of(kinds.PAPER, *pair)) for pair in modules}
-    results = {name: _described(output.quantity) for s in subjects.values() for name, output in _outputs(s).items()}
-    given = {name for module in modules.values() for function in module.functions for name in function.outputs}
+    known = {name: output for subject in subjects.values() for name, output in known_outputs(subject.nut).items()}
+    given = {name for module in modules.values() for name in module.document["outputs"]}
     of_oils = zip(grades, oils.functions, strict=True)
     found = {
-        "format": FORMAT,
         "version": __version__,
         "models": {model: _values(subjects, model) for model in dict.fromkeys(model for model, _ in modules)},
         "kinds": {
             name: {"words": kind.words, "is_preloaded": kind.is_preloaded, "nut": kind.nut}
             for name, kind in kinds.KINDS.items()
         },
-        "structures": {f"{model}/{kind}": module.described for (model, kind), module in modules.items()},
+        "structures": {f"{model}/{kind}": module.document for (model, kind), module in modules.items()},
         "solver": solver,
         "oils": {"file": oils.file, "grades": {grade: described(function) for grade, function in of_oils}},
         "judging": contents_of_judging(judging),
         "fields": _fields(subjects),
-        "results": {name: described for name, described in results.items() if name in given},
+        "results": {name: _described(output.quantity) for name, output in known.items() if name in given},
         "mechanisms": words["mechanisms"],
         "reasons": words["reasons"],
         "symbols": words["symbols"],
@@ -61,10 +53,6 @@ def contents(
         "starts": {name: _start(name) for name in kinds.start_tables()},
     }
     return {**found, "texts": texts(found)}
-
-
-def _outputs(subject: Configuration) -> Mapping[str, Any]:
-    return known_outputs(subject.nut)
 
 
 def _described(quantity: Quantity) -> dict[str, Any]:
@@ -100,7 +88,7 @@ def _fields(subjects: Mapping[tuple[str, str], Configuration]) -> dict[str, Any]
 
 def _field(name: str, part: str, quantity: Quantity) -> dict[str, Any]:
     info = quantity.info
-    section = "" if name.startswith("losses.") else f"{_SECTIONS[part]}."
+    section = "" if name.startswith("losses.") else f"{part}."
     bounds = {"above": info.above, "at_least": info.at_least, "below": info.below, "at_most": info.at_most}
     return {
         "path": f"{section}{name}",

@@ -22,16 +22,14 @@ from ballscrew.physics.components.nut_losses import Seals
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.sizing.catalogue import CatalogueRow, catalogue
 from ballscrew.physics.sizing.ratings import ratings_of
+from ballscrew.questions.check.compute import GRADE, SHARE_OF_RATING, SPEED, TEMPERATURE
 
 #: The models of which modules are made, the one to begin with first.
 MODELS = ("reference", "olaru2005", "corrected")
 #: The start of the paper.
 PAPER = "paper"
-#: The oil, its temperature, the load and the speed of a screw of the catalogue, as its case file begins.
-OIL: Mapping[str, str] = {"grade": "ISO VG 100", "temperature": "40 degC"}
-_SPEED = "600 rpm"
-#: Load of a screw of the catalogue, as a share of its dynamic load rating.
-_LOAD = 0.1
+#: The oil of a screw of the catalogue, as ``ballscrew check`` takes it.
+OIL: Mapping[str, str] = {"grade": GRADE, "temperature": TEMPERATURE}
 
 
 class Kind(NamedTuple):
@@ -81,8 +79,8 @@ def start_tables() -> Mapping[str, Mapping[str, Any]]:
     found: dict[str, Mapping[str, Any]] = {PAPER: {n: t for n, t in starts()[PAPER]["case"].items() if n != "model"}}
     load = fields_of(OperatingState)["axial_load"]
     for name, row in catalogue().items():
-        force = units.written(_rounded(_LOAD * _rating(row)), load)
-        operation = {"axial_load": force, "screw_speed": _SPEED}
+        force = units.written(_rounded(SHARE_OF_RATING * _rating(row)), load)
+        operation = {"axial_load": force, "screw_speed": SPEED}
         found[name] = {"screw": {"catalogue": name}, "lubricant": dict(OIL), "operation": operation}
     return found
 

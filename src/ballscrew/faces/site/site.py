@@ -13,11 +13,12 @@ from typing import Any
 
 from ballscrew.basis.atomic_files import atomic_write, check_writable, write_error
 from ballscrew.basis.errors import Fault, InputError, nearest
-from ballscrew.compiler.kernels import wasm
+from ballscrew.compiler.kernels import kernel
+from ballscrew.exports.wasm_modules import KeptModule, module_of_oils, module_of_solver, oils
 from ballscrew.faces.site import bundle, kinds
 from ballscrew.faces.site.contents import contents
 from ballscrew.faces.site.judging import CHECKED_AS, module_of_judging
-from ballscrew.faces.site.modules import Module, module_of_oils, module_of_solver, module_of_structure, oils
+from ballscrew.faces.site.modules import module_of_structure
 
 #: Files of the folder that are as they are in the package.
 _PLAIN = ("style.css", "icon.svg")
@@ -50,11 +51,11 @@ def site(
     ``models`` and ``nuts`` name those that it knows, all by default. Raises
     :class:`~ballscrew.basis.errors.InputError` for unknown ones, and where the compiler is not installed.
     """
-    if not wasm.available():
+    if not kernel.available():
         raise InputError(Fault("site", "needs a compiler that is not installed", "", 'pip install "ballscrew[fast]"'))
     chosen = _chosen(models, nuts)
     total = len(chosen) + 1
-    modules: dict[tuple[str, str], Module] = {}
+    modules: dict[tuple[str, str], KeptModule] = {}
     for place, pair in enumerate(chosen):
         done(place, total)
         modules[pair] = module_of_structure(*pair)

@@ -16,12 +16,12 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.evaluation.structures import inputs_of_structure, numbers_alone
-from ballscrew.exports.wasm_modules import NUT_DIAMETER, module_of_solver, oils
+from ballscrew.exports.wasm_modules import NUT_DIAMETER, KeptModule, module_of_solver, oils
 from ballscrew.faces.web import openapi
 from ballscrew.faces.web.bodies import CaseBody, Tables, case_of, read
 from ballscrew.faces.web.endpoint_parts import as_json, cancellable, queue_of
 from ballscrew.faces.web.files import FOR_GOOD
-from ballscrew.faces.web.modules import KeptModule, Modules, NotMadeError
+from ballscrew.faces.web.modules import Modules, NotMadeError
 from ballscrew.faces.web.problems import Refused
 from ballscrew.physics.components.materials import OF_A_GRADE, TEMPERATURE
 from ballscrew.physics.components.nut import Bodies

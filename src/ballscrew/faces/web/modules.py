@@ -8,25 +8,24 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
-import json
 import os
 import queue
 import sys
 import threading
 from collections import OrderedDict
-from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple
+from collections.abc import Callable
 
 from ballscrew.basis.quantities import quantities_of
-from ballscrew.compiler.kernels import kernel, wasm
+from ballscrew.compiler.kernels import kernel
 from ballscrew.engine.evaluation.fingerprint import recorder_digest
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.evaluation.structure_kernels import keep, name_of
 from ballscrew.engine.evaluation.structures import inputs_of_structure
 from ballscrew.exports.wasm_modules import (
     OUTPUTS,
-    Module,
+    KeptModule,
     described,
+    kept_module,
     module_of,
     module_of_oils,
     module_of_solver,
@@ -50,13 +49,6 @@ class NotMadeError(Exception):
     """A structure that has no module, and why."""
 
 
-class KeptModule(NamedTuple):
-    """A module as it is kept: what the page has to know to run it, and its bytes."""
-
-    document: Mapping[str, Any]
-    code: bytes
-
-
 class Modules:
     """The modules of one server."""
 
@@ -73,7 +65,7 @@ class Modules:
 
         Raises :class:`NotMadeError` for one that has none.
         """
-        return self._get(_name(subject), lambda: _of_module(module_of(subject, SHOWN)))
+        return self._get(_name(subject), lambda: KeptModule.of(module_of(subject, SHOWN)))
 
     def of_oils(self) -> KeptModule | None:
         """The module of all grades of oil; None while it is made."""
@@ -92,7 +84,7 @@ class Modules:
 
     def _get(self, name: str, make: Callable[[], KeptModule]) -> KeptModule | None:
         with self._lock:
-            known = self._found.get(name) or self._add(name, _read(name))
+            known = self._found.get(name) or self._add(name, kept_module(name))
             if known is not None:
                 self._found.move_to_end(name)
             if isinstance(known, str):
@@ -111,12 +103,12 @@ class Modules:
             return None
         self._found[name] = made
         if isinstance(made, KeptModule):
-            self._codes[made.document["file"]] = made.code
+            self._codes[made.file] = made.code
         if len(self._found) > MOST_IN_MEMORY:
             _, oldest = self._found.popitem(last=False)
-            files = {one.document["file"] for one in self._found.values() if isinstance(one, KeptModule)}
-            if isinstance(oldest, KeptModule) and oldest.document["file"] not in files:
-                self._codes.pop(oldest.document["file"], None)
+            files = {one.file for one in self._found.values() if isinstance(one, KeptModule)}
+            if isinstance(oldest, KeptModule) and oldest.file not in files:
+                self._codes.pop(oldest.file, None)
         return made
 
     def _work(self) -> None:
@@ -130,9 +122,8 @@ class Modules:
             try:
                 made = make()
                 keep(name, made.document, made.code)
-            except (
-                Exception
-            ) as error:  # whatever it is, the next structure is made, and the page works without this one
+            # whatever it is, the next structure is made, and the page works without this one
+            except Exception as error:
                 made = str(error) or repr(error)
             with self._lock:
                 self._add(name, made)
@@ -141,7 +132,7 @@ class Modules:
 
 def _name(subject: Configuration) -> str:
     """The name of a structure, equal in all processes. Raises :class:`NotMadeError` for one that has no module."""
-    if not wasm.available():
+    if not kernel.available():
         raise NotMadeError('needs a compiler that is not installed: pip install "ballscrew[fast]"')
     nut = subject.nut
     if nut.deviations is not None:
@@ -154,16 +145,6 @@ def _name(subject: Configuration) -> str:
     if found is None:
         raise NotMadeError("a law is not of this package")
     return found
-
-
-def _read(name: str) -> KeptModule | None:
-    """A module from the disk."""
-    found = kernel.kept(name)
-    return None if found is None else KeptModule(json.loads(found[0]), found[1])
-
-
-def _of_module(module: Module) -> KeptModule:
-    return KeptModule(module.described, module.code)
 
 
 def _oils() -> KeptModule:

@@ -12,7 +12,7 @@
 /**
  * @typedef {{
  *   id: string, subject: string, severity: string, holds: boolean | null, message: Message,
- *   value: number | null, limit: number | null, unit: string, utilisation: number | null, missing: string,
+ *   value: number | null, limit: number | null, unit: string, utilisation: number | null,
  * }} JudgedRecord
  */
 /** How a place is written: the words of a template, the name of a unit, and digits. */
@@ -191,7 +191,6 @@ function recordOf(row, judged) {
     limit: isJudged ? number("limit") : null,
     unit: row.unit,
     utilisation: isJudged ? number("utilisation") : null,
-    missing: "",
   };
 }
 
@@ -209,7 +208,6 @@ function notChecked(row, template) {
     limit: null,
     unit,
     utilisation: null,
-    missing: give,
   };
 }
 
