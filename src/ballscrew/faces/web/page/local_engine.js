@@ -121,9 +121,15 @@ class LocalEngine {
     if (!this.#isWanted || key === this.#asked || this.valuesOf(body)) return;
     clearTimeout(this.#timer);
     this.#asked = key;
+    /** @type {CaseModule} */
+    let about;
     try {
-      /** @type {CaseModule} */
-      const about = await sendJson("module", body);
+      about = await sendJson("module", body);
+    } catch {
+      if (key === this.#asked) this.#asked = ""; // what cannot be reached, or refuses, says so for the answers, too
+      return;
+    }
+    try {
       if (key !== this.#asked) return;
       if (about.state === "pending") {
         this.#timer = setTimeout(() => {
@@ -131,8 +137,9 @@ class LocalEngine {
           this.learn(body);
         }, AGAIN);
       } else if (about.state === "ready") await this.#take(body, about, key);
-    } catch {
-      if (key === this.#asked) this.#asked = ""; // the server is asked for everything, as without a module
+    } catch (error) {
+      console.error(error); // the server is asked for everything, as without a module
+      if (key === this.#asked) this.#asked = "";
     }
   }
 
