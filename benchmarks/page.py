@@ -30,11 +30,12 @@ SIZE = (1360, 1500)  # the first chart is in it
 #: Seconds that a browser has to calm down after its start, and the page to be drawn.
 CALM, DRAWN = 3.0, 5.0
 MEASURES = ("numbers", "chart", "all")
+BROWSERS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
 
 
 def chromium() -> str:
     """The browser."""
-    found = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+    found = next(filter(None, map(shutil.which, BROWSERS)), None)
     if found is None:
         sys.exit("needs chromium: apt-get install chromium")
     return found
@@ -48,8 +49,10 @@ def server() -> Iterator[str]:
         assert process.stdout is not None
         found = re.search(r"http://\S+", process.stdout.readline())
         assert found
-        yield found[0]
-        process.terminate()
+        try:
+            yield found[0]
+        finally:
+            process.terminate()
 
 
 def first_chart(address: str, fragment: str) -> float:
