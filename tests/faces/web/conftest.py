@@ -175,6 +175,22 @@ class Visit:
         self.page.wait_for_selector("html[data-ready]")
         return self.settle()
 
+    def go(self, view: str) -> Visit:
+        """Go to a pane, ``nut.film``, by its tabs; to the first one of a view by its name alone."""
+        for address in (view.partition(".")[0], view):
+            tab = self.page.locator(f'[data-to="{address}"]').first
+            if tab.is_visible():  # a view of one pane has no tabs for it
+                tab.click()
+        return self
+
+    def see(self, selector: str) -> Visit:
+        """Go to the pane in which something stands."""
+        holder = self.page.locator(selector).first
+        pane = holder.evaluate("(one) => one.closest('[data-pane]')?.dataset.pane.split(' ')")
+        if pane and not holder.evaluate("(one) => one.checkVisibility()"):
+            self.go(pane[-1])
+        return self
+
     def settle(self) -> Visit:
         """Wait until all that was asked for is shown."""
         self.page.wait_for_selector('#results[aria-busy="false"]')
@@ -229,6 +245,15 @@ class Visit:
         )
 
     def download(self, selector: str) -> bytes:
+        """What a button gives, wherever it stands; the view stays."""
+        before = self.page.locator("body").get_attribute("data-seen-pane")
+        self.see(selector)
+        try:
+            return self._download(selector)
+        finally:
+            self.go(before)
+
+    def _download(self, selector: str) -> bytes:
         with self.page.expect_download() as found:
             self.page.locator(selector).click()
         return Path(found.value.path()).read_bytes()

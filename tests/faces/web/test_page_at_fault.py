@@ -68,6 +68,7 @@ def test_the_server_stops_and_comes_back(visit, start):
 
 def test_models_and_laws_side_by_side(visit, server):
     here = visit().open()
+    here.see("#models-button")
     here.page.locator("#models-button").click()
     here.page.wait_for_selector("#models table")
     found = server.post("compare", {"case": server.get("vocabulary").json()["starts"]["paper"]["case"]}).json()

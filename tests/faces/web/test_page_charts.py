@@ -19,6 +19,7 @@ DRAWN = """(id) => document.querySelector(`#${id} .plot`)?._fullLayout?.xaxis"""
 
 
 def chart(here, name):
+    here.see(f"#{name}")
     here.page.locator(f"#{name}").scroll_into_view_if_needed()
     here.page.wait_for_function(DRAWN, arg=name)
     return here.page.evaluate(CHART, name)

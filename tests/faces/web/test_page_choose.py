@@ -24,7 +24,7 @@ def test_what_is_left_open_is_asked_about_first(visit, server):
     texts = {**MASS, "feed": "24 m/min", "nut": "double", "preload": "5 %"}
     rest = {"need": {"rows": "hiwin-40-20k4"}}
     need = urllib.parse.quote(json.dumps({"texts": texts, "units": {}, "rest": rest}))
-    here.open(f"#band=0&cards=choose&need={need}")
+    here.open(f"#band=0&view=choose&need={need}")
     here.page.wait_for_selector("#choose-start")
     here.page.locator("#choose-start").click()
     here.page.wait_for_selector("#choose-anyway")
@@ -61,7 +61,7 @@ def test_choose_a_screw(visit, server):
     texts = {name: text for name, text in NEED.items() if name not in ("rows", "axial_load")}
     texts["preload"] = "; ".join(NEED["preload"])
     need = urllib.parse.quote(json.dumps({"texts": {**texts, "axial_load": "2 furlong"}, "units": {}, "rest": rest}))
-    here.open(f"#band=0&cards=choose&need={need}")
+    here.open(f"#band=0&view=choose&need={need}")
     here.page.wait_for_selector("#choose-start")
     here.page.locator("#choose-start").click()
     here.page.wait_for_selector("[data-path='need.axial_load'] .fault:not(:empty)")
@@ -145,7 +145,7 @@ def test_a_selection_of_another_need_is_not_resumed(visit):
     texts = {**MASS, "feed": "24 m/min", "nut": "double", "preload": "5 %", "running_time": "5000 h",
              "unsupported_length": "1 m", "ends": "fixed-supported"}  # fmt: skip
     need = {"texts": texts, "units": {}, "rest": {"need": {"rows": "hiwin-40-20k4"}}}
-    here.open(f"#band=0&cards=choose&need={urllib.parse.quote(json.dumps(need))}")
+    here.open(f"#band=0&view=choose&need={urllib.parse.quote(json.dumps(need))}")
     page = here.page
     page.wait_for_selector("#choose-start")
     # of two clicks the second one counts

@@ -106,7 +106,7 @@ def test_calibration_is_a_button_beside_the_vendors_rows(go, server):
     for torque in (found["preload_drag_of_balls"], *found["rules"].values()):
         assert f"{to_digits(torque)} N·m" in here.text("#rules")
     before = here.numbers()["results"]["preload_drag"]
-    here.page.locator("#calibrate").click()
+    here.see("#calibrate").page.locator("#calibrate").click()
     assert "with the calibration rexroth-2006" in here.settle().text("#vendor-rows")
     assert here.numbers()["results"]["preload_drag"] > before
     here.page.locator("#calibrate").click()
@@ -192,6 +192,7 @@ def test_designs_side_by_side_at_one_load(go, server):
     here.page.wait_for_function(
         "() => [...document.querySelectorAll('#compare td')].filter((one) => / to /.test(one.textContent)).length === 2"
     )
+    here.see("#own")
     here.page.locator("#own").check()
     here.page.wait_for_selector("#compare caption >> text=own load")
     assert torque.nth(1).evaluate(value) < second
@@ -249,16 +250,18 @@ def test_back_and_undo_keep_typed_work(go):
 def test_downloads_keep_the_name_of_the_catalogue(go):
     """Defect 8: files were numbers without the row that they came from."""
     here = go(f"#A={DOUBLE}&A.screw.lead=6+mm&band=0")
+    here.see("#downloads")
     with here.page.expect_download() as found:
         here.page.locator("#downloads button:text-is('TOML')").click()
     assert found.value.suggested_filename == f"ballscrew-{DOUBLE}.toml"
     assert tomllib.loads(found.value.path().read_text())["screw"] == {"catalogue": DOUBLE, "lead": "6 mm"}
     document = json.loads(here.download("#downloads button:text-is('JSON')"))
     assert document["inputs"]["screw"]["catalogue"] == DOUBLE
+    here.see("#torque-chart")
     with here.page.expect_download() as chart:
         here.page.locator("#torque-chart button[aria-label^=CSV]").click()
     assert chart.value.suggested_filename == f"ballscrew-{DOUBLE}-torque_over_speed.csv"
-    here.page.fill("#project", "Mill 7, z axis")
+    here.see("#project").page.fill("#project", "Mill 7, z axis")
     here.page.check("#dated")
     report = here.download("#downloads button:text-is('HTML')").decode()
     assert "Mill 7, z axis" in report
@@ -301,10 +304,9 @@ def test_drawing_on_a_phone_and_units_that_do_not_wrap(go):
     box = "one => [one.scrollWidth, one.clientWidth]"
     wide, room = here.page.locator("#drawing").evaluate(box)
     assert wide <= room
-    lines = here.page.locator("#contacts data, #numbers data, #torque-chart data").evaluate_all(
-        "all => all.map((one) => one.getClientRects().length)"
-    )
-    assert set(lines) == {1}
+    for shown in ("#numbers data, #torque-chart data", "#contacts data"):
+        lines = here.see(shown).page.locator(shown).evaluate_all("all => all.map((one) => one.getClientRects().length)")
+        assert set(lines) == {1}
     here.page.set_viewport_size({"width": 1360, "height": 900})
 
 
@@ -337,6 +339,7 @@ def test_nothing_passes_that_was_not_judged(go):
     here = go(RIGID)
     assert "4 of 8 checks judged" in here.text("#summary")
     assert "pass" not in here.text("#checks") + here.text("#summary")
+    here.see("#checks")
     here.page.locator("[data-check=running_time] button").click()
     assert here.page.evaluate("document.activeElement.id") == "f-limits-running_time"
     here.page.keyboard.type("100")

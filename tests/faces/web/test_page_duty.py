@@ -37,7 +37,7 @@ def test_a_duty_from_an_example_to_a_fault_and_back(visit, server):
     here.expected = ("status of 422",)
     here.open("#A=paper&A.nut.type=double&A.nut.preload=2+kN&A.screw.dynamic_load_rating=20+kN&band=0")
     page = here.page
-    page.locator("#duty-open").click()
+    here.go("duty")
     answered(here, "duty")
     assert "an example, a vertical axis" in here.text("#duty")
     assert "motion" not in case_of(here)
@@ -113,7 +113,7 @@ def test_a_duty_from_an_example_to_a_fault_and_back(visit, server):
     assert "motor" not in case
     assert violations(here) == []
     # the link has all of it, with the card open
-    page.wait_for_function("location.hash.includes('cards=duty')")
+    page.wait_for_function("location.hash.includes('view=duty')")
     here.open(page.url.partition("/")[2].partition("#")[2].join(["#", ""]))
     answered(here, "duty")
     assert page.input_value("#f-axis-mass") == "200"
@@ -122,7 +122,7 @@ def test_a_duty_from_an_example_to_a_fault_and_back(visit, server):
 def test_warming_up_with_a_band_that_is_cancelled(visit, server):
     here = visit(width=390, height=844, scheme="dark")
     here.expected = ("status of 422", "ERR_FAILED")
-    here.open("#A=warm-up&band=0&cards=warm-up")
+    here.open("#A=warm-up&band=0&view=heat")
     page = here.page
     answered(here, "warm-up")
     end = server.post("warm-up", {"case": case_of(here)}).json()["results"]["equilibrium"]

@@ -30,7 +30,7 @@ def test_what_is_taken_away_is_what_the_page_shows(visit, start, tmp_path):
 
 def taken(here, kind):
     content = here.download(f"#downloads button:text-is('{kind}')")
-    here.page.wait_for_selector(f"#download-words >> text={kind} saved")
+    here.page.wait_for_selector(f"#download-words >> text={kind} saved", state="attached")
     return content
 
 
@@ -106,7 +106,7 @@ def files_are_the_chart(here, chart):
     if chart == "compare-chart":
         assert sum(map(float, rows[0][1:])) == pytest.approx(here.numbers()["results"]["screw_torque"], rel=1e-9)
     here.page.evaluate(f"document.querySelector('#{chart} details').open = true")
-    here.page.wait_for_selector(f"#{chart} table")
+    here.see(f"#{chart}").page.wait_for_selector(f"#{chart} table")
     shown = here.page.locator(f"#{chart} tbody tr >> nth=0").locator("th, td").all_inner_texts()
     if chart != "compare-chart":
         assert [cell for cell in shown if cell.isalpha()] == [cell for cell in rows[0] if cell.isalpha()]

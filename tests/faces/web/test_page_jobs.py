@@ -45,7 +45,7 @@ def test_a_service_survives_a_reload(visit, server):
 
 
 def test_cancelling_on_the_page_kills_the_work(visit, server):
-    here = visit().open("#A=paper&band=0&cards=choose")
+    here = visit().open("#A=paper&band=0&view=choose")
     page = here.page
     page.wait_for_selector("#choose-start")
     for name, value in NEED.items():
@@ -128,6 +128,7 @@ def test_a_duplicated_tab_leaves_the_job_of_the_other_one(visit):
 def test_two_clicks_on_a_report_make_it_once(visit):
     here = visit().open()
     page = here.page
+    here.see("#downloads")
     button = page.locator("#downloads button:text-is('HTML')")
     with page.expect_download():
         button.evaluate("(one) => { one.click(); one.click(); }")

@@ -8,7 +8,7 @@ from .test_page_access import violations
 from .test_page_duty import answered, case_of, number
 
 #: A page with the card of the service and a nut with preload.
-DOUBLE_NUT = "#A=paper&A.nut.type=double&A.nut.preload=3+kN&A.model.name=olaru2005&band=0&cards=service"
+DOUBLE_NUT = "#A=paper&A.nut.type=double&A.nut.preload=3+kN&A.model.name=olaru2005&band=0&view=measure.service"
 
 #: Milliseconds in which a card has followed an edit: ``REST`` of calibrate.js, and some.
 AFTER_AN_EDIT = 600
@@ -42,7 +42,7 @@ def test_a_log_is_fitted_and_used(visit, server):
     """From the example, with a column that is chosen by hand, to the case with the calibration, and back."""
     here = visit()
     here.expected = ("status of 422",)
-    here.open("#A=paper&band=0&cards=calibration")
+    here.open("#A=paper&band=0&view=measure")
     page = here.page
     page.locator("#fit-example").click(timeout=20_000)
     page.wait_for_selector("#calibrate-fit:enabled")
@@ -144,7 +144,7 @@ def test_warnings_of_a_fit_and_causes_of_a_service_in_german(visit, server):
         causes = page.locator("#service [data-record='service.alternative']").all_inner_texts()
         assert [cause.partition(" ")[0] for cause in causes] == ["Reibungszahl", "Viskosität", "Konstantes"]
         assert all(re.search(r"erklärt es (ebenso gut|nicht) \(Abweichung \d", cause) for cause in causes)
-        here.open("#A=paper&band=0&cards=calibration")
+        here.open("#A=paper&band=0&view=measure")
         page.locator("#fit-example").click(timeout=20_000)
         page.wait_for_selector("#calibrate-fit:enabled")
         page.locator("#free-1").uncheck()
@@ -162,7 +162,7 @@ def test_a_design_is_handed_over(visit, server):
 
     here = visit()
     here.expected = ("status of 422",)
-    here.open("#A=paper&band=0&cards=hand-over")
+    here.open("#A=paper&band=0&view=hand-over")
     page = here.page
     page.wait_for_selector("#hand-over-target option >> nth=1", state="attached")
     page.locator("#hand-over-target").select_option("linuxcnc")

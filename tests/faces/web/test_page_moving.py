@@ -9,7 +9,7 @@ def test_a_reversal_is_asked_for_and_refused(visit, server):
     here.expected = ("status of 422",)
     asked = []
     here.page.on("request", lambda one: asked.append(one) if one.url.endswith("/jobs/reversal") else None)
-    here.open("#A=paper&A.operation.screw_speed=6+rpm&band=0&cards=reversal")
+    here.open("#A=paper&A.operation.screw_speed=6+rpm&band=0&view=nut.reversal")
     page = here.page
     page.wait_for_selector("#reversal-start")
     assert "This is a hypothesis" in here.text("#reversal")
@@ -54,7 +54,7 @@ def test_a_reversal_is_asked_for_and_refused(visit, server):
     page.wait_for_selector("#reversal [data-record='reversal.back']:has-text('less than')")
     answered(here, "reversal")
     # a model that has no slip across the path
-    here.open("#A=paper&A.operation.screw_speed=6+rpm&A.model.name=olaru2005&band=0&cards=reversal")
+    here.open("#A=paper&A.operation.screw_speed=6+rpm&A.model.name=olaru2005&band=0&view=nut.reversal")
     page.locator("#reversal-start").click()
     page.wait_for_selector("#reversal .fault:has-text('knows no slip across the path')")
     assert violations(here) == []
@@ -64,7 +64,7 @@ def test_a_reversal_in_german(visit):
     here = visit(width=390, height=844)
     try:
         here.page.context.add_cookies([{"name": "ballscrew-language", "value": "de", "url": here.address}])
-        here.open("#A=paper&A.operation.screw_speed=6+rpm&band=0&cards=reversal")
+        here.open("#A=paper&A.operation.screw_speed=6+rpm&band=0&view=nut.reversal")
         here.page.locator("#reversal-start").click()
         here.page.wait_for_selector("#reversal [data-name=all-90]")
         answered(here, "reversal")
@@ -82,7 +82,7 @@ def test_a_ripple_with_a_fault(visit, server):
     here.expected = ("status of 422",)
     asked = []
     here.page.on("request", lambda one: asked.append(one) if one.url.endswith("/jobs/ripple") else None)
-    here.open("#A=hiwin-40-20k4&band=0&cards=ripple")
+    here.open("#A=hiwin-40-20k4&band=0&view=nut.ripple")
     page = here.page
     page.wait_for_selector("#ripple-start")
     assert "This is a hypothesis" in here.text("#ripple")
@@ -136,7 +136,7 @@ def test_a_ripple_in_german(visit):
     here = visit(width=390, height=844)
     try:
         here.page.context.add_cookies([{"name": "ballscrew-language", "value": "de", "url": here.address}])
-        here.open("#A=hiwin-40-20k4&A.screw.loaded_balls=20&band=0&cards=ripple")
+        here.open("#A=hiwin-40-20k4&A.screw.loaded_balls=20&band=0&view=nut.ripple")
         here.page.locator("#ripple-start").click()
         here.page.wait_for_selector("#ripple [data-name=nut-range]")
         answered(here, "ripple")

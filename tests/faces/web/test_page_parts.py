@@ -1,6 +1,7 @@
 """Parts of the page, each asked by itself on one page that stays open: what they show of what they are given."""
 
 import json
+import re
 import urllib.parse
 
 import pytest
@@ -9,6 +10,7 @@ from .conftest import Visit, new_page
 from .test_page_operating_point import DIAMOND, DRAWN
 
 PAPER = "#A=paper&band=0"
+VIEW = re.compile(r"&view=[^&]*")
 BUSY = "document.querySelector('#results').setAttribute('aria-busy', 'true')"
 
 
@@ -30,7 +32,10 @@ def go(opened):
 
     def to(fragment=PAPER):
         if not opened.page.url.endswith(fragment):
-            opened.page.evaluate(f"{BUSY}; location.hash = {json.dumps(fragment)}")
+            before, after = (VIEW.sub("", one) for one in ("#" + opened.page.url.partition("#")[2], fragment))
+            busy = BUSY if before != after else ""  # another view of the same case asks for nothing
+            opened.page.evaluate(f"{busy}; location.hash = {json.dumps(fragment)}")
+            opened.page.wait_for_function("(fragment) => location.hash === fragment", arg=fragment)
         return opened.settle()
 
     return to
@@ -138,7 +143,7 @@ def test_a_tab_has_an_entry_of_its_own(go):
 
 def test_what_is_kept_is_listed_when_it_is_kept(go):
     """It is kept once typing rests, when nothing else changes on the page."""
-    here = go("#A=paper&band=0&cards=files")
+    here = go("#A=paper&band=0&view=hand-over.files")
     here.page.wait_for_selector("#kept-list p")
     here.page.evaluate("import('/page/keeping.js').then(({ keeping }) => keeping.forget([keeping.own()]))")
     before = here.page.locator("#kept-list em").count()
@@ -149,7 +154,7 @@ def test_what_is_kept_is_listed_when_it_is_kept(go):
 
 def test_copies_of_a_design(go):
     """The copy is shown; the last design stays, and there is room for eight."""
-    here = go("#A=paper&A.operation.axial_load=1.5+kN&band=0&cards=files")
+    here = go("#A=paper&A.operation.axial_load=1.5+kN&band=0&view=hand-over.files")
 
     def disabled(word):
         return here.page.locator(f"#design-list [aria-label^='{word} ']").evaluate_all(
@@ -162,7 +167,7 @@ def test_copies_of_a_design(go):
     here.settle().page.wait_for_selector("#files [aria-label='Copy B']")
     assert (disabled("Delete"), disabled("Copy"), disabled("Show")) == ([False] * 2, [False] * 2, [False, True])
     assert here.page.locator("#f-operation-axial_load").input_value() == "1.5"
-    go("&".join(["#A=paper", *(f"{letter}=paper" for letter in "BCDEFGH"), "band=0&cards=files"]))
+    go("&".join(["#A=paper", *(f"{letter}=paper" for letter in "BCDEFGH"), "band=0&view=hand-over.files"]))
     here.page.wait_for_selector("#files [aria-label='Copy H']")
     assert (disabled("Copy"), disabled("Delete")) == ([True] * 8, [False] * 8)
     assert here.page.locator("#add").is_disabled()
@@ -201,7 +206,7 @@ def test_a_coefficient_that_is_given_is_shown_with_its_law(go):
 def test_each_band_is_asked_for_once_and_none_of_a_design_at_fault(go):
     """That of the design on the page was asked for a second time for the table, while it was on its way."""
     here = go("#A=paper&B=paper&B.screw.lead=nonsense&show=A&band=0")
-    here.page.wait_for_selector("#compare tbody")
+    here.page.wait_for_selector("#compare tbody", state="attached")
     asked = []
     here.page.route("**/api/v1/band", lambda route: (asked.append(route.request.post_data), route.continue_()))
     bands = "#A=paper&A.operation.axial_load=3333+N&B=paper&B.screw.lead=nonsense&show=A&band=1"
@@ -247,7 +252,7 @@ def answered(here, card):
 
 def test_a_cycle_shows_the_numbers_and_the_parts_that_are_any(go, server):
     """The cycle ends where it began: of what is stored only rounding is left. Its guides have no friction."""
-    here = go("#A=vertical-axis&band=0&cards=duty")
+    here = go("#A=vertical-axis&band=0&view=duty")
     here.page.wait_for_selector("#duty .verdict")
     answered(here, "duty")
     known = server.get("vocabulary").json()
@@ -272,7 +277,7 @@ def test_what_fails_without_a_limit_has_no_multiple_of_it(go):
     texts = {"axial_load": "3 kN", "feed": "15 m/min", "nut": "double", "preload": "5 %", "running_time": "5000 h",
              "unsupported_length": "1 m", "ends": "fixed-supported"}  # fmt: skip
     need = urllib.parse.quote(json.dumps({"texts": texts, "units": {}, "rest": rest}))
-    here = go(f"#A=paper&band=0&cards=choose&need={need}")
+    here = go(f"#A=paper&band=0&view=choose&need={need}")
     here.page.locator("#choose-start").click()
     here.page.wait_for_selector("#choose [role=status]")
     assert here.text("#choose-result tbody tr summary strong") == "Fails: back driving."
@@ -283,7 +288,7 @@ def test_warming_up_with_a_rest_and_without_starvation(go, server):
 
     What moves the instant stands above the picture of the axis.
     """
-    here = go("#A=warm-up&band=0&cards=warm-up&hours=0.5&rest=0.5")
+    here = go("#A=warm-up&band=0&view=heat&hours=0.5&rest=0.5")
     here.page.wait_for_selector("#warm-up [data-name=nut_temperature]")
     answered(here, "warm-up")
     case = server.get("vocabulary").json()["starts"]["warm-up"]["case"]
@@ -297,7 +302,7 @@ def test_warming_up_with_a_rest_and_without_starvation(go, server):
     assert "in a full bath of oil" in here.text(legend)
     warm = {**case, "surroundings": {**case["surroundings"], "ambient": "45 degC"}}
     steady = server.post("warm-up", {"case": warm, "hours": 0.5, "cool_down": 0.5}).json()["results"]["equilibrium"]
-    go("#A=warm-up&A.surroundings.ambient=45+degC&band=0&cards=warm-up&hours=0.5&rest=0.5")
+    go("#A=warm-up&A.surroundings.ambient=45+degC&band=0&view=heat&hours=0.5&rest=0.5")
     here.page.wait_for_selector(f"#warm-up [data-name=nut_temperature][value='{steady['nut_temperature']}']")
     here.page.wait_for_function(f"() => !document.querySelector('{legend}').textContent.includes('full bath')")
 

@@ -67,7 +67,7 @@ def given(here, name, content):
 
 def toml(here):
     content = here.download("#downloads button:text-is('TOML')")
-    here.page.wait_for_selector("#download-words >> text=TOML saved")
+    here.page.wait_for_selector("#download-words >> text=TOML saved", state="attached")
     return content
 
 
@@ -91,7 +91,7 @@ def test_files_and_designs(visit):
     assert here.page.locator("#design-B").get_attribute("aria-pressed") == "true"
     assert (here.numbers(), values(here), toml(here)) == (numbers, fields, first)
 
-    here.page.locator("#files-open").click()
+    here.go("hand-over.files")
     here.page.locator("#name-B").fill("lighter oil")
     here.settle().choose("lubricant.grade", "ISO VG 32")
     lighter = here.numbers()
@@ -109,7 +109,7 @@ def test_files_and_designs(visit):
     here.page.wait_for_selector("#design-B")
     assert here.settle().page.locator("#name-B").input_value() == "lighter oil"
 
-    there = visit(**SIZES["phone"]).open("#band=0&cards=files")
+    there = visit(**SIZES["phone"]).open("#band=0&view=hand-over.files")
     given(there, "all.toml", project)
     there.page.locator("#design-B").click()
     assert there.settle().numbers() == lighter
@@ -188,10 +188,10 @@ def test_a_need_and_a_table_are_there_before_their_card(visit):
     assert "need.toml" in given(here, "need.toml", need)
     here.page.wait_for_function("() => location.hash.includes('need=')")
     assert "own.csv" in given(here, "own.csv", b"name,d0 [mm],lead [mm],ball [mm],turns,nut\nMINE,40,20,6,4,single\n")
-    here.page.locator("#choose-open").click()
+    here.go("choose")
     here.page.wait_for_selector("#choose label >> text=own.csv")
     assert here.page.locator("#f-need-feed").input_value() == "15"
     here.page.locator("#undo").click()
     here.page.wait_for_function("() => !location.hash.includes('need=')")
-    here.page.locator("#files-open").click()
+    here.go("hand-over.files")
     here.page.wait_for_selector("#files li >> text=MINE")

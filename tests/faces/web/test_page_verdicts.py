@@ -3,7 +3,7 @@
 import re
 
 #: A screw that its operating point would wear out, and its cycle does not.
-MOVING = "#A=vertical-axis&band=0&cards=duty"
+MOVING = "#A=vertical-axis&band=0&view=duty"
 RECORDS = (
     "#verdicts p, #rules p, #duty [data-record], #checks .verdict, #duty .card-result > div .verdict, "
     "#warm-up [data-record]"
@@ -32,8 +32,9 @@ def test_safety_in_german(visit):
     """Item 21: "a brake is needed: 24.97 N m" stood beside "27,4 N·m"."""
     here = visit()
     try:
-        in_german(here, "#A=vertical-axis&band=0&cards=duty+warm-up&A.lubricant.temperature=-5+degC")
+        in_german(here, "#A=vertical-axis&band=0&view=duty&A.lubricant.temperature=-5+degC")
         here.page.wait_for_selector("#duty [data-record='verdict.brake']")
+        here.go("heat")
         here.page.wait_for_selector("#warm-up [data-record]")
         brake = here.text("#duty [data-record='verdict.brake']")
         assert re.search(

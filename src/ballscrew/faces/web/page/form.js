@@ -192,7 +192,7 @@ function showStart(start, file) {
  *
  * @param {Vocabulary["rows"][number]} row
  */
-function rowLabel({ name, nut }) {
+export function rowLabel({ name, nut }) {
   const end = `-${nut}`;
   const kind = textOr(`option.nut.type.${nut}`, nut);
   return text("form.row", { name: name.endsWith(end) ? name.slice(0, -end.length) : name, nut: kind });

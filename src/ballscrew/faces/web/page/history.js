@@ -23,6 +23,8 @@ class Entries {
   #pending;
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   #timer;
+  /** Places of entries that are another view of what was there: to undo an edit passes over them. @type {Set<number>} */
+  #looks = new Set();
   /** Addresses that were left before they were written, by place. @type {Map<number, string>} */
   #late = new Map();
 
@@ -33,11 +35,11 @@ class Entries {
     history.replaceState({ place: this.#place }, "", location.href);
     button("undo").addEventListener("click", () => {
       this.write();
-      history.back();
+      history.go(this.#edit(-1) - 1 - this.#place);
     });
     button("redo").addEventListener("click", () => {
       this.write();
-      history.forward();
+      history.go(this.#edit(1) - this.#place);
     });
     addEventListener("pagehide", () => this.write());
     // a field that is left or a slider that is let go ends its edit: the next one is another step
@@ -56,6 +58,18 @@ class Entries {
   choose(fragment) {
     this.#edited = undefined;
     this.#push(fragment);
+  }
+
+  /**
+   * An entry for another view of the same state.
+   *
+   * @param {string} fragment
+   */
+  look(fragment) {
+    this.#edited = undefined;
+    if (!this.#push(fragment)) return;
+    this.#looks.add(this.#place);
+    this.#showButtons();
   }
 
   /**
@@ -117,6 +131,7 @@ class Entries {
     this.#place += 1;
     this.#last = this.#place;
     this.#late.clear();
+    for (const place of this.#looks) if (place >= this.#place) this.#looks.delete(place);
     history.pushState({ place: this.#place }, "", fragment);
     this.#showButtons();
     return true;
@@ -136,9 +151,20 @@ class Entries {
     this.#showButtons();
   }
 
+  /**
+   * The place of the edit that is undone or made again next: 0, or one after the last, where there is none.
+   *
+   * @param {-1 | 1} direction
+   */
+  #edit(direction) {
+    let place = direction > 0 ? this.#place + 1 : this.#place;
+    while (this.#looks.has(place)) place += direction;
+    return place;
+  }
+
   #showButtons() {
-    button("undo").disabled = this.#place === 0;
-    button("redo").disabled = this.#place >= this.#last;
+    button("undo").disabled = this.#edit(-1) <= 0;
+    button("redo").disabled = this.#edit(1) > this.#last;
   }
 }
 

@@ -5,7 +5,7 @@ const OWN = "ballscrew.tab";
 /** Milliseconds after the last key until it is kept. */
 const DELAY = 300;
 /** Keys of an address that say how the work is looked at. */
-const VIEWS = ["band", "cards", "show", "unit", "units"];
+const VIEWS = ["band", "show", "unit", "units", "view"];
 
 /** What is kept: the state as the fragment of an address, words for a list, and when. */
 /** @typedef {{ id: string, fragment: string, title: string, saved: number }} Work */
@@ -36,7 +36,7 @@ function readOwn() {
   }
 }
 
-/** A state without what is only looked at: cards that are open, the design that is shown, units. @param {string} fragment */
+/** A state without what is only looked at: the view, the design that is shown, units. @param {string} fragment */
 function edited(fragment) {
   const parameters = new URLSearchParams(fragment.replace(/^#/, ""));
   for (const key of [...parameters.keys()]) if (VIEWS.includes(key.split(".")[0])) parameters.delete(key);

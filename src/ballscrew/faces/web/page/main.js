@@ -1,4 +1,4 @@
-// The page: a change of its state is followed by the address, the form, the cards and the answer.
+// The page: a change of its state is followed by the address, the form, the view, its cards and the answer.
 
 import { answers } from "./answers.js";
 import * as bath from "./bath.js";
@@ -7,6 +7,7 @@ import * as designs from "./designs.js";
 import { byId, showNotice, within } from "./dom.js";
 import * as downloads from "./downloads.js";
 import * as files from "./files.js";
+import * as have from "./have.js";
 import { entries } from "./history.js";
 import * as inputs from "./inputs.js";
 import { keeping } from "./keeping.js";
@@ -17,6 +18,7 @@ import * as states from "./state.js";
 import { store } from "./store.js";
 import { followMenu, text } from "./texts.js";
 import * as units from "./units.js";
+import * as views from "./views.js";
 import { fill, vocabulary } from "./vocabulary.js";
 
 /** @typedef {import("./store.js").StateChange} StateChange */
@@ -38,6 +40,10 @@ function readAddress() {
     const names = unknown.slice(0, 3).map(quoted).join(", ") + (unknown.length > 3 ? ", …" : "");
     lines.push(text("link.keys", { names }));
   }
+  if (!views.paneAt(found.view)) {
+    lines.push(text("link.view", { name: quoted(found.view) }));
+    found.view = states.USUAL_VIEW;
+  }
   showNotice(lines.join(" "));
   return found;
 }
@@ -54,7 +60,7 @@ function quoted(name) {
  *
  * @param {import("./store.js").About} about
  */
-async function follow({ path, isStep = false, rebuild = false, of }) {
+async function follow({ path, isStep = false, rebuild = false, of, isLook = false }) {
   const { state } = store;
   if (!of) byId("results").setAttribute("aria-busy", "true");
   const fragment = states.toFragment(state);
@@ -62,7 +68,8 @@ async function follow({ path, isStep = false, rebuild = false, of }) {
   if (isStep) {
     entries.choose(fragment);
     showNotice("");
-  } else if (path) entries.edit(fragment, path);
+  } else if (isLook) entries.look(fragment);
+  else if (path) entries.edit(fragment, path);
   else entries.replace(fragment);
   try {
     if (rebuild) await inputs.show(answers.current().answer);
@@ -71,6 +78,7 @@ async function follow({ path, isStep = false, rebuild = false, of }) {
     results.fail(results.refusal(linesOf(error)));
     return;
   }
+  views.show();
   cards.follow();
   if (of === "cards") answers.keepWhole(await designs.currentCase());
   else if (!of) await answers.update();
@@ -127,14 +135,14 @@ function changeBand() {
 
 /** Show the state of the address, as after Back. */
 function arrive() {
-  store.use(readAddress(), { rebuild: true });
-  cards.openAll();
+  const found = readAddress();
+  const isLook = states.toFragment({ ...found, view: "" }) === states.toFragment({ ...store.state, view: "" });
+  store.use(found, isLook ? { of: "view" } : { rebuild: true });
 }
 
 /** Show the same state again, as once the server is there again. */
 function showAgain() {
   store.change(() => {}, { rebuild: true });
-  cards.openAll();
 }
 
 function addListeners() {
@@ -173,7 +181,8 @@ function addListeners() {
   connection.addEventListener("return", showAgain);
   downloads.build();
   files.setUp();
-  cards.setUp();
+  views.setUp();
+  have.setUp();
 }
 
 async function begin() {
@@ -187,7 +196,6 @@ async function begin() {
   addListeners();
   await store.use(state, { rebuild: true });
   document.documentElement.dataset.ready = "true";
-  await cards.openAll();
 }
 
 begin().catch((error) => results.fail(results.refusal(linesOf(error))));

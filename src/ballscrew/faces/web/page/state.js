@@ -2,7 +2,10 @@
 // the address. The state that is there has store.js.
 
 export const LETTERS = ["A", "B", "C", "D", "E", "F", "G", "H"];
-const OTHER_KEYS = ["need", "show", "units", "band", "at", "cards", "hours", "rest", "heat"];
+const OTHER_KEYS = ["need", "show", "units", "band", "at", "view", "hours", "rest", "heat"];
+/** What a page shows whose address says nothing, and what it shows of an address that says no view. */
+const FIRST_VIEW = "start";
+export const USUAL_VIEW = "torque";
 /** Hours of work and of rest of a warm-up. */
 const HOURS = "4";
 const REST = "0";
@@ -34,7 +37,7 @@ export const OF_SCREW = ["screw", "nut", "bodies", "deviations"];
  */
 /**
  * ``show`` is the place of the current design, ``own`` compares each design at its own load and speed, ``fields`` has
- * units chosen for single fields, ``cards`` are those that are open, ``heat`` has the hours of work and of rest of a
+ * units chosen for single fields, ``view`` is the address of the pane that is seen, ``heat`` has the hours of work and of rest of a
  * warm-up as they were typed, and whether it has bands. ``table`` is the table of screws that was opened last, which is
  * too large for the address.
  *
@@ -45,7 +48,7 @@ export const OF_SCREW = ["screw", "nut", "bodies", "deviations"];
  * @property {boolean} band
  * @property {boolean} own
  * @property {Record<string, string>} fields
- * @property {string[]} cards
+ * @property {string} view
  * @property {{ hours: string, rest: string, band: boolean }} heat
  * @property {Need} need
  * @property {OwnTable} [table]
@@ -137,7 +140,7 @@ export function initial() {
     band: true,
     own: false,
     fields: {},
-    cards: [],
+    view: FIRST_VIEW,
     heat,
     need: noNeed(),
   };
@@ -164,7 +167,7 @@ export function toFragment(state) {
   for (const [path, unit] of Object.entries(state.fields)) parameters.set(`unit.${path}`, unit);
   if (!state.band) parameters.set("band", "0");
   if (state.own) parameters.set("at", "own");
-  if (state.cards.length) parameters.set("cards", state.cards.join(" "));
+  if (state.view !== USUAL_VIEW) parameters.set("view", state.view);
   if (state.heat.hours !== HOURS) parameters.set("hours", state.heat.hours);
   if (state.heat.rest !== REST) parameters.set("rest", state.heat.rest);
   if (state.heat.band) parameters.set("heat", "band");
@@ -199,7 +202,7 @@ export function fromFragment(fragment, schema, isUnit) {
   state.band = parameters.get("band") !== "0";
   state.own = parameters.get("at") === "own";
   state.need = needIn(parameters.get("need"));
-  state.cards = (parameters.get("cards") ?? "").split(" ").filter(Boolean);
+  if (parameters.size) state.view = parameters.get("view") ?? USUAL_VIEW;
   state.heat = {
     hours: parameters.get("hours") ?? HOURS,
     rest: parameters.get("rest") ?? REST,

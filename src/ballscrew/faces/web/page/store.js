@@ -6,9 +6,10 @@ import { initial } from "./state.js";
 /**
  * What a change is of. ``path`` is the field that was edited: all keys in one field are one step of the button Back.
  * ``isStep`` makes it a step by itself. ``rebuild`` has the form made anew. ``of`` says what follows: the ``view`` alone,
- * what only ``cards`` ask about, or, where it is left out, the answer.
+ * what only ``cards`` ask about, or, where it is left out, the answer. ``isLook`` is another view of the same state: a step of
+ * the browser, which is not undone.
  *
- * @typedef {{ path?: string, isStep?: boolean, rebuild?: boolean, of?: "view" | "cards" }} About
+ * @typedef {{ path?: string, isStep?: boolean, rebuild?: boolean, of?: "view" | "cards", isLook?: boolean }} About
  */
 
 /** A change of the state, as a listener is told of it. It is done when all is that has to be waited for. */

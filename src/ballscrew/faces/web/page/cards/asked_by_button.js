@@ -84,5 +84,5 @@ export function askedByButton(holder, name, about, start, charts, show) {
     rest.replaceChildren(...show(found));
   }
 
-  return { follow, stop: asked.stop };
+  return { follow };
 }

@@ -279,10 +279,5 @@ export function setUp(holder) {
     timer = setTimeout(inspect, REST);
   }
 
-  function stop() {
-    clearTimeout(timer);
-    fit.stop();
-  }
-
-  return { follow, stop };
+  return { follow };
 }

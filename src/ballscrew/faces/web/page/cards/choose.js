@@ -313,7 +313,6 @@ export function setUp(holder) {
         else if (store.state.table !== offered) showSources();
       });
     },
-    stop: () => request.abort(),
   };
 }
 

@@ -309,7 +309,7 @@ export function setUp(holder) {
     );
   }
 
-  return { follow, stop: asked.stop };
+  return { follow };
 }
 
 /**

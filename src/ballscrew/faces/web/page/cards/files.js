@@ -63,7 +63,7 @@ export function setUp(holder) {
   };
   keeping.addEventListener("change", () => showKept(works));
   follow();
-  return { follow, stop: () => {} };
+  return { follow };
 }
 
 function listOfDesigns() {

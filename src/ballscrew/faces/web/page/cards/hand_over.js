@@ -150,5 +150,5 @@ export function setUp(holder) {
     );
   }
 
-  return { follow, stop: asked.stop };
+  return { follow };
 }

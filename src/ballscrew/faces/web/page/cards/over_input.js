@@ -123,13 +123,9 @@ export function setUp(holder) {
     timer = setTimeout(show, DELAY);
   }
 
-  function stop() {
+  async function show() {
     clearTimeout(timer);
     requests.abort();
-  }
-
-  async function show() {
-    stop();
     requests = new AbortController();
     const { signal } = requests;
     holder.setAttribute("aria-busy", "true");
@@ -189,7 +185,7 @@ export function setUp(holder) {
     if (document.activeElement !== control) control.value = units.digits(shown(question.path, value));
   }
 
-  return { follow: later, stop };
+  return { follow: later };
 }
 
 /**

@@ -224,5 +224,5 @@ export function setUp(holder) {
     };
   }
 
-  return { follow, stop: asked.stop };
+  return { follow };
 }

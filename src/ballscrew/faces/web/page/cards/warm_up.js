@@ -260,7 +260,7 @@ export function setUp(holder) {
     return element("details", {}, element("summary", {}, text("warm_up.assumed")), list);
   }
 
-  return { follow, stop: asked.stop };
+  return { follow };
 }
 
 /**
