@@ -58,6 +58,17 @@ export function textField(value, take, more = {}) {
 }
 
 /**
+ * A line with a control behind its label.
+ *
+ * @param {HTMLElement} control has an id
+ * @param {string} words
+ * @param {Child[]} others what follows in the line
+ */
+export function labelled(control, words, ...others) {
+  return element("p", { class: "card-start" }, element("label", { for: control.id }, words), control, ...others);
+}
+
+/**
  * A box to check, with words behind it.
  *
  * @param {string} words

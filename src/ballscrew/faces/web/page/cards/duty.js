@@ -2,7 +2,7 @@
 
 import * as checks from "../checks.js";
 import * as designs from "../designs.js";
-import { button, menu, opened } from "../controls.js";
+import { button, labelled, menu, opened } from "../controls.js";
 import { element, redraw, scrollingTable } from "../dom.js";
 import { isSmall, sent, tooLarge } from "../opening.js";
 import { watch } from "../plot.js";
@@ -177,13 +177,7 @@ export function setUp(holder) {
       shown = "";
       designs.setTables(Object.fromEntries(OF_EXAMPLE.map((name) => [name, example[name] ?? null])));
     };
-    return element(
-      "p",
-      { class: "card-start" },
-      element("label", { for: "duty-example" }, text("duty.from_example")),
-      select,
-      button(text("duty.take"), take, { id: "duty-take" }),
-    );
+    return labelled(select, text("duty.from_example"), button(text("duty.take"), take, { id: "duty-take" }));
   }
 
   /** @param {DutyAnswer} found */

@@ -1,7 +1,7 @@
 // The card of a hand-over: a target, its choices, the error of what is made, its files, and the command for the same.
 
 import * as designs from "../designs.js";
-import { framed, namedButton, opened } from "../controls.js";
+import { framed, labelled, namedButton, opened } from "../controls.js";
 import { element, scrollingTable } from "../dom.js";
 import { said, translated } from "../messages.js";
 import { save } from "../saving.js";
@@ -43,7 +43,7 @@ export function setUp(holder) {
     asked.follow(body(), 0);
   });
   holder.replaceChildren(
-    element("p", { class: "card-start" }, element("label", { for: select.id }, text("hand_over.target")), select),
+    labelled(select, text("hand_over.target")),
     framed(text("hand_over.options"), options),
     element("p", { class: "card-start" }, make),
     command,

@@ -1,6 +1,6 @@
 // The columns of a log: what each was taken for, changed by a menu, and the numbers that are fitted to it.
 
-import { box, framed, menu, opened } from "../controls.js";
+import { box, framed, labelled, menu, opened } from "../controls.js";
 import { element, scrollingTable } from "../dom.js";
 import { withPlace } from "../messages.js";
 import { text, textOr } from "../texts.js";
@@ -79,8 +79,7 @@ export function columns(found, given, change) {
           const others = Object.fromEntries(Object.entries(given).filter(([other]) => other !== name));
           change(input.value.trim() ? { ...others, [name]: input.value.trim() } : others);
         });
-        const label = text("log.in_every_row", { name: nameOf(name) });
-        return element("p", { class: "card-start" }, element("label", { for: input.id }, label), input);
+        return labelled(input, text("log.in_every_row", { name: nameOf(name) }));
       });
     return element("div", {}, ...fields);
   }

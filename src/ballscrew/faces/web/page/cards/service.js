@@ -1,7 +1,7 @@
 // The card of a service: two logs, the preload that is left in the nut, and what else could explain them.
 
 import * as designs from "../designs.js";
-import { namedButton, textField } from "../controls.js";
+import { labelled, namedButton, textField } from "../controls.js";
 import { element, scrollingTable } from "../dom.js";
 import { draw, layout, watch } from "../plot.js";
 import { said } from "../messages.js";
@@ -70,14 +70,7 @@ export function setUp(holder) {
   holder.replaceChildren(
     ...zones.map(({ zone }) => zone),
     example,
-    element(
-      "p",
-      { class: "card-start" },
-      element("label", { for: tolerance.id }, text("service.tolerance")),
-      tolerance,
-      "%",
-      start,
-    ),
+    labelled(tolerance, text("service.tolerance"), "%", start),
     more,
     command,
     asked.line,
