@@ -31,7 +31,7 @@ ALLOWED = {
                              'last.replaceAll("_", " ")': NAMES},
     "cards/log_parts.js": {"const OF_SHELLS = ": "a command line", "const SPECIAL = ": "a command line",
                            "SPECIAL.test(word)": "a command line"},
-    "cards/motion.js": {'distance?.replace(/^[-−]/, "")': TYPED, 'input.value.split(";")': TYPED},
+    "cards/motion.js": {'distance?.replace(/^[-−]/, "")': TYPED, 'typed.split(";")': TYPED},
     "cards/option_fields.js": {"typed.split(": TYPED, "entry.split(/=(.*)/s, 2)": TYPED},
     "cards/over_input.js": {'path.split(".")': PATHS},
     "cards/segments.js": {".test(typed)": TYPED},

@@ -156,3 +156,16 @@ def test_warming_up_with_a_band_that_is_cancelled(visit, server):
     page.locator("#warm-instant").press("Home")
     assert page.locator("#warm-axis-chart .plot").get_attribute("aria-label") != said
     assert violations(here) == []
+
+
+def test_focus_and_cursor_stay_while_the_fields_of_a_card_are_made_anew(visit):
+    here = visit()
+    here.open("#A=warm-up&band=0&cards=warm-up")
+    page = here.page
+    answered(here, "warm-up")
+    edited(here, "warm-up", lambda: page.locator("#warm-hours").fill("12"))
+    page.locator("#warm-hours").evaluate("one => { globalThis.before = one; one.setSelectionRange(1, 1); }")
+    page.locator("#system").evaluate("one => { one.value = 'inch'; one.dispatchEvent(new Event('change')); }")
+    page.wait_for_function("() => !globalThis.before.isConnected")
+    after = page.evaluate("(({ id, value, selectionStart }) => [id, value, selectionStart])(document.activeElement)")
+    assert after == ["warm-hours", "12", 1]

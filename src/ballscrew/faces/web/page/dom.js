@@ -90,6 +90,45 @@ export function scrolling(label, content) {
 }
 
 /**
+ * A table in a frame that scrolls on its own, which is labelled by its caption.
+ *
+ * @param {string} caption
+ * @param {string[]} headings
+ * @param {Child[][]} rows
+ */
+export function scrollingTable(caption, headings, rows) {
+  return scrolling(caption, table(caption, headings, rows));
+}
+
+/**
+ * Keep the focus and the cursor where they are while their element is made anew with the same id.
+ *
+ * @param {() => void} rebuild
+ * @param {() => HTMLElement} [instead] the element that gets the focus where that button is disabled now
+ */
+export function keepFocus(rebuild, instead) {
+  const focused = document.activeElement;
+  const id = focused?.id;
+  const selection = focused instanceof HTMLInputElement ? [focused.selectionStart, focused.selectionEnd] : [];
+  rebuild();
+  const again = id && document.activeElement?.id !== id ? document.getElementById(id) : null;
+  if (instead && again instanceof HTMLButtonElement && again.disabled) instead().focus();
+  else again?.focus({ preventScroll: true });
+  const [from, to] = selection;
+  if (again instanceof HTMLInputElement && typeof from === "number") again.setSelectionRange(from, to ?? from);
+}
+
+/**
+ * Put children in place of those that an element has; the focus and the cursor stay in the one with the same id.
+ *
+ * @param {HTMLElement} holder
+ * @param {(string | Node)[]} children
+ */
+export function redraw(holder, ...children) {
+  keepFocus(() => holder.replaceChildren(...children));
+}
+
+/**
  * Show words above the form, or nothing there.
  *
  * @param {(string | Node)[]} words

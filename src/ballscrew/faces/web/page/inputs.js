@@ -2,7 +2,7 @@
 
 import { consequences } from "./consequences.js";
 import * as designs from "./designs.js";
-import { byId, element } from "./dom.js";
+import { byId, element, keepFocus } from "./dom.js";
 import * as form from "./form.js";
 import { LETTERS, valueAt } from "./state.js";
 import { store } from "./store.js";
@@ -62,12 +62,13 @@ export async function show(answer) {
     const known = valueAt(answer?.inputs, path);
     return typeof known === "string" ? { law: known } : known;
   };
-  keepFocus(() => {
+  const rebuild = () => {
     form.build({ state, given, lawOf, onChange: change });
     byId("form").dataset.laws = lawsOf(answer);
     form.showValues(effective(answer));
     showTabs();
-  });
+  };
+  keepFocus(rebuild, () => byId(`design-${LETTERS[store.state.show]}`));
 }
 
 /** Show that the texts of the current design were changed, without a form that is made anew. @param {string} path */
@@ -122,23 +123,6 @@ function effective(answer) {
   const given = /** @type {Record<string, unknown>} */ (inputs?.limits ?? {});
   const limits = Object.entries(vocabulary.limits).map(([name, usual]) => [name, given[name] ?? usual]);
   return { ...inputs, limits: { ...given, ...Object.fromEntries(limits) } };
-}
-
-/**
- * Keep the focus and the cursor where they are while their element is made anew.
- *
- * @param {() => void} rebuild
- */
-function keepFocus(rebuild) {
-  const focused = document.activeElement;
-  const id = focused?.id;
-  const selection = focused instanceof HTMLInputElement ? [focused.selectionStart, focused.selectionEnd] : [];
-  rebuild();
-  const again = id && document.activeElement?.id !== id ? document.getElementById(id) : null;
-  if (again instanceof HTMLButtonElement && again.disabled) byId(`design-${LETTERS[store.state.show]}`).focus();
-  else again?.focus({ preventScroll: true });
-  const [from, to] = selection;
-  if (again instanceof HTMLInputElement && typeof from === "number") again.setSelectionRange(from, to ?? from);
 }
 
 function showTabs() {

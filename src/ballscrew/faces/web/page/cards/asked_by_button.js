@@ -1,11 +1,12 @@
 // A card of the case that takes some seconds: its options, and an answer that is asked for by its button alone.
 
 import * as designs from "../designs.js";
+import { namedButton } from "../controls.js";
 import { element } from "../dom.js";
 import { watch } from "../plot.js";
 import * as units from "../units.js";
 import { vocabulary } from "../vocabulary.js";
-import { button, caseFile, commandLine, faultLines } from "./log_parts.js";
+import { caseFile, commandLine, faultLines } from "./log_parts.js";
 import { flags, optionFields } from "./option_fields.js";
 import { question } from "./question.js";
 import { lines } from "./records.js";
@@ -44,7 +45,7 @@ export function askedByButton(holder, name, about, start, charts, show) {
       return undefined;
     },
   });
-  const asks = button(`${name}-start`, start, async () => {
+  const asks = namedButton(`${name}-start`, start, async () => {
     tables = await designs.currentCase();
     asked.follow(body(), 0);
   });

@@ -1,7 +1,8 @@
 // The card of a calibration: a log, what its columns were taken for, the fit, and the case with what was found.
 
 import * as designs from "../designs.js";
-import { element, scrolling, table } from "../dom.js";
+import { namedButton } from "../controls.js";
+import { element, redraw, scrollingTable } from "../dom.js";
 import { said } from "../messages.js";
 import { watch } from "../plot.js";
 import { save } from "../saving.js";
@@ -11,7 +12,7 @@ import * as units from "../units.js";
 import { vocabulary } from "../vocabulary.js";
 import * as charts from "./calibrate_charts.js";
 import { choices, columns, meaningOf } from "./log_columns.js";
-import { button, caseFile, commandLine, dropZone, exampleButton, faultLines } from "./log_parts.js";
+import { caseFile, commandLine, dropZone, exampleButton, faultLines } from "./log_parts.js";
 import { flags, optionFields } from "./option_fields.js";
 import { quantity, TORQUE } from "./quantities.js";
 import { question } from "./question.js";
@@ -139,14 +140,14 @@ export function setUp(holder) {
 
   function showColumns() {
     if (!seen || !log) return;
-    const focused = document.activeElement?.id;
     const isReady = !seen.moving && !seen.faults.length;
-    const start = button("calibrate-fit", "calibrate.fit", () => {
+    const start = namedButton("calibrate-fit", "calibrate.fit", () => {
       fittedCase = tables;
       fit.follow(body(), 0);
     });
     start.disabled = !isReady;
-    inspected.replaceChildren(
+    redraw(
+      inspected,
       columns(seen, given, (changed) => {
         given = changed;
         inspect();
@@ -161,7 +162,6 @@ export function setUp(holder) {
       command,
     );
     showCommand();
-    if (focused) document.getElementById(focused)?.focus({ preventScroll: true });
   }
 
   function showCommand() {
@@ -198,7 +198,7 @@ export function setUp(holder) {
       element(
         "p",
         { class: "card-start" },
-        button("calibrate-use", "calibrate.use", async () => {
+        namedButton("calibrate-use", "calibrate.use", async () => {
           const design = await designs.currentCase();
           if (ofFit(design) !== ofFit(fittedCase) && ofFit(design) !== ofFit(found.calibrated.case)) {
             isPast = (now) => ofFit(now) !== ofFit(design);
@@ -211,7 +211,7 @@ export function setUp(holder) {
           isPast = (now) => JSON.stringify(now.calibration) !== JSON.stringify(after.calibration);
           used.textContent = [text("calibrate.used"), await change(before, await torqueOf(after))].join(" ").trim();
         }),
-        button("calibrate-save", "calibrate.save", () =>
+        namedButton("calibrate-save", "calibrate.save", () =>
           save("-calibrated.toml", new Blob([found.calibrated.toml], { type: "application/toml" })),
         ),
       ),
@@ -265,7 +265,7 @@ export function setUp(holder) {
     });
     const caption = text("calibrate.values", { rms: TORQUE.text(rms), held: TORQUE.text(held) });
     const headings = ["", text("calibrate.before"), text("calibrate.after"), text("calibrate.interval")];
-    return scrolling(caption, table(caption, headings, rows));
+    return scrollingTable(caption, headings, rows);
   }
 
   /** @param {string} name @param {string} si */

@@ -1,6 +1,7 @@
 // Charts of a calibration: the model against the log, and the residuals over speed, load, temperature or time.
 
-import { byId, element } from "../dom.js";
+import { labelled, menu } from "../controls.js";
+import { byId, keepFocus } from "../dom.js";
 import { draw, layout } from "../plot.js";
 import { text } from "../texts.js";
 import { nameOf } from "./log_columns.js";
@@ -95,21 +96,19 @@ function residuals(found, picture, wanted) {
       picture.kinds.map((kind, place) => [x[place], off[place], kind]),
     ],
   });
-  menu(found, picture, there, over);
+  showMenu(found, picture, there, over);
 }
 
 /** A menu of what the residuals are shown over. @param {FitAnswer} found @param {Picture} picture @param {string[]} there @param {string} over */
-function menu(found, picture, there, over) {
+function showMenu(found, picture, there, over) {
   document.getElementById(MENU)?.closest("p")?.remove();
-  const options = there.map((name) => element("option", { value: name }, nameOf(name)));
-  const select = element("select", { id: MENU }, ...options);
-  select.value = over;
-  select.addEventListener("change", () => {
-    residuals(found, picture, select.value);
-    byId(MENU).focus();
-  });
-  const line = element("p", { class: "card-start" }, element("label", { for: MENU }, text("calibrate.over")), select);
-  byId(PLACES[1]).after(line);
+  const select = menu(
+    there.map((name) => [name, nameOf(name)]),
+    over,
+    (name) => keepFocus(() => residuals(found, picture, name)),
+    { id: MENU },
+  );
+  byId(PLACES[1]).after(labelled(select, text("calibrate.over")));
 }
 
 /** @param {import("../plot.js").Colours} colours @param {number} kind */

@@ -1,7 +1,8 @@
 // Candidates for a need: the ranked list with filters, and the picture of the Pareto front.
 
 import * as designs from "../designs.js";
-import { element } from "../dom.js";
+import { box, button, menu, textField } from "../controls.js";
+import { element, redraw, scrolling } from "../dom.js";
 import { said } from "../messages.js";
 import { draw, layout, watch } from "../plot.js";
 import { LETTERS } from "../state.js";
@@ -129,18 +130,11 @@ export function candidates(holder, found) {
   function show() {
     const kept = sorted(all.filter(filter.holds), order);
     const shown = kept.slice(0, most);
-    const more = element(
-      "button",
-      {
-        type: "button",
-        onclick: () => {
-          most = kept.length;
-          show();
-        },
-      },
-      text("choose.all", { count: kept.length }),
-    );
-    list.replaceChildren(tableOf(shown, known, order, sortBy, say), kept.length > shown.length ? more : "");
+    const more = button(text("choose.all", { count: kept.length }), () => {
+      most = kept.length;
+      show();
+    });
+    redraw(list, tableOf(shown, known, order, sortBy, say), kept.length > shown.length ? more : "");
     picture(kept, x.value, y.value, found);
   }
 
@@ -148,7 +142,6 @@ export function candidates(holder, found) {
   function sortBy(column) {
     order = { column, down: order.column === column ? !order.down : LARGER.includes(column) };
     show();
-    /** @type {HTMLElement | null} */ (list.querySelector(`[data-sort="${column}"]`))?.focus();
   }
 
   /** @param {string} line */
@@ -158,8 +151,12 @@ export function candidates(holder, found) {
 
   /** @param {string} id @param {"choose.across" | "choose.up"} key @param {string} chosen */
   function axis(id, key, chosen) {
-    const options = known.map((name) => element("option", { value: name, selected: name === chosen }, objective(name)));
-    return element("select", { id, "aria-label": text(key), onchange: show }, ...options);
+    return menu(
+      known.map((name) => [name, objective(name)]),
+      chosen,
+      show,
+      { id, "aria-label": text(key) },
+    );
   }
 
   const x = axis("choose-x", "choose.across", "loss");
@@ -184,7 +181,7 @@ export function candidates(holder, found) {
  * @param {() => void} follow
  */
 function filters(all, follow) {
-  const words = element("input", { type: "text", id: "choose-words", oninput: follow });
+  const words = textField("", follow, { id: "choose-words" });
   /**
    * @param {string} id
    * @param {(candidate: Candidate) => string} value
@@ -193,11 +190,11 @@ function filters(all, follow) {
     const values = [...new Set(all.map(value))].sort(
       (one, other) => Number.parseFloat(one) - Number.parseFloat(other) || one.localeCompare(other),
     );
-    return element(
-      "select",
-      { id, onchange: follow },
-      element("option", { value: "" }, text("choose.any")),
-      ...values.map((one) => element("option", { value: one }, one)),
+    return menu(
+      [["", text("choose.any")], ...values.map((one) => /** @type {[string, string]} */ ([one, one]))],
+      "",
+      follow,
+      { id },
     );
   };
   /** @param {number | null} length */
@@ -207,7 +204,11 @@ function filters(all, follow) {
     { key: "lead", value: (/** @type {Candidate} */ { row }) => size(row.lead) },
     { key: "nut", value: (/** @type {Candidate} */ { nut }) => nut },
   ].map((one) => ({ ...one, select: choice(`choose-${one.key}`, one.value) }));
-  const holding = element("input", { type: "checkbox", id: "choose-holding", onchange: follow });
+  let mustHold = false;
+  const holding = (/** @type {boolean} */ isChecked) => {
+    mustHold = isChecked;
+    follow();
+  };
   /** @param {string} key @param {Node} field */
   const labelled = (key, field) => element("label", {}, `${textOr(`choose.${key}`, key)} `, field);
   const fields = element(
@@ -215,11 +216,11 @@ function filters(all, follow) {
     { class: "filters" },
     labelled("words", words),
     ...chosen.map(({ key, select }) => labelled(key, select)),
-    element("label", {}, holding, ` ${text("choose.holding")}`),
+    box(text("choose.holding"), mustHold, holding, { id: "choose-holding" }),
   );
   /** @param {Candidate} one */
   const holds = (one) =>
-    (!holding.checked || one.holds) &&
+    (!mustHold || one.holds) &&
     chosen.every(({ select, value }) => !select.value || value(one) === select.value) &&
     words.value
       .toLowerCase()
@@ -270,7 +271,7 @@ function tableOf(shown, known, order, sortBy, say) {
     element(
       "th",
       { scope: "col", "aria-sort": column === order.column ? direction : null },
-      element("button", { type: "button", class: "sort", "data-sort": column, onclick: () => sortBy(column) }, words),
+      button(words, () => sortBy(column), { class: "sort", id: `choose-sort-${column}`, "data-sort": column }),
     ),
   );
   const rows = shown.map((one) =>
@@ -290,18 +291,13 @@ function tableOf(shown, known, order, sortBy, say) {
       element(
         "td",
         {},
-        element(
-          "button",
-          { type: "button", "aria-label": text("files.take_row", { name: one.label }), onclick: () => take(one, say) },
-          text("files.take"),
-        ),
+        button(text("files.take"), () => take(one, say), { "aria-label": text("files.take_row", { name: one.label }) }),
       ),
     ),
   );
   const label = text("choose.caption");
-  return element(
-    "div",
-    { class: "scroll whole", tabindex: "0", role: "region", "aria-label": label },
+  return scrolling(
+    label,
     element(
       "table",
       {},

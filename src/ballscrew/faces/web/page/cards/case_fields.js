@@ -1,5 +1,6 @@
 // Fields of a card: sections of the case that the form does not show, with their faults beside them.
 
+import { framed } from "../controls.js";
 import { element, within } from "../dom.js";
 import { inWords } from "../messages.js";
 import { choiceField, numberField, showEffective } from "../fields.js";
@@ -27,12 +28,7 @@ export function fieldset(section, title, names, { state, tables, onChange }) {
     if (node.enum || node.type === "boolean") return choiceField(path, node, given(path), onChange);
     return numberField(path, node, { state, given, lawOf: () => undefined, onChange });
   });
-  return element(
-    "fieldset",
-    { class: "card-fields" },
-    element("legend", {}, title),
-    element("div", { class: "grid" }, ...fields),
-  );
+  return framed(title, element("div", { class: "grid" }, ...fields));
 }
 
 /**

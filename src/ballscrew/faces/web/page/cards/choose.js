@@ -1,6 +1,7 @@
 // The card of choosing: what a screw has to do, and every row of the catalogue judged by the full model, ranked.
 
 import * as designs from "../designs.js";
+import { box, button, framed, namedButton } from "../controls.js";
 import { element, within } from "../dom.js";
 import { inWords, labelOf } from "../messages.js";
 import { choiceField, numberField } from "../fields.js";
@@ -32,17 +33,10 @@ export function setUp(holder) {
   const faults = element("div", { class: "faults" });
   const progress = element("div", { class: "card-line" });
   const result = element("div", { id: "choose-result", "aria-live": "off" });
-  const start = element("button", { type: "button", id: "choose-start", onclick: () => ask() }, text("choose.start"));
-  const fill = element("button", { type: "button", onclick: () => takeDesign() }, text("choose.from_design"));
+  const start = namedButton("choose-start", "choose.start", () => ask());
+  const fill = button(text("choose.from_design"), () => takeDesign());
   holder.replaceChildren(
-    element(
-      "fieldset",
-      { class: "card-fields" },
-      element("legend", {}, text("choose.need")),
-      element("p", { class: "small" }, text("choose.load_by")),
-      fields,
-      sources,
-    ),
+    framed(text("choose.need"), element("p", { class: "small" }, text("choose.load_by")), fields, sources),
     element("p", {}, start, " ", fill),
     faults,
     progress,
@@ -105,21 +99,12 @@ export function setUp(holder) {
     const { table } = store.state;
     offered = table;
     const moves = "motion" in (await designs.currentCase());
-    const own = element("input", {
-      type: "checkbox",
-      checked: withTable,
-      onchange: () => {
-        withTable = own.checked;
-      },
-    });
-    const duty = element("input", {
-      type: "checkbox",
-      checked: need().duty,
-      onchange: () => write({ ...need(), duty: duty.checked }),
-    });
+    const ofTable = (/** @type {boolean} */ isChecked) => {
+      withTable = isChecked;
+    };
     sources.replaceChildren(
-      moves ? element("label", {}, duty, ` ${text("choose.duty")}`) : "",
-      table ? element("label", {}, own, ` ${text("choose.table", { file: table.file.name })}`) : "",
+      moves ? box(text("choose.duty"), need().duty, (duty) => write({ ...need(), duty })) : "",
+      table ? box(text("choose.table", { file: table.file.name }), withTable, ofTable) : "",
     );
   }
 
@@ -183,18 +168,10 @@ export function setUp(holder) {
     if (!inputs || inputs === agreed) return true;
     const names = [...new Set(plan.unasked.flatMap(({ checks }) => checks))];
     const checks = names.map((name) => textOr(`checks.name.${name}`, name.replaceAll("_", " "))).join(", ");
-    const anyway = element(
-      "button",
-      {
-        type: "button",
-        id: "choose-anyway",
-        onclick: () => {
-          agreed = inputs;
-          ask();
-        },
-      },
-      text("choose.anyway"),
-    );
+    const anyway = namedButton("choose-anyway", "choose.anyway", () => {
+      agreed = inputs;
+      ask();
+    });
     place([]);
     progress.replaceChildren(
       element("p", { class: "warning", role: "alert" }, text("choose.unasked", { inputs, checks })),
@@ -259,7 +236,7 @@ export function setUp(holder) {
     const words = element("span", {}, cost || text("card.computing"));
     /** @type {import("./candidates.js").Row[]} */
     const known = [];
-    const cancel = element("button", { type: "button", onclick: () => request.abort() }, text("card.cancel"));
+    const cancel = button(text("card.cancel"), () => request.abort());
     progress.replaceChildren(bar, words, cancel);
     return ({ finished, total, rows }) => {
       if (signal.aborted) return;

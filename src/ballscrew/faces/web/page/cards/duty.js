@@ -2,7 +2,8 @@
 
 import * as checks from "../checks.js";
 import * as designs from "../designs.js";
-import { element, table } from "../dom.js";
+import { button, labelled, menu, opened } from "../controls.js";
+import { element, redraw, scrollingTable } from "../dom.js";
 import { isSmall, sent, tooLarge } from "../opening.js";
 import { watch } from "../plot.js";
 import * as schema from "../schema.js";
@@ -99,11 +100,9 @@ export function setUp(holder) {
     note.textContent = isExample ? text("duty.example") : otherParts();
     if (keyOf(tables) !== shown) {
       shown = keyOf(tables);
-      const focused = document.activeElement?.id;
       const usual = /** @type {Tables} */ (example.motor);
-      editor.replaceChildren(...inputs(() => tables, store.state, vocabulary.motions, usual, { put, onChange }));
+      redraw(editor, ...inputs(() => tables, store.state, vocabulary.motions, usual, { put, onChange }));
       if (answer) showValues(editor, answer.inputs);
-      if (focused) document.getElementById(focused)?.focus({ preventScroll: true });
     }
     if (answer && system !== units.currentSystem()) show(answer);
     asked.follow(trace ? { case: tables, trace } : { case: tables });
@@ -132,12 +131,8 @@ export function setUp(holder) {
       accept: ".csv,.txt,.tsv,.xlsx,.ods",
     });
     input.addEventListener("change", () => take(input.files?.[0]));
-    const choose = element(
-      "button",
-      { type: "button", id: "duty-trace-choose", onclick: () => input.click() },
-      text("log.choose"),
-    );
-    choose.setAttribute("aria-label", `${text("log.choose")}: ${text("duty.trace")}`);
+    const label = `${text("log.choose")}: ${text("duty.trace")}`;
+    const choose = button(text("log.choose"), () => input.click(), { id: "duty-trace-choose", "aria-label": label });
     const remove = () => take(undefined).then(() => document.getElementById("duty-trace-choose")?.focus());
     const words = trace ? text("duty.recorded", { file: trace.name }) : fault;
     recorded.replaceChildren(
@@ -145,9 +140,7 @@ export function setUp(holder) {
       choose,
       input,
       element("span", { class: fault ? "fault" : "small", role: "status" }, words),
-      ...(trace
-        ? [element("button", { type: "button", id: "duty-trace-remove", onclick: remove }, text("duty.no_trace"))]
-        : []),
+      ...(trace ? [button(text("duty.no_trace"), remove, { id: "duty-trace-remove" })] : []),
     );
   }
 
@@ -173,23 +166,18 @@ export function setUp(holder) {
   /** @param {Vocabulary["starts"]} starts */
   function examples(starts) {
     const moving = Object.entries(starts).filter(([, { moves }]) => moves);
-    const select = element(
-      "select",
+    const select = menu(
+      moving.map(([name, { title }]) => [name, textOr(`start.${name}`, title)]),
+      "",
+      () => {},
       { id: "duty-example" },
-      ...moving.map(([name, { title }]) => element("option", { value: name }, textOr(`start.${name}`, title))),
     );
     const take = () => {
       const example = /** @type {Tables} */ (starts[select.value].case);
       shown = "";
       designs.setTables(Object.fromEntries(OF_EXAMPLE.map((name) => [name, example[name] ?? null])));
     };
-    return element(
-      "p",
-      { class: "card-start" },
-      element("label", { for: "duty-example" }, text("duty.from_example")),
-      select,
-      element("button", { type: "button", id: "duty-take", onclick: take }, text("duty.take")),
-    );
+    return labelled(select, text("duty.from_example"), button(text("duty.take"), take, { id: "duty-take" }));
   }
 
   /** @param {DutyAnswer} found */
@@ -257,7 +245,7 @@ export function setUp(holder) {
       ],
     ];
     const headings = [text("duty.part"), text("duty.of_peak"), text("duty.of_rms"), text("duty.of_energy")];
-    return framed(text("duty.parts_caption"), headings, rows);
+    return scrollingTable(text("duty.parts_caption"), headings, rows);
   }
 
   /** What the axis does with its motor off. @param {DutyAnswer["results"]} results */
@@ -276,7 +264,7 @@ export function setUp(holder) {
     );
     const caption = text("duty.brake_caption", { torque: TORQUE.text(torque) });
     const note = element("p", { class: "small" }, text("duty.brake_note"));
-    return element("div", {}, framed(caption, headings, rows), note);
+    return element("div", {}, scrollingTable(caption, headings, rows), note);
   }
 
   /** @param {DutyAnswer["results"]} results */
@@ -300,26 +288,9 @@ export function setUp(holder) {
       "div",
       {},
       element("p", { class: "small" }, text("duty.heat", { parts: heat.join(", ") })),
-      element(
-        "details",
-        {},
-        element("summary", {}, text("duty.phases")),
-        framed(text("duty.phases_caption"), headings, rows),
-      ),
+      opened(text("duty.phases"), scrollingTable(text("duty.phases_caption"), headings, rows)),
     );
   }
 
   return { follow };
-}
-
-/**
- * A table that scrolls on its own.
- *
- * @param {string} caption
- * @param {string[]} headings
- * @param {import("../dom.js").Child[][]} rows
- */
-function framed(caption, headings, rows) {
-  const frame = { class: "scroll whole", tabindex: "0", role: "region", "aria-label": caption };
-  return element("div", frame, table(caption, headings, rows));
 }

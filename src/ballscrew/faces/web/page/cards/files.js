@@ -1,6 +1,7 @@
 // The card of files: designs by name, projects, screws of one's own, and what stays in this browser.
 
 import * as designs from "../designs.js";
+import { button, textField } from "../controls.js";
 import { byId, element } from "../dom.js";
 import { keeping } from "../keeping.js";
 import { takeRow } from "../opening.js";
@@ -25,15 +26,11 @@ export function setUp(holder) {
     said.textContent = words;
   };
   const projects = KINDS.map((kind) =>
-    element(
-      "button",
-      { type: "button", onclick: () => saveProject(kind, say) },
-      text("files.project", { kind: kind.toUpperCase() }),
-    ),
+    button(text("files.project", { kind: kind.toUpperCase() }), () => saveProject(kind, say)),
   );
   holder.replaceChildren(
     element("p", { class: "small" }, text("files.about")),
-    element("button", { type: "button", onclick: () => byId("open").click() }, text("open.button")),
+    button(text("open.button"), () => byId("open").click()),
     list,
     element("p", { class: "actions" }, ...projects),
     said,
@@ -72,19 +69,12 @@ function listOfDesigns() {
     const letter = LETTERS[place];
     const asides = Object.keys(one.aside ?? {});
     /** @param {"files.show" | "files.copy" | "files.delete"} key @param {() => void} action @param {boolean} disabled */
-    const button = (key, action, disabled) =>
-      element(
-        "button",
-        { type: "button", disabled, "aria-label": `${text(key)} ${letter}`, onclick: action },
-        text(key),
-      );
-    const field = element("input", {
-      type: "text",
+    const act = (key, action, disabled) =>
+      button(text(key), action, { disabled, "aria-label": `${text(key)} ${letter}` });
+    const field = textField(one.name ?? "", (typed) => designs.rename(place, typed.trim()), {
       id: `name-${letter}`,
-      value: one.name ?? "",
       maxlength: 80,
       "aria-label": text("files.name_of", { letter }),
-      oninput: () => designs.rename(place, field.value.trim()),
     });
     return element(
       "tr",
@@ -102,9 +92,9 @@ function listOfDesigns() {
       element(
         "td",
         { class: "actions" },
-        button("files.show", () => designs.show(place), place === show),
-        button("files.copy", () => designs.duplicate(place), !designs.hasRoom()),
-        button("files.delete", () => designs.remove(place), all.length === 1),
+        act("files.show", () => designs.show(place), place === show),
+        act("files.copy", () => designs.duplicate(place), !designs.hasRoom()),
+        act("files.delete", () => designs.remove(place), all.length === 1),
       ),
     );
   });
@@ -161,12 +151,7 @@ function showOwnRows(holder, say) {
   const items = table.opened.designs.map((row) => {
     const take = async () => say((await takeRow(row)) ? "" : text("files.full", { most: LETTERS.length }));
     const label = text("files.take_row", { name: row.name });
-    return element(
-      "li",
-      {},
-      `${row.name} `,
-      element("button", { type: "button", "aria-label": label, onclick: take }, text("files.take")),
-    );
+    return element("li", {}, `${row.name} `, button(text("files.take"), take, { "aria-label": label }));
   });
   holder.replaceChildren(
     element("h3", {}, text("files.rows", { file: table.file.name })),
@@ -181,21 +166,11 @@ function showKept(holder) {
   const items = works.map(({ id, fragment, title, saved }) => {
     const when = WHEN.format(saved);
     const mine = id === keeping.own();
-    const open = element(
-      "button",
-      {
-        type: "button",
-        disabled: mine,
-        "aria-label": text("keep.open_of", { when }),
-        onclick: () => keeping.show(fragment),
-      },
-      text("keep.open"),
-    );
-    const forget = element(
-      "button",
-      { type: "button", "aria-label": text("keep.delete_of", { when }), onclick: () => keeping.forget([id]) },
-      text("files.delete"),
-    );
+    const label = text("keep.open_of", { when });
+    const open = button(text("keep.open"), () => keeping.show(fragment), { disabled: mine, "aria-label": label });
+    const forget = button(text("files.delete"), () => keeping.forget([id]), {
+      "aria-label": text("keep.delete_of", { when }),
+    });
     return element(
       "li",
       {},

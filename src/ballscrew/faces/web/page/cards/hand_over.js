@@ -1,13 +1,14 @@
 // The card of a hand-over: a target, its choices, the error of what is made, its files, and the command for the same.
 
 import * as designs from "../designs.js";
-import { element, scrolling, table } from "../dom.js";
+import { framed, labelled, namedButton, opened } from "../controls.js";
+import { element, scrollingTable } from "../dom.js";
 import { said, translated } from "../messages.js";
 import { save } from "../saving.js";
 import { get } from "../server.js";
 import { text, textOr } from "../texts.js";
 import * as units from "../units.js";
-import { button, caseFile, commandLine, faultLines } from "./log_parts.js";
+import { caseFile, commandLine, faultLines } from "./log_parts.js";
 import { question } from "./question.js";
 import { lines } from "./records.js";
 
@@ -37,13 +38,13 @@ export function setUp(holder) {
       return undefined;
     },
   });
-  const make = button("hand-over-make", "hand_over.make", async () => {
+  const make = namedButton("hand-over-make", "hand_over.make", async () => {
     tables = await designs.currentCase();
     asked.follow(body(), 0);
   });
   holder.replaceChildren(
-    element("p", { class: "card-start" }, element("label", { for: select.id }, text("hand_over.target")), select),
-    element("fieldset", { class: "card-fields" }, element("legend", {}, text("hand_over.options")), options),
+    labelled(select, text("hand_over.target")),
+    framed(text("hand_over.options"), options),
     element("p", { class: "card-start" }, make),
     command,
     asked.line,
@@ -129,23 +130,21 @@ export function setUp(holder) {
     const headings = [text("hand_over.output"), text("hand_over.error"), text("hand_over.share")];
     const bytes = Uint8Array.from(atob(file.base64), (letter) => letter.charCodeAt(0));
     const names = /** @type {string[]} */ (results.files);
-    const download = button("hand-over-download", "hand_over.download", () =>
+    const download = namedButton("hand-over-download", "hand_over.download", () =>
       save(`-${file.name}`, new Blob([bytes], { type: file.media_type })),
     );
+    const told = display.lines.map((line) => element("li", {}, said(line)));
+    const ranges = opened(text("hand_over.ranges"), element("ul", {}, ...told));
+    ranges.open = true;
     result.replaceChildren(
       element(
         "div",
         {},
         element("p", {}, text("hand_over.files", { files: names.join(", "), size: Math.ceil(bytes.length / 1000) })),
         element("p", { class: "card-start" }, download),
-        ...(rows.length ? [scrolling(caption, table(caption, headings, rows))] : []),
+        ...(rows.length ? [scrollingTable(caption, headings, rows)] : []),
         ...lines([], warnings),
-        element(
-          "details",
-          { open: "" },
-          element("summary", {}, text("hand_over.ranges")),
-          element("ul", {}, ...display.lines.map((line) => element("li", {}, said(line)))),
-        ),
+        ranges,
       ),
     );
   }

@@ -1,6 +1,7 @@
 // The columns of a log: what each was taken for, changed by a menu, and the numbers that are fitted to it.
 
-import { element, scrolling, table } from "../dom.js";
+import { box, framed, labelled, menu, opened } from "../controls.js";
+import { element, scrollingTable } from "../dom.js";
 import { withPlace } from "../messages.js";
 import { text, textOr } from "../texts.js";
 import { quantity } from "./quantities.js";
@@ -19,21 +20,20 @@ export function columns(found, given, change) {
   const names = found.known.map(({ name }) => name);
   const rows = found.columns.map((one, place) => [
     one.heading || "–",
-    menu(one, place),
+    meaning(one, place),
     unitField(one, place),
     one.cells.join("; "),
   ]);
   /** @param {LogAnswer["columns"][number]} one @param {number} place */
-  function menu(one, place) {
-    const select = element(
-      "select",
-      { id: `log-column-${place}`, "aria-label": text("log.taken_for_of", { heading: one.heading }) },
-      element("option", { value: "" }, text("log.not_used")),
-      ...names.map((name) => element("option", { value: name }, nameOf(name))),
-    );
-    select.value = one.taken_for;
-    select.addEventListener("change", () => choose(one, select.value, one.unit));
-    return select;
+  function meaning(one, place) {
+    /** @type {[string, string][]} */
+    const options = [
+      ["", text("log.not_used")],
+      ...names.map((name) => /** @type {[string, string]} */ ([name, nameOf(name)])),
+    ];
+    const label = text("log.taken_for_of", { heading: one.heading });
+    const take = (/** @type {string} */ name) => choose(one, name, one.unit);
+    return menu(options, one.taken_for, take, { id: `log-column-${place}`, "aria-label": label });
   }
   /** @param {LogAnswer["columns"][number]} one @param {number} place */
   function unitField(one, place) {
@@ -57,10 +57,10 @@ export function columns(found, given, change) {
   }
   const caption = text("log.columns_caption", { file: found.file });
   const headings = [text("log.heading"), text("log.taken_for"), text("log.unit"), text("log.cells")];
-  const content = table(caption, headings, rows);
-  content.className = "columns-of-log";
+  const content = scrollingTable(caption, headings, rows);
+  content.firstElementChild?.classList.add("columns-of-log");
   const faults = found.faults.map((fault) => element("p", { class: "fault" }, withPlace(fault)));
-  return element("div", {}, scrolling(caption, content), ...(found.moving ? [movingNote()] : faults), constants());
+  return element("div", {}, content, ...(found.moving ? [movingNote()] : faults), constants());
 
   /** Values that count in every row, for columns that the log lacks. */
   function constants() {
@@ -79,8 +79,7 @@ export function columns(found, given, change) {
           const others = Object.fromEntries(Object.entries(given).filter(([other]) => other !== name));
           change(input.value.trim() ? { ...others, [name]: input.value.trim() } : others);
         });
-        const label = text("log.in_every_row", { name: nameOf(name) });
-        return element("p", { class: "card-start" }, element("label", { for: input.id }, label), input);
+        return labelled(input, text("log.in_every_row", { name: nameOf(name) }));
       });
     return element("div", {}, ...fields);
   }
@@ -104,24 +103,17 @@ export function nameOf(name) {
  */
 export function choices(free, chosen, change) {
   const boxes = free.map((one, place) => {
-    const box = element("input", { type: "checkbox", id: `free-${place}`, checked: chosen.includes(one.name) });
-    box.addEventListener("change", () => {
-      change(
-        free.filter(({ name }) => (name === one.name ? box.checked : chosen.includes(name))).map(({ name }) => name),
-      );
-    });
+    const take = (/** @type {boolean} */ isChecked) => {
+      const kept = free.filter(({ name }) => (name === one.name ? isChecked : chosen.includes(name)));
+      change(kept.map(({ name }) => name));
+    };
     const value = one.value === null ? "" : ` (${quantity(one.unit, one.shown_in).text(one.value)})`;
-    return element("label", {}, box, ` ${meaningOf(one.name, free)}${value}`);
+    const words = `${meaningOf(one.name, free)}${value}`;
+    return box(words, chosen.includes(one.name), take, { id: `free-${place}` });
   });
-  const more = element("details", {}, element("summary", {}, text("log.more_free")), ...lined(boxes.slice(FIRST)));
+  const more = opened(text("log.more_free"), ...lined(boxes.slice(FIRST)));
   more.open = free.slice(FIRST).some(({ name }) => chosen.includes(name));
-  return element(
-    "fieldset",
-    { class: "card-fields" },
-    element("legend", {}, text("log.free")),
-    ...lined(boxes.slice(0, FIRST)),
-    more,
-  );
+  return framed(text("log.free"), ...lined(boxes.slice(0, FIRST)), more);
 }
 
 /** @param {HTMLElement[]} boxes */

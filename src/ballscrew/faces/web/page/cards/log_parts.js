@@ -2,6 +2,7 @@
 
 import { jump } from "../cards.js";
 import * as designs from "../designs.js";
+import { button, namedButton } from "../controls.js";
 import { element } from "../dom.js";
 import { inWords, labelOf, withPlace } from "../messages.js";
 import * as schema from "../schema.js";
@@ -26,8 +27,7 @@ const SPECIAL = /[^\w@%+=:,./-]/;
 export function dropZone(id, label, take) {
   const said = element("span", { id: `${id}-name`, "aria-live": "polite" });
   const input = element("input", { type: "file", id, hidden: true, accept: ".csv,.txt,.tsv,.xlsx,.xls,.ods,.mat" });
-  const choose = element("button", { type: "button", onclick: () => input.click() }, text("log.choose"));
-  choose.setAttribute("aria-label", `${text("log.choose")}: ${label}`);
+  const choose = button(text("log.choose"), () => input.click(), { "aria-label": `${text("log.choose")}: ${label}` });
   /** @param {File | undefined} file */
   const read = async (file) => {
     if (!file) return;
@@ -85,8 +85,8 @@ export function exampleButton(name, take) {
     if (!left) take(logs, free);
   };
   const said = element("span", { role: "status" });
-  const button = element("button", { type: "button", id: `${name}-example`, onclick }, text("log.example"));
-  return element("p", { class: "card-start" }, button, said, element("span", { class: "small" }, text("log.private")));
+  const example = namedButton(`${name}-example`, "log.example", onclick);
+  return element("p", { class: "card-start" }, example, said, element("span", { class: "small" }, text("log.private")));
 }
 
 /**
@@ -101,7 +101,7 @@ export function faultLines(faults) {
       return element(
         "p",
         { class: "fault" },
-        element("button", { type: "button", onclick: () => jump(fault.where) }, words),
+        button(words, () => jump(fault.where)),
       );
     }
     return element("p", { class: "fault" }, withPlace(fault));
@@ -121,15 +121,4 @@ export function commandLine(words) {
 /** The name of the case file that belongs to a command. */
 export function caseFile() {
   return `${designs.fileName(designs.current())}.toml`;
-}
-
-/**
- * A button with an id.
- *
- * @param {string} id
- * @param {import("../texts.js").Key} key
- * @param {() => void} onclick
- */
-export function button(id, key, onclick) {
-  return element("button", { type: "button", id, onclick }, text(key));
 }

@@ -1,5 +1,6 @@
 // The inputs of the card of a duty: a motion of any kind, the axis that moves, and its motor.
 
+import { button, menu, textField } from "../controls.js";
 import { element } from "../dom.js";
 import * as schema from "../schema.js";
 import { text, textOr } from "../texts.js";
@@ -70,22 +71,19 @@ export function inputs(current, state, motions, usualMotor, { put, onChange }) {
  */
 function motionFields(current, motions, source, put) {
   const kind = String(current().kind ?? SEGMENTS);
-  const select = element(
-    "select",
-    {
-      id: "motion-kind",
-      onchange: () => put({ motion: asKind(current(), select.value, motions) }, { isAnew: true, id: "motion-kind" }),
-    },
-    ...Object.keys(motions).map((name) =>
-      element("option", { value: name, selected: name === kind }, textOr(`duty.kind.${name}`, name)),
-    ),
+  const id = "motion-kind";
+  const select = menu(
+    Object.keys(motions).map((name) => [name, textOr(`duty.kind.${name}`, name)]),
+    kind,
+    (chosen) => put({ motion: asKind(current(), chosen, motions) }, { isAnew: true, id }),
+    { id },
   );
   const names = (motions[kind] ?? []).filter((name) => name !== "segment" && name !== "kind");
   const fields = fieldset("motion", text("section.motion"), names, source);
   const chosen = element(
     "div",
     { class: "field", "data-path": "motion.kind" },
-    element("label", { for: "motion-kind" }, text("duty.kind")),
+    element("label", { for: id }, text("duty.kind")),
     element("div", { class: "entry" }, select),
     element("p", { class: "fault" }),
   );
@@ -148,26 +146,21 @@ function motorFields(current, usualMotor, source, put) {
   const motor = current();
   const id = "motor-toggle";
   const toggle = () => put({ motor: motor ? null : (usualMotor ?? {}) }, { isAnew: true, id });
-  const button = element(
-    "button",
-    { type: "button", id, onclick: toggle },
-    text(motor ? "duty.no_motor" : "duty.add_motor"),
-  );
-  if (!motor) return [element("p", {}, `${text("duty.without_motor")} `, button)];
+  const turn = button(text(motor ? "duty.no_motor" : "duty.add_motor"), toggle, { id });
+  if (!motor) return [element("p", {}, `${text("duty.without_motor")} `, turn)];
   const fields = fieldset("motor", text("section.motor"), OF_MOTOR, source);
-  const input = element("input", {
-    type: "text",
+  /** @type {string[][]} */
+  const points = motor.curve ?? [];
+  /** @param {string} typed */
+  const read = (typed) => {
+    const points = typed.split(";").map((point) => point.split(":").map((one) => units.ofLanguage(one.trim())));
+    const { curve, ...others } = current() ?? {};
+    put({ motor: typed.trim() ? { ...others, curve: points } : others }, { path: "motor.curve" });
+  };
+  const input = textField(points.map((point) => point.map(units.inLanguage).join(": ")).join("; "), read, {
     id: "f-motor-curve",
     spellcheck: "false",
     "aria-describedby": "f-motor-curve-about f-motor-curve-fault",
-  });
-  /** @type {string[][]} */
-  const points = motor.curve ?? [];
-  input.value = points.map((point) => point.map(units.inLanguage).join(": ")).join("; ");
-  input.addEventListener("input", () => {
-    const points = input.value.split(";").map((point) => point.split(":").map((one) => units.ofLanguage(one.trim())));
-    const { curve, ...others } = current() ?? {};
-    put({ motor: input.value.trim() ? { ...others, curve: points } : others }, { path: "motor.curve" });
   });
   fields.append(
     element(
@@ -178,7 +171,7 @@ function motorFields(current, usualMotor, source, put) {
       element("p", { class: "small", id: "f-motor-curve-about" }, text("duty.curve_form")),
       element("p", { class: "fault", id: "f-motor-curve-fault" }),
     ),
-    button,
+    turn,
   );
   return [fields];
 }

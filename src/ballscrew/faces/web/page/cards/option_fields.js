@@ -1,5 +1,6 @@
 // Fields for the options of a question, drawn from their declarations in the vocabulary.
 
+import { menu, opened, textField } from "../controls.js";
 import { element } from "../dom.js";
 import { words } from "../fields.js";
 import { text, textOr } from "../texts.js";
@@ -37,12 +38,9 @@ export function optionFields(question, options, given, change) {
       element("p", { id: `${control.id}-about`, class: "hidden" }, help),
     );
   });
-  return element(
-    "details",
-    { class: "card-fields" },
-    element("summary", {}, text("card.options")),
-    element("div", { class: "grid" }, ...fields),
-  );
+  const found = opened(text("card.options"), element("div", { class: "grid" }, ...fields));
+  found.className = "card-fields";
+  return found;
 }
 
 /**
@@ -68,19 +66,16 @@ function controlOf(option, take) {
     return box;
   }
   if (option.kind === "choice") {
-    const one = (/** @type {string} */ name) => element("option", { value: name }, textOr(`option.${name}`, name));
-    const menu = element(
-      "select",
-      {},
-      element("option", { value: "" }, text("form.not_given")),
-      ...option.choices.map(one),
+    const names = ["", ...option.choices];
+    return menu(
+      names.map((name) => [name, name ? textOr(`option.${name}`, name) : text("form.not_given")]),
+      "",
+      (name) => take(name || undefined),
     );
-    menu.addEventListener("change", () => take(menu.value || undefined));
-    return menu;
   }
-  const input = element("input", { type: "text", placeholder: units.inLanguage(String(option.default ?? "")) });
-  input.addEventListener("input", () => take(input.value.trim() ? fromText(option, input.value.trim()) : undefined));
-  return input;
+  /** @param {string} typed */
+  const read = (typed) => take(typed.trim() ? fromText(option, typed.trim()) : undefined);
+  return textField("", read, { placeholder: units.inLanguage(String(option.default ?? "")) });
 }
 
 /** What was typed, as the body of a request has it. @param {Option} option @param {string} typed */

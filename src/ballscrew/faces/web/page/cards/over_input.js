@@ -2,6 +2,7 @@
 
 import * as parts from "../chart_parts.js";
 import * as designs from "../designs.js";
+import { menu, textField } from "../controls.js";
 import { element } from "../dom.js";
 import { inWords } from "../messages.js";
 import { labelIn } from "../fields.js";
@@ -71,14 +72,30 @@ export function setUp(holder) {
   /** @type {ReturnType<typeof setTimeout>} */
   let timer;
   let requests = new AbortController();
-  const input = element("select", { id: "over-input-of" });
-  const output = element(
-    "select",
+  /** @param {Partial<Question>} found */
+  const change = (found) => {
+    Object.assign(question, found);
+    show();
+  };
+  const again = { from: undefined, to: undefined };
+  const input = menu([], "", (path) => change({ path, ...again }), { id: "over-input-of" });
+  const output = menu(
+    OUTPUTS.map((name) => [name, text(`results.${name}`)]),
+    question.output,
+    (name) => change({ output: /** @type {Question["output"]} */ (name) }),
     { id: "over-input-result" },
-    ...OUTPUTS.map((name) => element("option", { value: name }, text(`results.${name}`))),
   );
-  const from = element("input", { type: "text", inputmode: "decimal", id: "over-input-from" });
-  const to = element("input", { type: "text", inputmode: "decimal", id: "over-input-to" });
+  /** @param {"from" | "to"} end */
+  const field = (end) => {
+    /** @param {string} typed */
+    const read = (typed) => {
+      const number = Number(units.withPoint(units.ofLanguage(typed)));
+      question[end] = typed.trim() !== "" && Number.isFinite(number) ? inSI(question.path, number) : undefined;
+      later();
+    };
+    return textField("", read, { inputmode: "decimal", id: `over-input-${end}` });
+  };
+  const [from, to] = [field("from"), field("to")];
   const unit = element("span");
   const reasons = element("div", { role: "status" });
   /** @param {HTMLElement} control @param {import("../texts.js").Key} key */
@@ -95,28 +112,6 @@ export function setUp(holder) {
     ),
   );
   holder.append(reasons);
-
-  input.addEventListener("change", () => {
-    question.path = input.value;
-    question.from = undefined;
-    question.to = undefined;
-    show();
-  });
-  output.addEventListener("change", () => {
-    question.output = /** @type {Question["output"]} */ (output.value);
-    show();
-  });
-  for (const [end, control] of /** @type {["from" | "to", HTMLInputElement][]} */ ([
-    ["from", from],
-    ["to", to],
-  ])) {
-    control.addEventListener("input", () => {
-      const number = Number(units.withPoint(units.ofLanguage(control.value)));
-      const given = control.value.trim() !== "" && Number.isFinite(number);
-      question[end] = given ? inSI(question.path, number) : undefined;
-      later();
-    });
-  }
 
   function later() {
     clearTimeout(timer);

@@ -2,6 +2,7 @@
 // cancels. After the page was loaded again, the job and its answer are found again.
 
 import { jump } from "../cards.js";
+import { button } from "../controls.js";
 import { element } from "../dom.js";
 import { inWords, labelOf } from "../messages.js";
 import { answerOfKept, keptJob, runJob } from "../jobs.js";
@@ -78,14 +79,14 @@ export function question({ address, result, show, place, isLarge = () => false, 
       line.replaceChildren(element("p", {}, `${text("card.cancelled")} `, earlier()));
       if (!body) return;
       const again = () => follow(body, 0);
-      const button = element("button", { type: "button", onclick: again }, text("card.again"));
-      line.firstElementChild?.append(button);
-      button.focus();
+      const retry = button(text("card.again"), again);
+      line.firstElementChild?.append(retry);
+      retry.focus();
     };
     line.replaceChildren(
       bar,
       seconds,
-      element("button", { type: "button", onclick: cancel }, text("card.cancel")),
+      button(text("card.cancel"), cancel),
       element("span", { class: "small" }, earlier()),
     );
     clock = setInterval(() => {
@@ -104,7 +105,7 @@ export function question({ address, result, show, place, isLarge = () => false, 
     const buttons = faults.map((fault) => {
       const go = () => jump(fault.where);
       const words = `${labelOf(fault.where)}: ${inWords(fault)}`;
-      return element("p", { class: "fault" }, element("button", { type: "button", onclick: go }, words));
+      return element("p", { class: "fault" }, button(words, go));
     });
     mark(false, true);
     line.replaceChildren(

@@ -1,7 +1,7 @@
 // The card of a reversal: friction over the angle of the screw after it has turned round, by mechanism, and the numbers
 // of models for controllers. It takes some seconds, so that it is asked for by its button.
 
-import { element, scrolling, table } from "../dom.js";
+import { element, scrollingTable } from "../dom.js";
 import { documented } from "../help.js";
 import { draw, layout } from "../plot.js";
 import { text, textOr } from "../texts.js";
@@ -128,7 +128,7 @@ function swing(results) {
     ...parts.map(([name, places]) => row(name, part(name), places)),
   ];
   const caption = text("reversal.swing");
-  return scrolling(caption, table(caption, [text("reversal.of"), ...whole.map((one) => percent(one.share))], rows));
+  return scrollingTable(caption, [text("reversal.of"), ...whole.map((one) => percent(one.share))], rows);
 }
 
 /** The models that are fitted, each with its largest error. @param {Results} results */
@@ -157,10 +157,5 @@ function models(results) {
   const caption = text("reversal.models");
   const headings = [text("reversal.model"), text("reversal.stiffness"), text("reversal.sliding"), text("reversal.off")];
   const beside = text("reversal.beside", { torque: TORQUE.text(results.at_once, 3) });
-  return element(
-    "div",
-    {},
-    scrolling(caption, table(caption, headings, rows)),
-    element("p", { class: "small" }, beside),
-  );
+  return element("div", {}, scrollingTable(caption, headings, rows), element("p", { class: "small" }, beside));
 }

@@ -1,7 +1,7 @@
 // The card of a ripple: the friction torque of the balls over the angle of the screw, its orders, and what faults change.
 // It takes some seconds, so that it is asked for by its button.
 
-import { element, scrolling, table } from "../dom.js";
+import { element, scrollingTable } from "../dom.js";
 import { documented } from "../help.js";
 import { said, translated } from "../messages.js";
 import { draw, layout } from "../plot.js";
@@ -144,7 +144,7 @@ function sizes(results) {
     text("ripple.over_mean"),
     text("ripple.deviation"),
   ];
-  return scrolling(caption, table(caption, headings, rows));
+  return scrollingTable(caption, headings, rows);
 }
 
 /** The mean torque by cause, and the range of several nuts where it is asked for. @param {Results} results */
@@ -168,5 +168,5 @@ function orders({ orders: named, faults }) {
   ]);
   const caption = text("ripple.orders_caption");
   const headings = [text("ripple.cause"), text("ripple.order"), text("ripple.amplitude")];
-  return scrolling(caption, table(caption, [...headings, ...faults.map((one) => one.fault)], rows));
+  return scrollingTable(caption, [...headings, ...faults.map((one) => one.fault)], rows);
 }

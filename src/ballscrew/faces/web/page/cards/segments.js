@@ -1,6 +1,7 @@
 // The editor of a motion of segments: a table with a row for each, which are added, deleted and moved by keys.
 
-import { element } from "../dom.js";
+import { button, menu, textField } from "../controls.js";
+import { element, scrolling } from "../dom.js";
 import { text, textOr } from "../texts.js";
 import * as units from "../units.js";
 
@@ -74,12 +75,11 @@ export function editor(current, nodes, onChange) {
     element("thead", {}, element("tr", {}, ...headings.map((words) => element("th", { scope: "col" }, words)))),
     element("tbody", {}, ...rows),
   );
-  const frame = { class: "scroll whole", tabindex: "0", role: "region", "aria-label": text("segments.caption") };
   return element(
     "div",
     {},
-    element("div", frame, content),
-    element("button", { type: "button", id: "segment-add", onclick: add }, text("segments.add")),
+    scrolling(text("segments.caption"), content),
+    button(text("segments.add"), add, { id: "segment-add" }),
     element("span", { class: "small" }, ` ${text("segments.keys")}`),
   );
 }
@@ -117,23 +117,17 @@ function row(segment, place, { current, nodes, onChange, move }) {
     const { [name]: _, ...others } = current()[place];
     put(value === "" ? others : { ...others, [name]: value }, name);
   };
-  const names = element("input", {
-    type: "text",
-    id: idOf(place, "name"),
-    "aria-label": `${title}: ${text("segments.name")}`,
+  /** @param {string} name */
+  const named = (name) => ({
+    id: idOf(place, name),
+    "aria-label": `${title}: ${textOr(`segments.${name}`, name)}`,
   });
-  names.value = segment.name ?? "";
-  names.addEventListener("input", () => set("name", names.value));
-  const kinds = element(
-    "select",
-    {
-      id: idOf(place, "kind"),
-      "aria-label": `${title}: ${text("segments.kind")}`,
-      onchange: () => put(asKind(current()[place], /** @type {Kind} */ (kinds.value)), "kind", true),
-    },
-    ...Object.keys(FIELDS).map((one) =>
-      element("option", { value: one, selected: one === kind }, textOr(`segments.is.${one}`, one)),
-    ),
+  const names = textField(segment.name ?? "", (typed) => set("name", typed), named("name"));
+  const kinds = menu(
+    Object.keys(FIELDS).map((one) => [one, textOr(`segments.is.${one}`, one)]),
+    kind,
+    (chosen) => put(asKind(current()[place], /** @type {Kind} */ (chosen)), "kind", true),
+    named("kind"),
   );
   const cells = COLUMNS.map((name) => {
     if (!FIELDS[kind].includes(name)) return element("td", { class: "none" });
@@ -141,11 +135,6 @@ function row(segment, place, { current, nodes, onChange, move }) {
       set(name, value),
     );
   });
-  /** @param {string} name @param {string} sign @param {boolean} disabled @param {() => void} onclick */
-  const button = (name, sign, disabled, onclick) => {
-    const label = `${title}: ${textOr(`segments.${name}`, name)}`;
-    return element("button", { type: "button", id: idOf(place, name), disabled, onclick, "aria-label": label }, sign);
-  };
   const remove = () =>
     onChange(current().toSpliced(place, 1), { place: Math.max(0, place - 1), name: "delete", isAnew: true });
   const last = current().length - 1;
@@ -156,9 +145,9 @@ function row(segment, place, { current, nodes, onChange, move }) {
     element(
       "td",
       { class: "order" },
-      button("up", "↑", place === 0, () => move(place, -1)),
-      button("down", "↓", place === last, () => move(place, 1)),
-      button("delete", "×", last === 0, remove),
+      button("↑", () => move(place, -1), { ...named("up"), disabled: place === 0 }),
+      button("↓", () => move(place, 1), { ...named("down"), disabled: place === last }),
+      button("×", remove, { ...named("delete"), disabled: last === 0 }),
     ),
     element("td", {}, names),
     element("td", {}, kinds),
@@ -191,20 +180,15 @@ export function idOf(place, name) {
 function cell(place, name, node, value, label, onInput) {
   const id = idOf(place, name);
   const fault = `${id}-fault`;
-  const input = element("input", {
-    type: "text",
-    inputmode: "decimal",
-    id,
-    "aria-label": label,
-    "aria-describedby": fault,
-  });
   const digits = value === undefined ? "" : units.digitsIn(value, unitOf(node), node?.["x-si-unit"]);
-  input.value = units.inLanguage(digits ?? String(value));
-  input.addEventListener("input", () => {
-    const typed = units.ofLanguage(input.value.trim());
+  /** @param {string} shown */
+  const read = (shown) => {
+    const typed = units.ofLanguage(shown.trim());
     const isBare = typed !== "" && /^[\s\d.,'eE+±-]*$/.test(typed);
     onInput(isBare ? `${typed} ${unitOf(node)}` : typed);
-  });
+  };
+  const attributes = { inputmode: "decimal", id, "aria-label": label, "aria-describedby": fault };
+  const input = textField(units.inLanguage(digits ?? String(value)), read, attributes);
   const path = `motion.segment ${place + 1}.${name}`;
   return element("td", { "data-path": path }, input, element("p", { class: "fault", id: fault }));
 }

@@ -1,13 +1,14 @@
 // The card of a service: two logs, the preload that is left in the nut, and what else could explain them.
 
 import * as designs from "../designs.js";
-import { element, scrolling, table } from "../dom.js";
+import { labelled, namedButton, textField } from "../controls.js";
+import { element, scrollingTable } from "../dom.js";
 import { draw, layout, watch } from "../plot.js";
 import { said } from "../messages.js";
 import { text } from "../texts.js";
 import * as units from "../units.js";
 import { vocabulary } from "../vocabulary.js";
-import { button, caseFile, commandLine, dropZone, exampleButton, faultLines } from "./log_parts.js";
+import { caseFile, commandLine, dropZone, exampleButton, faultLines } from "./log_parts.js";
 import { flags, optionFields } from "./option_fields.js";
 import { data, FORCE, TEMPERATURE, TORQUE, TURNING } from "./quantities.js";
 import { question } from "./question.js";
@@ -55,9 +56,8 @@ export function setUp(holder) {
   const example = exampleButton("service", (found) => {
     for (const [place, file] of found.entries()) zones[place].use(file);
   });
-  const tolerance = element("input", { type: "text", id: "service-tolerance", size: "5", value: TOLERANCE });
-  tolerance.addEventListener("input", () => follow());
-  const start = button("service-start", "service.start", async () => {
+  const tolerance = textField(TOLERANCE, () => follow(), { id: "service-tolerance", size: "5" });
+  const start = namedButton("service-start", "service.start", async () => {
     tables = await designs.currentCase();
     asked.follow(body(), 0);
   });
@@ -70,14 +70,7 @@ export function setUp(holder) {
   holder.replaceChildren(
     ...zones.map(({ zone }) => zone),
     example,
-    element(
-      "p",
-      { class: "card-start" },
-      element("label", { for: tolerance.id }, text("service.tolerance")),
-      tolerance,
-      "%",
-      start,
-    ),
+    labelled(tolerance, text("service.tolerance"), "%", start),
     more,
     command,
     asked.line,
@@ -165,7 +158,7 @@ export function setUp(holder) {
       text("service.temperature"),
     ];
     const caption = text("service.caption");
-    return scrolling(caption, table(caption, ["", ...names], rows));
+    return scrollingTable(caption, ["", ...names], rows);
   }
 
   /** @param {Record<string, Curve>} curves @returns {import("../plot.js").Chart} */

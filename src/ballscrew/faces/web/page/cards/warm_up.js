@@ -1,7 +1,8 @@
 // The card of warming up: temperatures, preload, torque and growth over hours, and the state in which it ends.
 
 import * as designs from "../designs.js";
-import { element, table } from "../dom.js";
+import { box, framed, opened, textField } from "../controls.js";
+import { element, redraw, table } from "../dom.js";
 import { said } from "../messages.js";
 import { watch } from "../plot.js";
 import * as schema from "../schema.js";
@@ -113,11 +114,9 @@ export function setUp(holder) {
     note.textContent = text(moves ? "warm_up.of_motion" : "warm_up.of_point");
     if (keyOf() !== shown) {
       shown = keyOf();
-      const focused = document.activeElement?.id;
       const isOpen = editor.querySelector("details")?.open ?? false;
-      editor.replaceChildren(...inputs(isOpen));
+      redraw(editor, ...inputs(isOpen));
       if (answer) showValues(editor, answer.inputs);
-      if (focused) document.getElementById(focused)?.focus({ preventScroll: true });
     }
     if (answer && system !== units.currentSystem()) show(answer);
     const hours = hoursOf(heat.hours);
@@ -132,12 +131,8 @@ export function setUp(holder) {
     const names = Object.keys(schema.fieldsOf(SECTION));
     const others = names.filter((name) => !FIRST.includes(name));
     const first = fieldset(SECTION, text("section.surroundings"), FIRST, source);
-    const more = element(
-      "details",
-      { open: isOpen },
-      element("summary", {}, text("warm_up.more")),
-      fieldset(SECTION, text("warm_up.more_title"), others, source),
-    );
+    const more = opened(text("warm_up.more"), fieldset(SECTION, text("warm_up.more_title"), others, source));
+    more.open = isOpen;
     return [options(), first, more];
   }
 
@@ -163,11 +158,11 @@ export function setUp(holder) {
     /** @param {"hours" | "rest"} name @param {string} option */
     const hours = (name, option) => {
       const id = `warm-${name}`;
-      const input = element("input", { type: "text", inputmode: "decimal", id, "aria-describedby": `${id}-fault` });
-      input.value = units.inLanguage(heat[name]);
-      input.addEventListener("input", () => {
-        changeHeat({ [name]: units.ofLanguage(input.value.trim()) });
-      });
+      const input = textField(
+        units.inLanguage(heat[name]),
+        (typed) => changeHeat({ [name]: units.ofLanguage(typed.trim()) }),
+        { inputmode: "decimal", id, "aria-describedby": `${id}-fault` },
+      );
       return element(
         "div",
         { class: "field", "data-path": option },
@@ -176,20 +171,14 @@ export function setUp(holder) {
         element("p", { class: "fault", id: `${id}-fault` }),
       );
     };
-    const band = element("input", { type: "checkbox", id: "warm-band" });
-    band.checked = heat.band;
-    band.addEventListener("change", () => {
-      changeHeat({ band: band.checked });
-    });
-    return element(
-      "fieldset",
-      { class: "card-fields" },
-      element("legend", {}, text("warm_up.duration")),
+    const words = text("warm_up.with_band", { samples: SAMPLES });
+    return framed(
+      text("warm_up.duration"),
       element("div", { class: "grid" }, hours("hours", "--hours"), hours("rest", "--cool-down")),
       element(
         "p",
         { class: "band" },
-        element("label", {}, band, ` ${text("warm_up.with_band", { samples: SAMPLES })}`),
+        box(words, heat.band, (band) => changeHeat({ band }), { id: "warm-band" }),
       ),
     );
   }
@@ -251,13 +240,13 @@ export function setUp(holder) {
     const { text: inPlace } = quantity("m", "mm");
     const rows = place.map((one, row) => [inPlace(one), GROWTH.text(growth[row])]);
     const content = table(text("warm_up.compensation_caption"), [text("warm_up.place"), text("warm_up.growth")], rows);
-    return element("details", {}, element("summary", {}, text("warm_up.compensation")), content);
+    return opened(text("warm_up.compensation"), content);
   }
 
   /** @param {WarmUpAnswer} found */
   function assumed({ display }) {
     const list = element("ul", {}, ...display.assumed.map((one) => element("li", {}, said(one))));
-    return element("details", {}, element("summary", {}, text("warm_up.assumed")), list);
+    return opened(text("warm_up.assumed"), list);
   }
 
   return { follow };
