@@ -315,7 +315,6 @@ NOT_ON_PAGE = {
     "ballscrew.engine.sweeps.store_rows": "sweeps of the page are in memory",
     "ballscrew.evidence.moving_logs.moving_log": "the page says which logs are of a moving axis, and fits none",
     "ballscrew.questions.card": "a command",
-    "ballscrew.questions.optimise.design_space": "the page searches rows, not free geometries",
 }
 #: Modules that are imported by the name of what is asked for.
 _BY_NAME = ("ballscrew.exports.programs", "ballscrew.exports.tables")

@@ -27,6 +27,9 @@ declare global {
   type Opened = Schemas["Opened"];
   type LogAnswer = Schemas["Log"];
   type FitAnswer = Schemas["Fit"];
+  type ConditionAnswer = Schemas["Condition"];
+  type OptimiseAnswer = Schemas["Optimise"];
+  type SensitivityAnswer = Schemas["Sensitivity"];
   type ServiceAnswer = Schemas["Service"];
   type HandOverAnswer = Schemas["HandOver"];
   type Targets = Schemas["Targets"];

@@ -76,7 +76,8 @@ _WORDS = re.compile(r"[A-Za-z]{2,}[,:;]? [a-z]{2,}")
 _SECTION = re.compile(r"\[[a-z_.]+\]")
 #: Two words that nobody reads: classes of elements, units, selectors, and a defect of the page.
 CODES = {
-    "(prefers-color-scheme: dark)", "card-start whole-width", "chart low", "chart low whole-width", "field given",
+    "(prefers-color-scheme: dark)", "card-start whole-width", "chart low", "chart low whole-width",
+    "chart whole-width", "field given",
     "field start given",
     "input, select", "kg cm^2", "lbf in", "line thin", "mm rpm",
     "no element #…", "no element …", "scroll whole", "verdict careful",
@@ -98,7 +99,10 @@ SAFETY = (
     "verdict.self_locking", "verdict.skid", "verdict.stretch", "warning.bracing", "warning.stopped",
 )  # fmt: skip
 #: Options that cards ask for in a way of their own.
-OF_CARDS = {"fit": {"free", "columns"}, "reversal": set(), "ripple": set(), "service": {"tolerance"}}
+OF_CARDS = {
+    "condition": set(), "fit": {"free", "columns"}, "optimise": {"objectives"}, "reversal": set(), "ripple": set(),
+    "sensitivity": {"output", "method"}, "service": {"tolerance"},
+}  # fmt: skip
 #: Numbers of an answer that is starved of oil, by their meaning.
 STARVED = {AT_START.info.meaning, AT_END.info.meaning}
 STARVED |= {WARM.info.meaning, GIVEN.info.meaning}

@@ -72,7 +72,7 @@ def test_a_limit_that_was_reached_is_said_as_it_is(visit, start):
     here.expected = ("status of 422",)
     here.open(DOUBLE_NUT)
     # a job of a tenth of a second: its limit is 3 s, which this log of many rows does not take; it is refused by hand
-    (fault,) = out_of_time(3.0).faults
+    (fault,) = out_of_time(3.0, is_job=True).faults
     refused = {"title": "Invalid input", "status": 422, "lines": [str(fault)], "faults": [fault.document()]}
     here.page.route(
         "**/jobs/*/answer",

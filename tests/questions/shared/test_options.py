@@ -39,13 +39,15 @@ from ballscrew.faces.web.bodies import (
     AxisBody,
     BandBody,
     NeedBody,
+    OptimiseBody,
     ReportBody,
     ReversalBody,
     RippleBody,
+    SensitivityBody,
     SweepBody,
     WarmUpBody,
 )
-from ballscrew.faces.web.log_bodies import FitBody, HandOverBody, ServiceBody
+from ballscrew.faces.web.log_bodies import ConditionBody, FitBody, HandOverBody, ServiceBody
 from ballscrew.faces.web.vocabulary import OPTIONS, vocabulary
 from ballscrew.questions.axis.options import AxisOptions
 from ballscrew.questions.band.options import BandOptions
@@ -91,12 +93,15 @@ COMMANDS = {
 BODIES = {
     AxisOptions: AxisBody,
     BandOptions: BandBody,
+    ConditionOptions: ConditionBody,
     FitOptions: FitBody,
     HandOverOptions: HandOverBody,
+    OptimiseOptions: OptimiseBody,
     ReportOptions: ReportBody,
     ReversalOptions: ReversalBody,
     RippleOptions: RippleBody,
     SelectOptions: NeedBody,
+    SensitivityOptions: SensitivityBody,
     ServiceOptions: ServiceBody,
     SweepOptions: SweepBody,
     WarmUpOptions: WarmUpBody,

@@ -165,7 +165,7 @@ def parse_distributions(
     for name, (section, quantity) in inputs_of(model, screw, lubricant).items():
         if name.startswith("nut."):
             continue  # another name of the same field
-        written = _written(_at(tables, name if name.startswith("losses.") else f"{section}.{name}"), quantity, screw)
+        written = _written(_at(tables, _path(section, name)), quantity, screw)
         assert not isinstance(written, Fault), written
         if isinstance(written, UncertainValue):
             if written.distribution is None:
@@ -173,6 +173,15 @@ def parse_distributions(
             else:
                 found[name] = written.distribution
     return found, frozenset(exact)
+
+
+def path_of(case: Case, name: str) -> str:
+    """The field of an input in case files: ``screw_conformity`` is ``screw.screw_conformity``."""
+    return _path(inputs_of(case.model, case.screw, case.lubricant)[name][0], name)
+
+
+def _path(section: str, name: str) -> str:
+    return name if name.startswith(("losses.", f"{section}.")) else f"{section}.{name}"
 
 
 def _written(raw: Any, quantity: Quantity, screw: BallScrew) -> UncertainValue | Fault | None:

@@ -57,7 +57,7 @@ def condition(
     loaded = case_file.load(file, settings or [], model, calibration=calibration, allow_code=allow_code)
     if to is not None:
         files.check_picture(to)
-    _check_kind(tests or [], written)
+    compute.check_kind(len(tests or []), written)
     options = read(ConditionOptions, written)
     with progress("condition") as done:
         found = compute.of_files(loaded, tests or [], options, done)
@@ -84,21 +84,3 @@ def _check_question(tests: Sequence[Path], case: Path | None) -> Path:
     raise_if_any(faults)
     assert case is not None
     return case
-
-
-def _check_kind(tests: Sequence[Path], written: Mapping[str, Any]) -> None:
-    """Raise :class:`~ballscrew.basis.errors.InputError` for options of logs beside a table, and of a table beside
-    logs.
-    """
-    from ballscrew.basis.errors import Fault, raise_if_any
-    from ballscrew.questions.shared.options import options_of
-
-    if len(tests) > 1:
-        names, problem, remedy = ["speed"], "is for a table", "leave it out: logs have their speeds"
-    else:
-        names, problem = ["kind", "inertia", "torque_constant"], "is for logs"
-        remedy = "leave it out: a table has mean friction torques"
-    flags = options_of(ConditionOptions)
-    raise_if_any(
-        [Fault(flags[name].flag, problem, written[name], remedy) for name in names if written[name] is not None]
-    )

@@ -30,9 +30,11 @@ from ballscrew.faces.web.problems import Refused
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.questions.axis.options import AxisOptions
 from ballscrew.questions.band.options import BandOptions
+from ballscrew.questions.optimise.options import OptimiseOptions
 from ballscrew.questions.reversal.options import ReversalOptions
 from ballscrew.questions.ripple.options import RippleOptions
 from ballscrew.questions.select.options import SelectOptions
+from ballscrew.questions.sensitivity.options import SensitivityOptions
 from ballscrew.questions.shared.options import body_fields
 from ballscrew.questions.sweep.options import SweepOptions
 from ballscrew.questions.warm_up.options import WarmUpOptions
@@ -110,13 +112,26 @@ WarmUpBody = body_of(
 )
 
 
-class NeedOfTable(Body):
+class NeedOnly(Body):
+    """A need: the tables of a file of ``ballscrew optimise`` as JSON."""
+
+    need: Tables
+
+
+OptimiseBody = body_of(
+    "OptimiseBody",
+    NeedOnly,
+    OptimiseOptions,
+    "A need: the tables of a file of ``ballscrew optimise`` as JSON, and the options of the search.",
+)
+
+
+class NeedOfTable(NeedOnly):
     """A need: the tables of a file of ``ballscrew select`` as JSON, and a table of one's own, not the catalogue."""
 
     most_bytes: ClassVar[int] = MOST_FILE_BYTES
     files: ClassVar[tuple[str, ...]] = ("table",)
 
-    need: Tables
     table: SentFile | None = None
 
 
@@ -168,6 +183,9 @@ RippleBody = body_of(
     RippleOptions,
     "A case, and what is asked of its torque over the angle; without faults unless some are named.",
 )
+SensitivityBody = body_of(
+    "SensitivityBody", CaseBody, SensitivityOptions, "A case, and what is asked of its uncertain inputs."
+)
 BandBody = body_of("BandBody", CaseBody, BandOptions, "A case, and the options of its band.")
 SweepBody = body_of(
     "SweepBody",
@@ -191,15 +209,19 @@ async def read(request: Request, kind: type[Body]) -> Any:
 
 
 def _without_contents(value: Any, files: Sequence[str]) -> Any:
-    """A body without the contents of its files."""
+    """A body without the contents of its files; a field may be a list of files."""
     if not isinstance(value, dict):
         return value
-    return {
-        name: {key: "" if key in CONTENTS and isinstance(text, str) else text for key, text in inner.items()}
-        if name in files and isinstance(inner, dict)
-        else inner
-        for name, inner in value.items()
-    }
+    return {name: _emptied(inner) if name in files else inner for name, inner in value.items()}
+
+
+def _emptied(file: Any) -> Any:
+    """A file without its content, or a list of such files."""
+    if isinstance(file, list):
+        return [_emptied(one) if isinstance(one, dict) else one for one in file]
+    if not isinstance(file, dict):
+        return file
+    return {key: "" if key in CONTENTS and isinstance(text, str) else text for key, text in file.items()}
 
 
 async def content_of(request: Request, most: int) -> bytes:

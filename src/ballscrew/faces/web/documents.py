@@ -11,11 +11,14 @@ from typing import Any
 from ballscrew.basis import units
 from ballscrew.basis.records import Message, message_of
 from ballscrew.cases.case_files import case_file, case_messages
+from ballscrew.cases.case_files.uncertain_inputs import path_of
 from ballscrew.questions.band import compute as bands
 from ballscrew.questions.band import document as band_documents
 from ballscrew.questions.band import text as band_text
 from ballscrew.questions.check import compute as checks
 from ballscrew.questions.check import document as check_documents
+from ballscrew.questions.optimise import document as optimise_documents
+from ballscrew.questions.optimise.compute import Optimisation
 from ballscrew.questions.ripple import document as ripple_documents
 from ballscrew.questions.ripple.compute import RippleReport
 from ballscrew.questions.run import compute as runs
@@ -23,10 +26,15 @@ from ballscrew.questions.run import document as run_documents
 from ballscrew.questions.run import makers
 from ballscrew.questions.select import document as selection_documents
 from ballscrew.questions.select.compute import Selection
+from ballscrew.questions.select.objectives import OBJECTIVES
+from ballscrew.questions.sensitivity import document as sensitivity_documents
+from ballscrew.questions.sensitivity.compute import SensitivityReport
 from ballscrew.questions.warm_up.compute import WarmUpReport
 
 #: Runs that are kept: who has asked for the numbers of a case often asks for its drawing or its checks next.
 _MOST_RUNS = 4
+#: Shares of a distribution: the ends of 95 %, and its median between them.
+_INTERVAL = (0.025, 0.5, 0.975)
 _runs: OrderedDict[str, runs.Run] = OrderedDict()
 _runs_lock = threading.Lock()
 
@@ -105,6 +113,43 @@ def band(case: case_file.Case, found: bands.BandReport) -> dict[str, Any]:
             "inputs": units.filled(counts),
         },
         "display": {"inputs": counts.document()},
+    }
+
+
+def sensitivity(case: case_file.Case, report: SensitivityReport) -> dict[str, Any]:
+    """The document of a sensitivity, and what people read of its inputs: meaning, field and interval."""
+    result = report.result
+    return {
+        **sensitivity_documents.document(case, report),
+        "display": {
+            "meaning": result.quantity.info.meaning,
+            "unit": result.quantity.unit,
+            "shown_in": result.quantity.shown_in,
+            "inputs": [_uncertain(case, report, name) for name in result.inputs],
+        },
+    }
+
+
+def _uncertain(case: case_file.Case, report: SensitivityReport, name: str) -> dict[str, Any]:
+    """An uncertain input: its field, and the interval that holds 95 % of it."""
+    _, quantity = report.known[name]
+    low, median, high = (float(report.uncertain[name].distribution.quantile(share)) for share in _INTERVAL)
+    return {
+        "name": name, "path": path_of(case, name), "meaning": report.describe(name), "unit": quantity.unit,
+        "shown_in": quantity.shown_in, "low": low, "median": median, "high": high,
+    }  # fmt: skip
+
+
+def optimisation(found: Optimisation) -> dict[str, Any]:
+    """The document of an optimisation, its notes as messages, and all designs of the front by the search."""
+    costs = {
+        name: [OBJECTIVES[name].sign * float(one) for one in found.front.costs[:, place]]
+        for place, name in enumerate(found.space.objectives)
+    }
+    return {
+        **optimise_documents.document(found),
+        "display": {"notes": messages([*found.notes])},
+        "picture": {"front": costs},
     }
 
 

@@ -19,8 +19,8 @@ from ballscrew.questions.shared import file_answer as file_answers
 
 #: Addresses whose requests may be jobs: all that may compute for more than two seconds.
 ADDRESSES = (
-    "band", "check", "compare", "duty", "fit", "hand-over", "log", "open", "report", "reversal", "ripple", "run",
-    "select", "service", "sweep", "warm-up",
+    "band", "check", "compare", "condition", "duty", "fit", "hand-over", "log", "open", "optimise", "report",
+    "reversal", "ripple", "run", "select", "sensitivity", "service", "sweep", "warm-up",
 )  # fmt: skip
 #: Seconds that one may wait for news of a job.
 LONGEST_WAIT = 30.0

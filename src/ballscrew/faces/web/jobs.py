@@ -118,7 +118,7 @@ class Job:
                     self.rows.append(message.document)
                     self._wake()
             case OutOfTime():
-                self.end("failed", _refused(out_of_time(limit)))
+                self.end("failed", _refused(out_of_time(limit, is_job=True)))
             case Answer():
                 self.end("finished" if message.status == 200 else "failed", message)
 

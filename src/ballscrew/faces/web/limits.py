@@ -14,14 +14,20 @@ from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.case_file import (
     Case,
 )
+from ballscrew.cases.case_files.uncertain_inputs import all_of
 from ballscrew.engine.uncertainty.bands import NUT_SAMPLES, SAMPLES
+from ballscrew.engine.uncertainty.sensitivity import NUT_SAMPLES as NUT_SAMPLES_OF_METHOD
+from ballscrew.engine.uncertainty.sensitivity import SAMPLES as SAMPLES_OF_METHOD
 from ballscrew.physics.components.nut import OversizeBallNut
 from ballscrew.physics.moving_balls.reversal import step_count
 from ballscrew.physics.moving_balls.ripple import NutGroove, Spall
+from ballscrew.questions.optimise.compute import Plan
+from ballscrew.questions.optimise.options import OptimiseOptions
 from ballscrew.questions.reversal.options import ReversalOptions
 from ballscrew.questions.ripple import compute as ripples
 from ballscrew.questions.ripple.options import RippleOptions
 from ballscrew.questions.select.need import Need
+from ballscrew.questions.sensitivity.options import SensitivityOptions
 from ballscrew.questions.sweep import compute as sweeps
 
 #: Axes and points of a sweep, and the values that it returns; a nut takes a hundred times as long as one ball.
@@ -46,6 +52,10 @@ MOST_STEPS_OF_REVERSAL = 20_000
 MOST_NUTS_OF_RIPPLE, MOST_BALLS_OF_RIPPLE, MOST_BALLS_OF_RIPPLES = 8, 250, 1_000
 #: Deviation of grooves, and depth of a spall, m: balls that part and meet very often have no end.
 MOST_DEVIATION = 1e-4
+#: Samples of all inputs of a sensitivity times balls that are computed one by one.
+MOST_BALLS_OF_SENSITIVITY = 4_000_000
+#: Designs of a generation, and samples of a quantile; seconds of a processor that a search may take by its plan.
+MOST_IN_A_GENERATION, MOST_SECONDS_OF_SEARCH = 1_000, 120
 #: Columns of a log, and the lines at its top in which they are counted.
 MOST_COLUMNS, _FIRST_LINES = 1_000, 5_000
 #: Parameters, outputs and derivatives of a hand-over besides the usual ones.
@@ -185,6 +195,48 @@ def check_need(need: Need) -> Need:
         )
         raise InputError(Fault("need", "has too many choices of nut, preload and oil", str(choices), remedy))
     return need
+
+
+def samples_of_sensitivity(case: Case, options: SensitivityOptions) -> int | None:
+    """The samples of a sensitivity: the requested number, or the default, or fewer where its balls are too many.
+
+    A method whose number or name is none is refused by the question. Raises
+    :class:`~ballscrew.basis.errors.InputError` where more are requested than are computed here.
+    """
+    known: Mapping[str, int] = {**(NUT_SAMPLES_OF_METHOD if case.screw.nut.one_by_one else SAMPLES_OF_METHOD)}
+    usual = known.get(options.method)
+    if usual is None:  # no method, or one without samples
+        return options.samples
+    sets = len(all_of(case, options.only_given)) + 2
+    balls = balls_of(case)
+    total = MOST_BALLS_OF_SENSITIVITY // balls if balls else MOST_SAMPLES_OF_SWEEP
+    most = 2 ** int(math.log2(max(1, total // sets)))
+    if options.samples is not None and options.samples > most:
+        remedy = Message("{most} at most here; the rest by ballscrew sensitivity", {"most": units.grouped(most)})
+        raise InputError(Fault("--samples", "too many", f"{options.samples:,}", remedy))
+    return options.samples or (most if usual > most else None)
+
+
+def check_search(need: Need, options: OptimiseOptions) -> None:
+    """Refuse a search whose generations are too large for the memory, before its space is made."""
+    asked: Mapping[str, int | None] = {"population": options.population, "samples": None}
+    for name, given in asked.items():
+        value = need.optimise.get(name) if given is None else given
+        if isinstance(value, int | float) and value > MOST_IN_A_GENERATION:
+            remedy = Message(
+                "{most} at most here; the rest by ballscrew optimise", {"most": units.grouped(MOST_IN_A_GENERATION)}
+            )
+            raise InputError(Fault(f"optimise.{name}", "too many", f"{value:,}", remedy))
+
+
+def check_plan(plan: Plan) -> None:
+    """Refuse a search that takes long by its plan."""
+    if plan.seconds > MOST_SECONDS_OF_SEARCH:
+        remedy = Message(
+            "{most} s at most here: fewer designs, generations or members; the rest by ballscrew optimise",
+            {"most": str(MOST_SECONDS_OF_SEARCH)},
+        )
+        raise InputError(Fault("optimise", "takes too many seconds of a processor", f"{plan.seconds:,.0f}", remedy))
 
 
 def check_columns(name: str, content: bytes) -> None:

@@ -18,9 +18,21 @@ from ballscrew.exports import requests
 from ballscrew.faces.web import limits, log_documents, openapi, sent_files, starts
 from ballscrew.faces.web.bodies import case_of, read
 from ballscrew.faces.web.endpoint_parts import as_bytes, as_json, heavy, kept
-from ballscrew.faces.web.log_bodies import FitBody, HandOverBody, LogBody, LogsBody, ServiceBody, TargetBody
+from ballscrew.faces.web.log_bodies import (
+    ConditionBody,
+    FitBody,
+    HandOverBody,
+    LogBody,
+    LogsBody,
+    ServiceBody,
+    TargetBody,
+    TestsBody,
+)
 from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.files.torque_logs.preview import preview
+from ballscrew.questions.condition import compute as conditions
+from ballscrew.questions.condition import response as condition_answers
+from ballscrew.questions.condition.options import ConditionOptions
 from ballscrew.questions.fit import compute as fits
 from ballscrew.questions.fit import log_answer
 from ballscrew.questions.fit import log_document as log_documents_of
@@ -98,6 +110,27 @@ async def service(request: Request) -> Response:
         with sent_files.written(logs) as paths:
             report = services.of_logs(case, list(paths.values()), chosen, done)
         return as_json(log_documents.service(case, report))
+
+    return await heavy(request, work)
+
+
+@router.post(
+    "/condition",
+    openapi_extra=openapi.body(ConditionBody),
+    response_model=condition_answers.Condition,
+    responses=openapi.problems_of(),
+)
+async def condition(request: Request) -> Response:
+    """The state of a nut over time: the document of ``ballscrew condition --json``, with the curve of its trend."""
+    body: TestsBody = await read(request, ConditionBody)
+    options = option_values.read(ConditionOptions, dict(body))
+    conditions.check_kind(len(body.tests), dict(body))
+
+    def work(done: Deadline) -> Response:
+        case = case_of(body.case)
+        with sent_files.written({f"tests {number}": file for number, file in enumerate(body.tests, 1)}) as paths:
+            found = conditions.of_files(case, list(paths.values()), options, done)
+        return as_json(log_documents.condition(case, found))
 
     return await heavy(request, work)
 

@@ -7,12 +7,15 @@ from typing import Any, ClassVar
 from pydantic import Field
 
 from ballscrew.faces.web.bodies import CaseBody, SentFile, Tables, body_of
+from ballscrew.questions.condition.options import ConditionOptions
 from ballscrew.questions.fit.options import FitOptions
 from ballscrew.questions.hand_over.options import HandOverOptions
 from ballscrew.questions.service.options import ServiceOptions
 
 #: Bytes of a request with a log: some 100,000 rows as text.
 MOST_LOG_BYTES = 4_194_304
+#: Logs of one condition; more tests stand in a table.
+MOST_LOGS = 100
 
 
 class LogBody(CaseBody):
@@ -48,6 +51,23 @@ ServiceBody = body_of(
     LogsBody,
     ServiceOptions,
     "A case, the log of the worn screw, perhaps that of the new one, and the options of ``ballscrew service``.",
+)
+
+
+class TestsBody(CaseBody):
+    """A case, and the tests of its nut: a table with a row for each, or a log for each, in their order."""
+
+    most_bytes: ClassVar[int] = MOST_LOG_BYTES
+    files: ClassVar[tuple[str, ...]] = ("tests",)
+
+    tests: list[SentFile] = Field(min_length=1, max_length=MOST_LOGS)
+
+
+ConditionBody = body_of(
+    "ConditionBody",
+    TestsBody,
+    ConditionOptions,
+    "A case, the tests of its nut (a table, or logs in their order), and the options of ``ballscrew condition``.",
 )
 
 
@@ -88,6 +108,11 @@ _NEW, _WORN = (
     )
 )
 
+_TESTS = "date,torque [N m],speed [rpm]\n" + "".join(
+    f"2026-{month:02d}-01,{torque},100\n"
+    for month, torque in enumerate((0.244, 0.246, 0.243, 0.247, 0.245, 0.241, 0.222, 0.205, 0.189), start=1)
+)
+
 
 def examples_with_logs(kind: type[CaseBody], paper: Tables) -> dict[str, Any]:
     """Bodies to try, by name; none for a body of another kind."""
@@ -98,5 +123,7 @@ def examples_with_logs(kind: type[CaseBody], paper: Tables) -> dict[str, Any]:
         FitBody: {"log": log, "free": ["boundary_friction_coefficient"]},
         HandOverBody: {"to": "linuxcnc", "options": {"joint": "1"}},
         ServiceBody: {"new": {"name": "new.csv", "text": _NEW}, "worn": {"name": "worn.csv", "text": _WORN}},
+        ConditionBody: {"tests": [{"name": "tests.csv", "text": _TESTS}]},
     }
-    return {"paper": {"case": nut if kind is ServiceBody else paper, **found[kind]}} if kind in found else {}
+    case = nut if kind in (ServiceBody, ConditionBody) else paper
+    return {"paper": {"case": case, **found[kind]}} if kind in found else {}

@@ -14,8 +14,11 @@ from ballscrew.basis import units
 from ballscrew.basis.records import Measured, Message
 from ballscrew.cases.case_files import fitted_case
 from ballscrew.cases.case_files.case import Case
+from ballscrew.evidence.service.condition_values import Condition
 from ballscrew.exports.export import Export
 from ballscrew.faces.web.documents import messages, texts
+from ballscrew.questions.condition import document as condition_documents
+from ballscrew.questions.condition import points as condition_points
 from ballscrew.questions.fit import document as fit_documents
 from ballscrew.questions.fit import points as fit_points
 from ballscrew.questions.fit import text as fit_text
@@ -68,6 +71,15 @@ def service(case: Case, report: ServiceReport) -> dict[str, Any]:
         "words": {"title": ", ".join(service_text.names(report)), "causes": texts(causes)},
         "display": {"causes": messages(causes)},
         "picture": service_points.of_service(report),
+    }
+
+
+def condition(case: Case, found: Condition) -> dict[str, Any]:
+    """The document of a condition over time, and the curve of its trend."""
+    trend = condition_points.trend_of(found)
+    return {
+        **condition_documents.document(case, found),
+        "picture": {"trend": None if trend is None else trend.tolist()},
     }
 
 

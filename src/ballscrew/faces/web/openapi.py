@@ -16,7 +16,9 @@ from ballscrew.faces.web.bodies import (
     MovingBody,
     NeedBody,
     OpenBody,
+    OptimiseBody,
     ProjectBody,
+    SensitivityBody,
     SweepBody,
     WarmUpBody,
 )
@@ -56,6 +58,10 @@ def _bodies(kind: type[BaseModel]) -> dict[str, Any]:
     if kind is NeedBody:
         need = {"force": "2 kN", "feed": "15 m/min", "length": "1 m", "ends": "fixed-supported", "life": "20000 h"}
         return {"few": {"need": {**need, "preload": "2 %"}, "words": "rexroth 32x"}}
+    if kind is OptimiseBody:
+        need = {"force": "2 kN", "feed": "15 m/min", "length": "1 m", "ends": "fixed-supported", "life": "20000 h"}
+        few = {"population": 8, "generations": 2, "members": 2}
+        return {"few": {"need": {**need, "optimise": {"elastic_generations": 0}}, **few}}
     if kind is OpenBody:
         text = 'lubricant.grade = "ISO VG 68"\nscrew.catalogue = "hiwin-40-20k4"\n'
         return {"case": {"file": {"name": "case.toml", "text": text}}}
@@ -76,6 +82,8 @@ def _bodies(kind: type[BaseModel]) -> dict[str, Any]:
     if kind is WarmUpBody:
         more = {"hours": 1.0, "band": True, "samples": 16}
         paper = {**paper, "lubricant": {"grade": "ISO VG 100", "temperature": "40 degC"}}
+    if kind is SensitivityBody:
+        more = {"samples": 16}
     if kind is BandBody:
         more = {"samples": 64, "level": 0.9}
     return {"paper": {"case": paper, **more}, "nut": {"case": nut, **more}}

@@ -25,6 +25,9 @@ QUICK, SHORT, HEAVY = 4, 1, 2
 #: Heavy requests that may wait, short ones, which take a tenth of a second each, and quick ones, some milliseconds.
 MOST_WAITING, MOST_SHORT_WAITING, MOST_QUICK_WAITING = 16, 100, 500
 
+#: The id of the fault of a request whose time was used up.
+OUT_OF_TIME = "out_of_time"
+
 Result = TypeVar("Result")
 
 
@@ -223,11 +226,19 @@ def busy(waiting: int) -> Refused:
     return Refused(429, Fault("server", "is busy", f"{waiting} requests are waiting", "try again soon"))
 
 
-def out_of_time(seconds: float) -> Refused:
-    """The refusal of work that has computed for too long; it would do so again, so no client shall send it again."""
+def out_of_time(seconds: float, *, is_job: bool = False) -> Refused:
+    """The refusal of work that has computed for too long; it would do so again, so no client shall send it again.
+
+    A request has its id, by which a client knows that a job has more time.
+    """
     given = f"{seconds:g} s of processor time"
-    remedy = "ask for less at a time, or start the server with a longer time limit"
-    return Refused(422, Fault("server", "stopped the work, which took too long", given, remedy))
+    remedy = (
+        "ask for less at a time, or start the server with a longer time limit"
+        if is_job
+        else "start it as a job, ask for less at a time, or start the server with a longer time limit"
+    )
+    id = "" if is_job else OUT_OF_TIME
+    return Refused(422, Fault("server", "stopped the work, which took too long", given, remedy, id=id))
 
 
 def closing() -> Refused:

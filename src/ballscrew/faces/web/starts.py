@@ -39,7 +39,8 @@ def starts() -> dict[str, Any]:
 
 #: Cases to which logs belong, by the question: all of them are examples of the repository.
 _LOGS: Mapping[str, tuple[str, ...]] = {
-    "fit": ("rig.toml", "rig_log.csv"), "service": ("service.toml", "nut_new.csv", "nut_worn.csv"),
+    "condition": ("service.toml", "nut_over_years.csv"), "fit": ("rig.toml", "rig_log.csv"),
+    "service": ("service.toml", "nut_new.csv", "nut_worn.csv"),
 }  # fmt: skip
 
 

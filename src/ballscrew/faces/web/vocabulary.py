@@ -34,10 +34,13 @@ from ballscrew.physics.moving_balls.friction_states import Dahl, LuGre
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.physics.sizing.installation import Installation, Limits
 from ballscrew.physics.solvers.load_distribution import BallLoads
+from ballscrew.questions.condition.options import ConditionOptions
 from ballscrew.questions.duty.compute import CAUSES, IF_ANY, NUMBERS, slug_of
 from ballscrew.questions.fit.options import FitOptions
+from ballscrew.questions.optimise.options import OptimiseOptions
 from ballscrew.questions.reversal.options import ReversalOptions
 from ballscrew.questions.ripple.options import RippleOptions
+from ballscrew.questions.sensitivity.options import SensitivityOptions
 from ballscrew.questions.service.options import ServiceOptions
 from ballscrew.questions.shared.chart_colours import CAUSE_COLOURS, MECHANISM_COLOURS
 from ballscrew.questions.shared.options import Kind, vocabulary_of
@@ -51,7 +54,8 @@ _INCHES: Mapping[str, str] = {
 
 #: The options of the questions, of which the page draws fields.
 OPTIONS: Mapping[str, type] = {
-    "fit": FitOptions, "reversal": ReversalOptions, "ripple": RippleOptions, "service": ServiceOptions,
+    "condition": ConditionOptions, "fit": FitOptions, "optimise": OptimiseOptions, "reversal": ReversalOptions,
+    "ripple": RippleOptions, "sensitivity": SensitivityOptions, "service": ServiceOptions,
 }  # fmt: skip
 
 

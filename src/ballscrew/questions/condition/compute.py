@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, InputError, fault_of
+from ballscrew.basis.errors import Fault, InputError, fault_of, raise_if_any
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.uncertain_inputs import all_of, joint_of
 from ballscrew.evidence.service.condition import condition
@@ -27,6 +27,22 @@ _FLAGS: Mapping[str, str] = {
     "condition.screw_speed": "--speed",
     "lubricant.temperature": "--at",
 }
+
+
+def check_kind(count: int, written: Mapping[str, Any]) -> None:
+    """Refuse options of logs beside a table, which is ``count`` 1, and of a table beside several logs.
+
+    ``written`` has the options as they were written. Raises :class:`~ballscrew.basis.errors.InputError`.
+    """
+    if count > 1:
+        names, problem, remedy = ["speed"], "is for a table", "leave it out: logs have their speeds"
+    else:
+        names, problem = ["kind", "inertia", "torque_constant"], "is for logs"
+        remedy = "leave it out: a table has mean friction torques"
+    flags = options_of(ConditionOptions)
+    raise_if_any(
+        [Fault(flags[name].flag, problem, written[name], remedy) for name in names if written[name] is not None]
+    )
 
 
 def of_files(

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -12,7 +10,7 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import model_text, nut_text
 from ballscrew.evidence.calibration.robust import Vector
 from ballscrew.evidence.service.condition_values import Condition
-from ballscrew.questions.condition import text
+from ballscrew.questions.condition import points, text
 from ballscrew.questions.shared import charts
 
 _HOUR, _DAY = 3600.0, 86400.0
@@ -63,16 +61,11 @@ def _preloads(panel: Axes, found: Condition, times: Vector) -> None:
     panel.fill_between(times, low, high, color=charts.BLUE, alpha=0.15, lw=0)
     panel.plot(times, value, "o-", ms=3.5, lw=0.8, color=charts.BLUE)
     panel.axhline(100 * (1 - found.tolerance), color=charts.ORANGE, ls="--", lw=1.2, label="tolerance")
-    if math.isfinite(found.trend.slope):
-        middle = np.nanmedian(np.log(value) - found.trend.slope * times_of(found))
-        panel.plot(times, np.exp(middle + found.trend.slope * times_of(found)), color=charts.INK, lw=1, label="trend")
+    trend = points.trend_of(found)
+    if trend is not None:
+        panel.plot(times, 100 * trend, color=charts.INK, lw=1, label="trend")
     top = float(np.nanmax(high)) if np.isfinite(high).any() else 100.0
     panel.set(ylabel="preload [% of that of the first tests]", title="preload left", ylim=(0, min(1.05 * top, 250)))
-
-
-def times_of(found: Condition) -> Vector:
-    """The times as the trend counts them."""
-    return np.array([one.time for one in found.states])
 
 
 def _sums(panel: Axes, found: Condition, times: Vector) -> None:

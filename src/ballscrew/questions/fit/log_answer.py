@@ -77,5 +77,6 @@ class Example(Closed):
 class Examples(Closed):
     """Logs to try; no screw was measured for them."""
 
+    condition: Example
     fit: Example
     service: Example

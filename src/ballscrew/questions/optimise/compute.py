@@ -9,18 +9,22 @@ from typing import Any
 
 import numpy as np
 
+from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.screw_tables.nut_kinds import NUT_FIELDS
 from ballscrew.engine.evaluation.engines import Engine
 from ballscrew.physics.components.nut import Bodies
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.checks import Check
 from ballscrew.physics.sizing.listed_nut import PRELOADED
 from ballscrew.questions.check.compute import Checked, checked
 from ballscrew.questions.optimise.design_model import DesignModel
-from ballscrew.questions.optimise.design_space import DesignSpace, design_space
+from ballscrew.questions.optimise.design_space import VARIABLES, DesignSpace, design_space
 from ballscrew.questions.optimise.search import Found, search, spread
 from ballscrew.questions.select import requirement_checks
 from ballscrew.questions.select.candidates import objectives as objectives_of
@@ -37,6 +41,8 @@ SECONDS: Mapping[str, float] = {"compiling": 5.0, "rigid": 6e-5, "sample": 2e-6,
 #: Contact angle and conformity where the need gives none: those of a row that lists none.
 _ROW = CatalogueRow.__dataclass_fields__
 _ANGLE, _CONFORMITY = _ROW["contact_angle"].default, _ROW["conformity"].default
+_SIZES = ("pitch_circle_diameter", "lead", "ball_diameter")
+_SCREW, _SPEED = fields_of(BallScrew), fields_of(OperatingState)["screw_speed"]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -69,6 +75,8 @@ class Member:
     checks: Sequence[Check]
     #: The objectives by the full model, at the central inputs.
     objectives: Mapping[str, float]
+    #: Its case file as tables.
+    case: Mapping[str, Any]
     #: Whether no other member that holds is better in all objectives by the full model.
     pareto: bool = False
 
@@ -260,22 +268,23 @@ def tables_of(need: Need, space: DesignSpace, variables: Mapping[str, float], **
     """The tables of the case of a design, as a case file has them; ``numbers`` are its balls and its preload."""
     tables = copied({"bodies": {}, **need.tables})
     screw = tables.get("screw", {})
-    sizes = {name: f"{variables[name]!r} m" for name in ("pitch_circle_diameter", "lead", "ball_diameter")}
+    sizes = {name: units.written(variables[name], VARIABLES[name]) for name in _SIZES}
     usual = {
-        "contact_angle": f"{_ANGLE!r} rad", "screw_conformity": _CONFORMITY, "nut_conformity": _CONFORMITY,
+        "contact_angle": units.written(_ANGLE, _SCREW["contact_angle"]),
+        "screw_conformity": _CONFORMITY, "nut_conformity": _CONFORMITY,
     }  # fmt: skip
     left_out = ("catalogue", "catalogue_file", "starts", "dynamic_load_rating", "static_load_rating", "root_diameter")
     # sizes of bodies belong to one screw
     tables["bodies"] = {name: value for name, value in tables["bodies"].items() if name not in fields_of(Bodies)}
     kept = {name: value for name, value in screw.items() if name not in left_out}
     tables["screw"] = {**usual, **kept, **sizes, "loaded_balls": int(numbers["balls"])}
-    preload = {"preload": f"{numbers['preload']!r} N"} if space.nut in PRELOADED else {}
+    preload = {"preload": units.written(numbers["preload"], NUT_FIELDS["preload"])} if space.nut in PRELOADED else {}
     tables["nut"] = {**tables.get("nut", {}), "type": space.nut, **preload}
     tables["lubricant"] = dict(need.oils[0])
     feed = need.requirements.feed
     if feed is not None:
         speed = 2 * np.pi * feed / variables["lead"]
-        tables["operation"] = {**tables.get("operation", {}), "screw_speed": f"{speed!r} rad/s"}
+        tables["operation"] = {**tables.get("operation", {}), "screw_speed": units.written(speed, _SPEED)}
     return tables
 
 
@@ -304,7 +313,8 @@ def _member(
     variables = {name: float(values[0]) for name, values in space.columns(x).items()}
     designs = ready.designs(x)
     preload, balls = float(designs.preload[0]), float(designs.loaded_balls[0])
-    case = _built(need, tables_of(need, space, variables, balls=balls, preload=preload), options)
+    tables = tables_of(need, space, variables, balls=balls, preload=preload)
+    case = _built(need, tables, options)
     whole = checked(f"design {place + 1}", case, need.notes)
     numbers = objectives_of(need, whole, None, variables["pitch_circle_diameter"])
     searched = {
@@ -319,7 +329,7 @@ def _member(
         ),
         *requirement_checks.of_friction(need.requirements, whole, None, numbers),
     )  # fmt: skip
-    return Member(variables, searched, whole, checks, {name: numbers[name] for name in OBJECTIVES}, pareto=False)
+    return Member(variables, searched, whole, checks, {name: numbers[name] for name in OBJECTIVES}, tables)
 
 
 def _marked(members: Sequence[Member], objectives: Sequence[str]) -> list[Member]:

@@ -66,4 +66,5 @@ def _member(found: Member) -> dict[str, Any]:
         "checks": [check_documents.check_document(check) for check in found.checks],
         "judged": judged(found.checks),
         **{name: part for name, part in whole.items() if name not in _LEFT_OUT},
+        "case": dict(found.case),
     }

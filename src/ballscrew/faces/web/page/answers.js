@@ -14,9 +14,10 @@ import { inWords, labelOf } from "./messages.js";
 import * as moving from "./moving.js";
 import { diamond } from "./operating_point.js";
 import { isVisible, move, showFailure } from "./plot.js";
+import { askPatiently, sendPatiently } from "./long_work.js";
 import * as results from "./results.js";
 import { withoutCards } from "./schema.js";
-import { ask, keep, known, Latest, linesOf, Problem, sendJson, sendLines } from "./server.js";
+import { keep, known, Latest, linesOf, Problem, sendLines } from "./server.js";
 import { LETTERS } from "./state.js";
 import * as stiffness from "./stiffness.js";
 import { store } from "./store.js";
@@ -88,8 +89,8 @@ async function others({ body, beside, signal }, error) {
   const refused = new Map([[body, error]]);
   for (const one of beside) {
     try {
-      await ask("run", one, signal);
-      await ask("check", one, signal);
+      await askPatiently("run", one, signal);
+      await askPatiently("check", one, signal);
     } catch (reason) {
       if (!known("run", one)) refused.set(one, reason);
     }
@@ -136,7 +137,7 @@ function isMoving({ case: { axis, motion } }) {
  */
 async function checksOfCycle(body, signal) {
   try {
-    return checks.ofCycle(await ask("duty", body, signal));
+    return checks.ofCycle(await askPatiently("duty", body, signal));
   } catch (error) {
     if (!(error instanceof Problem)) throw error;
     return undefined;
@@ -427,7 +428,7 @@ class Answers {
     if (!body) return;
     byId("models").textContent = text("models.pending");
     try {
-      const found = await sendJson("compare", body);
+      const found = await sendPatiently("compare", body);
       if (body !== this.#displayed.body) {
         this.clearModels();
         return;
@@ -625,7 +626,7 @@ class Answers {
     /** @type {results.Band} */
     let found;
     try {
-      found = { state: "done", answer: await ask("band", body, signal) };
+      found = { state: "done", answer: await askPatiently("band", body, signal) };
     } catch (error) {
       found = { state: "failed", lines: linesOf(error) };
       if (error instanceof Problem && error.isBusy && !signal.aborted) {
@@ -662,7 +663,7 @@ class Answers {
     /** @type {Sweep | string} */
     let found;
     try {
-      found = await sendJson("sweep", { ...body, vary, outputs: ["screw_torque"], band: true }, signal);
+      found = await sendPatiently("sweep", { ...body, vary, outputs: ["screw_torque"], band: true }, signal);
     } catch (error) {
       if (signal.aborted) return;
       found = linesOf(error).join("; ");
@@ -683,7 +684,7 @@ class Answers {
       const one = this.#displayed.designs?.[LETTERS[place]];
       if (signal.aborted || !one?.run || !this.#displayed.band) continue;
       try {
-        one.band = await ask("band", body, signal);
+        one.band = await askPatiently("band", body, signal);
       } catch {
         continue; // of this design there is none
       }

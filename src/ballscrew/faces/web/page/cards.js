@@ -19,8 +19,11 @@ const SCRIPTS = {
   choose: "./cards/choose.js",
   reversal: "./cards/reversal.js",
   ripple: "./cards/ripple.js",
+  sensitivity: "./cards/sensitivity.js",
   calibration: "./cards/calibrate.js",
   service: "./cards/service.js",
+  condition: "./cards/condition.js",
+  optimise: "./cards/optimise.js",
   "hand-over": "./cards/hand_over.js",
   files: "./cards/files.js",
 };

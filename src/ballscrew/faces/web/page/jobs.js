@@ -155,7 +155,7 @@ function cancel({ id }) {
  *
  * @param {string} text
  */
-function digest(text) {
+export function digest(text) {
   let [one, other] = [0xdeadbeef, 0x41c6ce57];
   for (let place = 0; place < text.length; place += 1) {
     const letter = text.charCodeAt(place);

@@ -3,7 +3,8 @@
 
 import * as designs from "./designs.js";
 import { readNeed } from "./needs.js";
-import { linesOf, sendJson } from "./server.js";
+import { sendPatiently } from "./long_work.js";
+import { linesOf } from "./server.js";
 import { LETTERS, OF_SCREW } from "./state.js";
 import { store } from "./store.js";
 import { text } from "./texts.js";
@@ -20,7 +21,7 @@ const MOST_NAMES = 5;
  * @returns {Promise<Opened>}
  */
 function read(file) {
-  return sendJson("open", { file });
+  return sendPatiently("open", { file });
 }
 
 /** True of a file that the server takes. @param {File} file */

@@ -22,6 +22,7 @@ import { hasComma, localised, text, textOr } from "./texts.js";
  * @property {(colours: Colours) => LegendEntry[]} legend
  * @property {() => [string[], import("./dom.js").Cell[][]]} numbers
  * @property {import("./operating_point.js").Handle} [drag] its diamond, where that can be dragged
+ * @property {(place: number) => void} [click] gets the place of what was clicked in its trace
  */
 
 const CONFIG = { responsive: true, displaylogo: false, displayModeBar: false };
@@ -167,6 +168,8 @@ class Charts {
   #made = new Map();
   /** Places whose diamond can be dragged. @type {Set<string>} */
   #dragged = new Set();
+  /** Plots that tell what is clicked. @type {WeakSet<Element>} */
+  #clicked = new WeakSet();
   /** @type {Colours | undefined} */
   #colours;
   /** @type {Promise<void> | undefined} */
@@ -358,7 +361,14 @@ class Charts {
     if (!chart) return;
     await this.#loaded();
     const { traces, layout: own } = chart.figure(palette);
-    await globalThis.Plotly.react(within(byId(id), ".plot"), traces, { ...own, ...more }, CONFIG);
+    const plot = within(byId(id), ".plot");
+    await globalThis.Plotly.react(plot, traces, { ...own, ...more }, CONFIG);
+    if (chart.click && !this.#clicked.has(plot)) {
+      this.#clicked.add(plot);
+      /** @type {any} */ (plot).on("plotly_click", (/** @type {{ points: { pointNumber: number }[] }} */ { points }) =>
+        this.#charts.get(id)?.click?.(points[0].pointNumber),
+      );
+    }
     byId(id).querySelector("canvas")?.remove();
   }
 

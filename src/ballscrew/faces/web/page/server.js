@@ -224,17 +224,18 @@ const awaited = new Map();
  * @param {object} body
  * @param {AbortSignal} signal
  * @param {() => Promise<any>} [compute] how it is asked, where not by a request that is waited for
+ * @param {typeof sendJson} [how] how such a request is sent
  */
-export async function ask(address, body, signal, compute) {
+export async function ask(address, body, signal, compute, how = sendJson) {
   const before = known(address, body);
   if (before) return before;
-  const found = await (compute ? compute() : requested(address, body, signal));
+  const found = await (compute ? compute() : requested(address, body, signal, how));
   keep(address, body, found);
   return found;
 }
 
-/** @param {string} address @param {object} body @param {AbortSignal} signal */
-async function requested(address, body, signal) {
+/** @param {string} address @param {object} body @param {AbortSignal} signal @param {typeof sendJson} how */
+async function requested(address, body, signal, how) {
   const key = keyOf(address, body);
   try {
     const other = awaited.get(key);
@@ -242,7 +243,7 @@ async function requested(address, body, signal) {
   } catch {
     signal.throwIfAborted(); // whoever asked before has left or was refused: this one asks on its own
   }
-  const own = sendJson(address, body, signal);
+  const own = how(address, body, signal);
   awaited.set(key, own);
   try {
     return await own;

@@ -11,22 +11,33 @@ import { flags, optionFields } from "./option_fields.js";
 import { question } from "./question.js";
 import { lines } from "./records.js";
 
-/** @typedef {{ reversal: ReversalAnswer, ripple: RippleAnswer }} Answers */
+/** @typedef {{ reversal: ReversalAnswer, ripple: RippleAnswer, sensitivity: SensitivityAnswer }} Answers */
+/**
+ * Options that a card has in its own way: their names, and their fields, which write into what is given.
+ *
+ * @typedef {object} Own
+ * @property {string[]} names
+ * @property {(given: import("./option_fields.js").Given, change: () => void) => HTMLElement[]} fields
+ */
+
+/** @type {Own} */
+const NO_OWN = { names: [], fields: () => [] };
 
 /**
  * Set up the card of a question that has its address, its command and its options by one name. Above them stands what it is
  * about, on the button the text ``start``. Below the verdicts stand the charts, and what ``show`` gives back after it has drawn them.
  *
- * @template {"reversal" | "ripple"} Name
+ * @template {keyof Answers} Name
  * @param {HTMLElement} holder
  * @param {Name} name
  * @param {(string | Node)[]} about
  * @param {import("../texts.js").Key} start
  * @param {HTMLElement[]} charts
  * @param {(found: Answers[Name]) => HTMLElement[]} show
+ * @param {Own} [own]
  * @returns {import("../cards.js").Card}
  */
-export function askedByButton(holder, name, about, start, charts, show) {
+export function askedByButton(holder, name, about, start, charts, show, own = NO_OWN) {
   /** @type {import("../state.js").Tables} */
   let tables = {};
   /** @type {Answers[Name] | undefined} */
@@ -55,7 +66,13 @@ export function askedByButton(holder, name, about, start, charts, show) {
   const chosen = {};
   holder.replaceChildren(
     element("p", { class: "small" }, ...about),
-    optionFields(name, options, chosen, () => follow()),
+    ...own.fields(chosen, () => follow()),
+    optionFields(
+      name,
+      options.filter((option) => !own.names.includes(option.name)),
+      chosen,
+      () => follow(),
+    ),
     element("p", { class: "card-start" }, asks),
     command,
     asked.line,

@@ -6,7 +6,8 @@ import { element, redraw, scrollingTable } from "../dom.js";
 import { said } from "../messages.js";
 import { watch } from "../plot.js";
 import { save } from "../saving.js";
-import { ask, linesOf, Problem, sendJson } from "../server.js";
+import { linesOf, Problem } from "../server.js";
+import { askPatiently, sendPatiently } from "../long_work.js";
 import { text } from "../texts.js";
 import * as units from "../units.js";
 import { vocabulary } from "../vocabulary.js";
@@ -119,7 +120,7 @@ export function setUp(holder) {
     asked = key;
     try {
       /** @type {LogAnswer} */
-      const found = await sendJson("log", question);
+      const found = await sendPatiently("log", question);
       if (asked !== key) return;
       seen = found;
       known = found.free;
@@ -227,7 +228,7 @@ export function setUp(holder) {
   /** The friction torque of a case; null of one at fault. @param {import("../state.js").Tables} tables */
   async function torqueOf(tables) {
     try {
-      const found = await ask("run", { case: tables }, new AbortController().signal);
+      const found = await askPatiently("run", { case: tables }, new AbortController().signal);
       return found.results.screw_torque;
     } catch {
       return null;

@@ -51,7 +51,7 @@ const OPEN = "#8a8f96";
 /** @typedef {Select["candidates"][number]} Candidate */
 
 /** @param {string} name */
-function objective(name) {
+export function objective(name) {
   return textOr(`choose.objective.${name}`, name.replaceAll("_", " "));
 }
 
@@ -79,13 +79,13 @@ function valueIn(candidate, name) {
  * @param {Candidate} candidate
  * @param {string} name
  */
-function numberOf(candidate, name) {
+export function numberOf(candidate, name) {
   const value = valueIn(candidate, name);
   return value === null || value === undefined ? null : units.fromSI(value, unitOf(name), OBJECTIVES[name]);
 }
 
 /** @param {string} name */
-function heading(name) {
+export function heading(name) {
   const unit = unitOf(name);
   return unit ? `${objective(name)} (${units.symbol(unit)})` : objective(name);
 }
@@ -325,7 +325,7 @@ function multiple(share) {
  *
  * @param {Candidate} candidate
  */
-function verdictOf({ fails, checks, holds, valid, complete, starved, rigid_lift_off_load: limit }) {
+export function verdictOf({ fails, checks, holds, valid, complete, starved, rigid_lift_off_load: limit }) {
   const open = checks.filter((check) => check.holds === null).length;
   const failing = fails.map((check) => `${nameOf(check)}${multiple(check.utilisation)}`).join(", ");
   const fail = complete ? "checks.fail" : "choose.cannot";

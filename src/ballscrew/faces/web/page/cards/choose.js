@@ -14,10 +14,8 @@ import { store } from "../store.js";
 import { text, textOr } from "../texts.js";
 import * as units from "../units.js";
 import { asTheyCome, candidates } from "./candidates.js";
+import { leftOut, tables } from "./need_tables.js";
 
-/** Fields that a duty has in its own way, and its sections. */
-const OF_POINT = ["axial_load", "feed"];
-const OF_DUTY = ["axis", "motion", "motor"];
 /** @type {Record<string, import("../schema.js").SchemaNode>} */
 const OF_NEEDS = { back_driving: { enum: ["allowed", "needed", "forbidden"], default: "allowed" }, accuracy: {} };
 /** Whose job a selection is. */
@@ -293,16 +291,6 @@ export function setUp(holder) {
   };
 }
 
-/**
- * The fields that do not count: a duty has load and speed in its own way, and a mass makes the force.
- *
- * @param {FrozenNeed} need
- */
-function leftOut({ texts, duty }) {
-  if (duty) return [...OF_POINT, ...OF_MASS];
-  return texts.mass ? ["axial_load"] : [];
-}
-
 /** @param {HTMLElement} field */
 function nameOf(field) {
   return (field.dataset.path ?? "").slice("need.".length);
@@ -311,21 +299,4 @@ function nameOf(field) {
 /** @param {Select} found */
 function counts({ candidates: all, holding }) {
   return text("choose.counts", { all: all.length, holding });
-}
-
-/**
- * The tables of a need, as ``ballscrew select`` reads them.
- *
- * @param {FrozenNeed} need
- */
-async function tables(need) {
-  const { texts, rest, duty } = need;
-  const closed = leftOut(need);
-  const given = Object.entries(texts).filter(([name, value]) => value && !closed.includes(name));
-  const values = given.map(([name, value]) => [name, LISTS.includes(name) ? value.split(/;|,\s+/) : value]);
-  const found = { ...rest, need: { .../** @type {object} */ (rest.need), ...Object.fromEntries(values) } };
-  if (!duty) return found;
-  const current = await designs.currentCase();
-  const moving = OF_DUTY.filter((name) => name in current).map((name) => [name, current[name]]);
-  return { ...found, ...Object.fromEntries(moving) };
 }

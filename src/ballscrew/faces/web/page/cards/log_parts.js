@@ -23,10 +23,17 @@ const SPECIAL = /[^\w@%+=:,./-]/;
  * @param {string} id
  * @param {string} label
  * @param {(file: SentFile) => void} take
+ * @param {{ multiple?: boolean }} options whether several files may be given at once, each of which is taken
  */
-export function dropZone(id, label, take) {
+export function dropZone(id, label, take, { multiple = false } = {}) {
   const said = element("span", { id: `${id}-name`, "aria-live": "polite" });
-  const input = element("input", { type: "file", id, hidden: true, accept: ".csv,.txt,.tsv,.xlsx,.xls,.ods,.mat" });
+  const input = element("input", {
+    type: "file",
+    id,
+    hidden: true,
+    multiple,
+    accept: ".csv,.txt,.tsv,.xlsx,.xls,.ods,.mat",
+  });
   const choose = button(text("log.choose"), () => input.click(), { "aria-label": `${text("log.choose")}: ${label}` });
   /** @param {File | undefined} file */
   const read = async (file) => {
@@ -37,13 +44,17 @@ export function dropZone(id, label, take) {
     }
     use({ name: file.name, base64: inBase64(new Uint8Array(await file.arrayBuffer())) });
   };
+  /** @param {FileList | null | undefined} files */
+  const readAll = (files) => {
+    for (const file of [...(files ?? [])].slice(0, multiple ? undefined : 1)) read(file);
+  };
   /** @param {SentFile} file */
   const use = (file) => {
     said.textContent = text("log.taken", { file: file.name });
     take(file);
   };
   input.addEventListener("change", () => {
-    read(input.files?.[0]);
+    readAll(input.files);
     input.value = ""; // the same file can be chosen again
   });
   const zone = element("div", { class: "drop" }, element("span", {}, label), choose, input, said);
@@ -57,7 +68,7 @@ export function dropZone(id, label, take) {
   zone.addEventListener("drop", (event) => {
     event.preventDefault(); // the page would open it as a case
     zone.classList.remove("over");
-    read(event.dataTransfer?.files[0]);
+    readAll(event.dataTransfer?.files);
   });
   return { zone, use };
 }
@@ -72,7 +83,7 @@ function inBase64(bytes) {
 /**
  * A button that takes an example: its case as a design, and its logs.
  *
- * @param {"fit" | "service"} name
+ * @param {"condition" | "fit" | "service"} name
  * @param {(logs: SentFile[], free: string[]) => void} take also takes the numbers to fit
  */
 export function exampleButton(name, take) {

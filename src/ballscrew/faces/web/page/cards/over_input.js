@@ -9,7 +9,8 @@ import { labelIn } from "../fields.js";
 import { draw, layout, showFailure } from "../plot.js";
 import { numbersOf } from "../results.js";
 import { definition, fieldOf, SECTIONS } from "../schema.js";
-import { ask, linesOf, Problem, sendJson } from "../server.js";
+import { linesOf, Problem } from "../server.js";
+import { askPatiently, sendPatiently } from "../long_work.js";
 import { LETTERS, valueAt } from "../state.js";
 import { store } from "../store.js";
 import { text } from "../texts.js";
@@ -199,7 +200,7 @@ async function runsOf(signal) {
       const body = { case: own || !operation ? one : { ...one, operation } };
       const letter = LETTERS[place];
       try {
-        return { letter, body, run: await ask("run", body, signal) };
+        return { letter, body, run: await askPatiently("run", body, signal) };
       } catch (error) {
         return { letter, body, reason: linesOf(error).join("; ") };
       }
@@ -323,7 +324,7 @@ async function curveOf({ letter, run, reason, body }, { path, output }, low, hig
     axis = whole.filter((value) => value <= Math.max(high, Math.round(low))).join(", ");
   }
   try {
-    const swept = await sendJson("sweep", { ...body, vary: { [name]: axis }, outputs: [output] }, signal);
+    const swept = await sendPatiently("sweep", { ...body, vary: { [name]: axis }, outputs: [output] }, signal);
     return { letter, run, at, swept };
   } catch (error) {
     const [fault] = error instanceof Problem ? error.faults : [];

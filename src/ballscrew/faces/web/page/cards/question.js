@@ -22,7 +22,7 @@ const RESUMED = "job ";
  * those of no field of the card; nothing where it has shown all of them in a place of its own.
  *
  * @typedef {object} Parts
- * @property {"duty" | "warm-up" | "reversal" | "ripple" | "fit" | "service" | "hand-over"} address
+ * @property {"duty" | "warm-up" | "reversal" | "ripple" | "fit" | "service" | "hand-over" | "sensitivity" | "optimise" | "condition"} address
  * @property {HTMLElement} result
  * @property {(answer: any) => void} show
  * @property {(faults: FaultLine[]) => FaultLine[] | undefined} place

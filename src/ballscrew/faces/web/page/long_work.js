@@ -1,0 +1,126 @@
+// Requests that the server has ended because they took too long: they go on as jobs by themselves, with a line at the
+// foot of the page that says how far each is, and cancels it.
+
+import { element } from "./dom.js";
+import { digest, drop, keptJob, runJob } from "./jobs.js";
+import { ask, Problem, sendJson } from "./server.js";
+import { text, textOr } from "./texts.js";
+
+/** The id of the fault that says so. */
+const OUT_OF_TIME = "out_of_time";
+/** Milliseconds until the line is shown: of what was known already nothing is to be seen. */
+const PATIENCE = 300;
+const SECOND = 1000;
+
+/** Addresses whose requests took too long: the next ones are jobs at once. @type {Set<string>} */
+const slow = new Set();
+const list = element("div", { id: "long-work", role: "region", "aria-label": text("long.heading"), hidden: true });
+document.body.append(list);
+
+/** Test whether the server ended a request for its time. @param {unknown} error */
+export function isOutOfTime(error) {
+  return error instanceof Problem && error.faults.some(({ id }) => id === OUT_OF_TIME);
+}
+
+/**
+ * The JSON document that answers a body: by a request, and where that takes too long by a job. A job that was begun
+ * before the page was loaded again is gone on with.
+ *
+ * @param {string} address
+ * @param {object} body
+ * @param {AbortSignal} [signal]
+ */
+export async function sendPatiently(address, body, signal = new AbortController().signal) {
+  const place = `long-${address}-${digest(JSON.stringify(body))}`;
+  if (!slow.has(address) && !keptJob(place)) {
+    try {
+      return await sendJson(address, body, signal);
+    } catch (error) {
+      if (signal.aborted || !isOutOfTime(error)) throw error;
+      slow.add(address);
+    }
+  }
+  return asJob(address, body, place, signal);
+}
+
+/**
+ * The answer of an address to a body, which is kept as ``ask`` keeps it.
+ *
+ * @param {"run" | "check" | "band" | "duty" | "warm-up"} address
+ * @param {object} body
+ * @param {AbortSignal} signal
+ */
+export function askPatiently(address, body, signal) {
+  return ask(address, body, signal, undefined, sendPatiently);
+}
+
+/**
+ * @param {string} address
+ * @param {object} body
+ * @param {string} place whose job it is
+ * @param {AbortSignal} signal
+ */
+async function asJob(address, body, place, signal) {
+  const own = new AbortController();
+  const { line, told, end } = lineOf(address, () => own.abort());
+  const leave = () => own.abort();
+  if (signal.aborted) leave();
+  signal.addEventListener("abort", leave);
+  const patience = setTimeout(() => show(line), PATIENCE);
+  try {
+    const found = await (await runJob(address, body, { place, signal: own.signal, told })).json();
+    drop(place); // its answer is here
+    return found;
+  } catch (error) {
+    signal.throwIfAborted();
+    if (own.signal.aborted) throw new Problem({ title: text("card.cancelled") });
+    throw error;
+  } finally {
+    signal.removeEventListener("abort", leave);
+    clearTimeout(patience);
+    end();
+    hide(line);
+  }
+}
+
+/**
+ * A line that says how far a job is, what takes its news, and what ends its clock.
+ *
+ * @param {string} address
+ * @param {() => void} cancel
+ */
+function lineOf(address, cancel) {
+  const what = textOr(`long.of.${address}`, address);
+  const bar = element("progress", { "aria-label": text("long.computing", { what }) });
+  const words = element("span", {}, text("long.computing", { what }));
+  const button = element("button", { type: "button", onclick: cancel }, text("card.cancel"));
+  button.setAttribute("aria-label", `${text("card.cancel")}: ${what}`);
+  const line = element("p", { "data-address": address }, bar, words, button);
+  const start = performance.now();
+  let isWaiting = false;
+  const clock = setInterval(() => {
+    const seconds = Math.round((performance.now() - start) / SECOND);
+    words.textContent = text(isWaiting ? "long.waiting_for" : "long.computing_for", { what, seconds });
+  }, SECOND);
+  /** @param {JobDocument} job */
+  const told = ({ state, finished, total }) => {
+    isWaiting = state === "waiting";
+    if (finished < total) {
+      bar.max = total;
+      bar.value = finished;
+    } else bar.removeAttribute("value");
+  };
+  return { line, told, end: () => clearInterval(clock) };
+}
+
+/** @param {HTMLElement} line */
+function show(line) {
+  list.append(line);
+  list.hidden = false;
+}
+
+/** @param {HTMLElement} line */
+function hide(line) {
+  line.remove();
+  list.hidden = !list.childElementCount;
+}

@@ -1,0 +1,226 @@
+"""The cards of sensitivity, optimisation and condition, and long requests that go on as jobs by themselves."""
+
+import json
+import urllib.parse
+
+from .conftest import ROOT
+from .test_page_access import violations
+from .test_page_duty import answered, case_of, number
+
+NEED = {
+    "axial_load": "2 kN", "feed": "15 m/min", "unsupported_length": "1 m", "ends": "fixed-supported",
+    "running_time": "20000 h",
+}  # fmt: skip
+
+
+def with_need(need):
+    kept = urllib.parse.quote(
+        json.dumps({"texts": need, "units": {}, "rest": {"optimise": {"elastic_generations": 0}}})
+    )
+    return f"#A=paper&band=0&cards=optimise&need={kept}"
+
+
+def test_sources_of_the_band(visit, server):
+    """The bars are those of the answer, about its mean; a click on one, or on its name, goes to the field."""
+    here = visit()
+    here.open("#A=paper&band=0&cards=sensitivity")
+    page = here.page
+    page.wait_for_selector("#sensitivity-start")
+    page.locator("#sensitivity details.card-fields > summary").click()
+    page.locator("#sensitivity-samples").fill("256")
+    page.locator("#sensitivity-method").select_option("sobol")
+    page.wait_for_selector("#sensitivity code:has-text('--samples 256')")
+    page.locator("#sensitivity-start").click()
+    page.wait_for_selector("#sensitivity tbody tr")
+    answered(here, "sensitivity")
+    found = server.post("sensitivity", {"case": case_of(here), "samples": 256}).json()
+    indices = found["sensitivity"]
+    rows = page.locator("#sensitivity .card-result > div:last-child tbody tr")
+    assert rows.count() == len(indices["inputs"]) > 5
+    first = indices["inputs"][0]
+    spread = first["first_order"]["value"] ** 0.5 * indices["standard_deviation"]
+    assert abs(number(here, "sensitivity", f"'{first['name']}-1'") / spread - 1) < 1e-12
+    page.locator("#sensitivity-chart").scroll_into_view_if_needed()
+    page.wait_for_selector("#sensitivity-chart .main-svg")
+    title, base, width = page.eval_on_selector(
+        "#sensitivity-chart .plot",
+        "({ layout, data }) => [layout.xaxis.title.text, data[1].base[0], data[1].x[0]]",
+    )
+    assert title == "friction torque (N\u00b7m)"
+    assert abs(base + width / 2 - indices["mean"]) < 1e-9
+    assert abs(width / 2 - spread) < 1e-9
+    assert violations(here) == []
+    at = next(place for place, one in enumerate(found["display"]["inputs"]) if one["name"] == "viscosity")
+    rows.nth(at).locator("button").click()
+    page.wait_for_function("document.activeElement?.id === 'f-lubricant-viscosity'")
+    page.locator("#sensitivity-method").select_option("local")
+    page.locator("#sensitivity-samples").fill("")
+    page.locator("#sensitivity-start").click()
+    page.wait_for_selector("#sensitivity ul.legend:has-text('medians')")
+    answered(here, "sensitivity")
+
+
+def test_an_optimum_is_taken(visit, server):
+    here = visit(scheme="dark")
+    here.open(with_need(NEED))
+    page = here.page
+    page.wait_for_selector("#optimise-start")
+    assert "axial load (Operating point): 2 kN" in here.text("#optimise")
+    page.locator("#optimise details.card-fields > summary").click()
+    for name, value in {"population": "16", "generations": "8", "members": "4"}.items():
+        page.locator(f"#optimise-{name}").fill(value)
+    page.locator("#optimise input[value=life]").check()
+    page.wait_for_selector("#optimise code:has-text('--objectives loss,inertia,life')")
+    page.locator("#optimise-start").click()
+    page.wait_for_selector("#optimise tbody tr")
+    answered(here, "optimise")
+    need = {"need": NEED, "optimise": {"elastic_generations": 0}}
+    options = {"population": 16, "generations": 8, "members": 4, "objectives": ["loss", "inertia", "life"]}
+    found = server.post("optimise", {"need": need, **options}).json()["candidates"]
+    assert page.locator("#optimise .card-result tbody tr").count() == len(found) > 1
+    for place, one in enumerate(found):
+        assert number(here, "optimise", f"'{place}-loss'") == one["objectives"]["loss"]
+    page.locator("#optimise-y").select_option("life")
+    page.locator("#optimise-chart").scroll_into_view_if_needed()
+    page.wait_for_selector("#optimise-chart .main-svg")
+    assert page.eval_on_selector("#optimise-chart .plot", "one => one.layout.yaxis.title.text") == "life (h)"
+    assert violations(here) == []
+    page.locator("#optimise tbody tr").nth(1).locator("button").last.click()
+    page.wait_for_selector("#optimise [role=status]:has-text('is design B')")
+    here.settle()
+    assert case_of(here)["screw"]["lead"] == found[1]["case"]["screw"]["lead"]
+
+
+def test_a_condition_over_time(visit, server):
+    """From a table; then from logs, which are put in order by hand, and cannot be judged with a wrong option."""
+    here = visit(width=390, height=844)
+    here.expected = ("status of 422",)
+    here.open("#A=paper&band=0&cards=condition")
+    page = here.page
+    page.locator("#condition-example").click()
+    page.wait_for_selector("#condition-start:enabled")
+    here.settle()
+    page.locator("#condition-start").click()
+    page.wait_for_selector("#condition tbody tr")
+    answered(here, "condition")
+    text = (ROOT / "examples" / "nut_over_years.csv").read_text(encoding="utf-8")
+    tests = [{"name": "nut_over_years.csv", "text": text}]
+    found = server.post("condition", {"case": case_of(here), "tests": tests}).json()
+    states = found["results"]["states"]
+    last = len(states) - 1
+    assert number(here, "condition", f"preload-{last}") == states[last]["preload"]["value"]
+    said = page.eval_on_selector_all("#condition [data-record]", "all => all.map((one) => one.dataset.record)")
+    assert said == [one["id"] for one in (*found["verdicts"], *found["warnings"])]
+    for id in ("condition-chart", "condition-sums-chart"):
+        page.locator(f"#{id}").scroll_into_view_if_needed()
+        page.wait_for_selector(f"#{id} .main-svg")
+    lines = page.eval_on_selector("#condition-chart .plot", "one => one.layout.shapes.map(({ x0 }) => x0)")
+    alarm = states[found["results"]["alarm"]]["time"]
+    assert lines == [0, alarm / 86400]
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    assert violations(here) == []
+    # logs in the order of their names, moved by hand
+    new = (ROOT / "examples" / "nut_new.csv").read_bytes()
+    files = [{"name": f"{name}.csv", "mimeType": "text/csv", "buffer": new} for name in ("test-10", "test-9")]
+    page.set_input_files("#condition-log", files)
+    page.wait_for_selector("#condition-tests li:nth-child(3)")
+    names = page.locator("#condition-tests li > span:first-child")
+    assert names.all_inner_texts() == ["nut_over_years.csv", "test-9.csv", "test-10.csv"]
+    page.locator("#condition-tests li").nth(2).locator("button").first.click()
+    assert names.all_inner_texts() == ["nut_over_years.csv", "test-10.csv", "test-9.csv"]
+    page.locator("#condition-tests li").nth(0).locator("button").last.click()
+    assert names.all_inner_texts() == ["test-10.csv", "test-9.csv"]
+    page.locator("#condition-start").click()
+    page.wait_for_selector("#condition .fault")
+    assert not page.locator("#condition tbody tr").first.is_visible()  # no number stands below a fault
+
+
+def test_studies_in_german(visit):
+    here = visit(width=390, height=844, scheme="dark")
+    try:
+        here.page.context.add_cookies([{"name": "ballscrew-language", "value": "de", "url": here.address}])
+        here.open("#A=paper&band=0&cards=sensitivity+condition")
+        page = here.page
+        page.locator("#sensitivity-method").select_option("local")
+        page.locator("#sensitivity-start").click()
+        page.wait_for_selector("#sensitivity tbody tr")
+        answered(here, "sensitivity")
+        page.locator("#condition-example").click()
+        page.wait_for_selector("#condition-start:enabled")
+        here.settle()
+        page.locator("#condition-start").click()
+        page.wait_for_selector("#condition tbody tr")
+        assert "Vorspannung verloren" in here.text("#condition [data-record='condition.preload']")
+        assert not any(" the " in one for one in page.locator("[data-record]").all_inner_texts())
+        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    finally:
+        here.page.context.clear_cookies()
+
+
+def test_an_optimisation_survives_a_reload_and_is_cancelled(visit, server):
+    """The job of a search that takes long: found again, with its progress, and killed by its button."""
+    here = visit().open(with_need(NEED))
+    page = here.page
+    page.wait_for_selector("#optimise-start")
+    page.locator("#optimise details.card-fields > summary").click()
+    page.locator("#optimise-generations").fill("2000")
+    with page.expect_response(lambda one: one.url.endswith("/jobs/optimise")) as begun:
+        page.locator("#optimise-start").click()
+    job = begun.value.json()["id"]
+    page.reload()
+    page.wait_for_selector("#optimise .card-line progress[value]")
+    assert server.get(f"jobs/{job}").json()["state"] == "running"
+    page.locator("#optimise .card-line button").click()
+    page.wait_for_selector("#optimise .card-line:has-text('Cancelled')")
+    while (state := server.get(f"jobs/{job}").json()["state"]) == "running":
+        here.rest(100)
+    assert state == "cancelled"
+    assert sum(url.endswith("/jobs/optimise") for url in here.requests) == 1
+
+
+def test_a_request_that_takes_too_long_goes_on_as_a_job(visit, start):
+    """A server that ends a request after half a second of processor: the page asks again as a job, and shows its answer."""
+    server = start("--time-limit", "0.5")
+    here = visit(server.address)
+    here.expected = ("status of 422",)
+    # a nut with balls that differ: its band takes seconds
+    here.open("#A=hiwin-40-20k4&A.nut.preload=2+kN&A.bodies=&band=1")
+    page = here.page
+    page.wait_for_selector("#band-words p:not(:has-text('being'))", state="attached")
+    page.wait_for_function("() => document.querySelectorAll('#numbers .interval').length > 0")
+    page.wait_for_selector("#numbers .interval:has-text('–')")
+    assert any(url.endswith("/api/v1/jobs/band") for url in here.requests)
+    assert any(url.endswith("/api/v1/band") for url in here.requests)
+
+
+def test_a_long_request_is_shown_and_cancelled(visit, server):
+    """The line at the foot of the page says how far it is; the next request of its kind is a job at once."""
+    here = visit()
+    here.expected = ("status of 422",)
+    here.open("#A=paper&band=0")
+    page = here.page
+    fault = {"where": "server", "path": "server", "id": "out_of_time", "text": "", "line": "", "problem": "",
+             "given": "", "remedy": "", "messages": {"problem": None, "given": None, "remedy": None}}  # fmt: skip
+    ended = {"type": "about:blank", "title": "Invalid input", "status": 422, "lines": ["too long"], "faults": [fault]}
+    page.route(
+        "**/api/v1/compare",
+        lambda route: route.fulfill(status=422, content_type="application/problem+json", body=json.dumps(ended)),
+    )
+    running = {"id": "one", "address": "compare", "state": "running", "before": 0, "finished": 1, "total": 4,
+               "computed": 1.0, "limit": 600.0, "rows": []}  # fmt: skip
+    page.route("**/api/v1/jobs/*", lambda route: route.fulfill(status=200, json=running))
+    page.locator("#models-button").click()
+    line = page.locator("#long-work p[data-address=compare]")
+    line.wait_for()
+    assert "Models side by side" in line.inner_text()
+    assert line.locator("progress").get_attribute("value") == "1"
+    assert violations(here) == []
+    line.locator("button").click()
+    page.wait_for_selector("#models:has-text('Cancelled.')")
+    assert page.locator("#long-work").is_hidden()
+    page.unroute("**/api/v1/jobs/*")
+    asked = sum(url.endswith("/api/v1/compare") for url in here.requests)
+    page.locator("#models-button").click()
+    page.wait_for_selector("#models table")
+    assert sum(url.endswith("/api/v1/compare") for url in here.requests) == asked == 1
+    assert sum(url.endswith("/api/v1/jobs/compare") for url in here.requests) == 2

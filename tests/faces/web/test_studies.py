@@ -1,0 +1,199 @@
+"""Sensitivity, optimisation and condition by the API: the documents of the commands, and limits on what they cost."""
+
+import json
+import math
+import tomllib
+
+import pytest
+
+from ballscrew.basis.output.json_text import plain
+from ballscrew.cases.case_files import case_file
+from ballscrew.faces.web import limits
+from ballscrew.faces.web.log_bodies import MOST_LOGS
+from ballscrew.questions.optimise.compute import optimise
+from ballscrew.questions.optimise.document import document as of_optimisation
+from ballscrew.questions.sensitivity.options import SensitivityOptions
+
+from .conftest import ROOT
+from .test_equal_to_commands import document, written
+from .test_hostile import refused
+
+NEED = {"force": "2 kN", "feed": "15 m/min", "length": "1 m", "ends": "fixed-supported", "life": "20000 h"}
+MOVING = {name: value for name, value in NEED.items() if name != "force"}
+#: A search of a second.
+FEW = {"population": 16, "generations": 6, "members": 4}
+
+
+def sent_table(name="nut_over_years.csv"):
+    return [{"name": name, "text": (ROOT / "examples" / name).read_text(encoding="utf-8")}]
+
+
+@pytest.fixture
+def service():
+    return tomllib.loads((ROOT / "examples" / "service.toml").read_text(encoding="utf-8"))
+
+
+def test_a_sensitivity(server, paper, tmp_path):
+    """As the command; the interval of an input holds 95 % of its distribution, and its path is a field."""
+    options = {"samples": 32, "output": "efficiency", "seed": 3}
+    found = server.post("sensitivity", {"case": paper, **options}).json()
+    display = found.pop("display")
+    flags = ["--samples", 32, "--output", "efficiency", "--seed", 3]
+    assert found == document("sensitivity", written(paper, tmp_path), *flags, "--json")
+    assert [one["name"] for one in display["inputs"]] == [one["name"] for one in found["sensitivity"]["inputs"]]
+    shown = {one["name"]: one for one in display["inputs"]}
+    assert shown["viscosity"]["path"] == "lubricant.viscosity"
+    spread = next(one["distribution"] for one in found["sensitivity"]["inputs"] if one["name"] == "viscosity")
+    assert spread["kind"] == "lognormal"
+    ends = [spread["median"] * spread["factor"] ** (sign * 1.959963984540054) for sign in (-1, 0, 1)]
+    assert [shown["viscosity"][end] for end in ("low", "median", "high")] == pytest.approx(ends)
+
+
+def test_a_sensitivity_of_many_balls_has_fewer_samples(server, elastic):
+    case = case_file.build(elastic)
+    balls = limits.balls_of(case)
+    assert limits.samples_of_sensitivity(case, SensitivityOptions(method="local")) is None
+    most = next(2**k for k in range(30, 0, -1) if 2**k * 19 * balls <= limits.MOST_BALLS_OF_SENSITIVITY)
+    assert limits.samples_of_sensitivity(case, SensitivityOptions(samples=most)) == most
+    body = {"case": elastic, "samples": 2 * most}
+    refused(server, "sensitivity", body, 422, f"--samples: too many ({2 * most:,}) · {most:,} at most here")
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"samples": 2**30}, "--samples: too many"),
+        ({"samples": 2**70}, "--samples: too many"),
+        ({"samples": 33}, "must be a power of two"),
+        ({"samples": -1}, "must be a whole number"),
+        ({"method": "guess"}, "unknown method"),
+        ({"output": "valid"}, "is true or false"),
+        ({"output": "x" * 900}, "unknown output"),
+        ({"only_given": True}, "gives no input a distribution"),
+        ({"seed": -1}, "must be a whole number"),
+    ],
+)
+def test_a_sensitivity_is_refused(server, paper, options, words):
+    refused(server, "sensitivity", {"case": paper, **options}, 422, words)
+
+
+def test_an_optimisation(server):
+    """The document of the command; each design is a case with the numbers of its member."""
+    need = {**NEED, "optimise": {"elastic_generations": 1}}
+    found = server.post("optimise", {"need": need, **FEW, "objectives": ["loss", "drive-torque"]}).json()
+    assert found.pop("display")["notes"]
+    front = found.pop("picture")["front"]
+    assert {name: len(values) for name, values in front.items()} == dict.fromkeys(
+        ("loss", "drive_torque"), found["search"]["front"]
+    )
+    expected = optimise(need, objectives=["loss", "drive_torque"], **FEW)
+    assert found == json.loads(json.dumps(plain(of_optimisation(expected))))
+    for member in found["candidates"]:
+        run = server.post("run", {"case": member["case"]}).json()["results"]
+        assert run["screw_torque"] == member["results"]["screw_torque"]
+        assert run["friction_power"] == pytest.approx(member["objectives"]["loss"], rel=1e-9)
+        sizes = member["case"]["screw"]
+        assert float(sizes["lead"].removesuffix(" mm")) == pytest.approx(1000 * member["variables"]["lead"])
+
+
+def test_a_plan_of_an_optimisation(server):
+    need = {**NEED, "optimise": {"elastic_generations": 0}}
+    found = server.post("optimise/plan", {"need": need, **FEW}).json()
+    assert (found["designs"], found["members"]) == (96, 4)
+
+
+@pytest.mark.parametrize(
+    ("body", "words"),
+    [
+        ({"population": 100_000}, "optimise.population: too many (100,000)"),
+        ({"generations": 100_000}, "takes too many seconds of a processor"),
+        ({"members": 1000, "quantile": 0.9, "generations": 5000}, "takes too many seconds"),
+        ({"members": 10**30}, "optimise.members"),
+        ({"objectives": ["beauty"]}, "beauty"),
+        ({"quantile": 2.0}, "optimise.quantile"),
+        ({"need": {**NEED, "optimise": {"population": 90_000}}}, "optimise.population: too many"),
+        ({"need": {**NEED, "optimise": {"samples": 60_000}}, "quantile": 0.5}, "optimise.samples: too many"),
+        ({"need": {**NEED, "optimise": {"bounds": {"lead": ["-5 mm", "5 mm"]}}}}, "optimise.bounds.lead"),
+        ({"need": {**NEED, "optimise": 5}}, "optimise"),
+        ({"need": {**NEED, "screw": {"catalogue_file": "/etc/passwd"}}}, "is not taken from a request"),
+        (
+            {"need": {**MOVING, "mass": "400 kg", "stroke": "1 m", "acceleration": "2 m/s^2"}},
+            "is too much for a search",
+        ),
+    ],
+)
+def test_an_optimisation_is_refused(server, body, words):
+    for address in ("optimise", "optimise/plan"):
+        refused(server, address, {"need": NEED, **body}, 422, words)
+
+
+def test_a_condition(server, service, tmp_path):
+    """As the command; the trend goes through as many tests above as below, with the slope that is said."""
+    found = server.post("condition", {"case": service, "tests": sent_table()}).json()
+    trend = found.pop("picture")["trend"]
+    table = ROOT / "examples" / "nut_over_years.csv"
+    assert found == document("condition", table, "--case", written(service, tmp_path), "--json")
+    states = found["results"]["states"]
+    assert found["results"]["alarm"] is not None
+    span = states[-1]["time"] - states[0]["time"]
+    assert math.log(trend[-1] / trend[0]) == pytest.approx(found["results"]["trend"]["slope"] * span)
+    above = sum(one["preload"]["value"] > at for one, at in zip(states, trend, strict=True))
+    assert abs(2 * above - len(states)) <= 1
+
+
+def test_a_condition_of_logs(server, service, tmp_path):
+    """Several logs, in the order in which they are sent, as files in that order."""
+    text = (ROOT / "examples" / "nut_new.csv").read_text(encoding="utf-8")
+    paths = [tmp_path / f"{number}.csv" for number in range(4)]
+    for number, path in enumerate(paths):  # a log of its own each, which is no other one
+        path.write_text(f"{text}\n# {number}\n" if number else text, encoding="utf-8")
+    tests = [{"name": path.name, "text": path.read_text(encoding="utf-8")} for path in paths]
+    found = server.post("condition", {"case": service, "tests": tests, "baseline": 3, "keep_going": True})
+    assert found.status_code == 200, found.text[:800]
+    answer = found.json()
+    assert [one["log"] for one in answer["provenance"]["logs"]] == [path.name for path in paths]
+    flags = ["--case", written(service, tmp_path), "--baseline", 3, "--keep-going", "--json"]
+    answer.pop("picture")
+    assert answer == document("condition", *paths, *flags)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"tests": []}, "tests"),
+        ({"tests": sent_table() * (MOST_LOGS + 1)}, "tests"),
+        ({"tests": "nut.csv"}, "tests"),
+        ({"tests": ["nut.csv"]}, "tests"),
+        ({"tests": [{"name": "x.csv"}]}, "needs one content"),
+        ({"tests": sent_table("nut_new.csv") * 6}, "two logs are the same file"),
+        ({"tests": [{"name": "x.csv", "text": "date,torque [N m]\n"}]}, "x.csv"),
+        ({"tests": [{"name": "../../x.csv", "base64": "!"}]}, "is not base64"),
+        ({"baseline": 1}, "--baseline: is too short"),
+        ({"tolerance": 5.0}, "--tolerance: must lie between"),
+        ({"inertia": "1 kg m^2"}, "--inertia: is for logs"),
+        ({"speed": "100 rpm"}, "is given beside a column of speeds"),
+    ],
+)
+def test_a_condition_is_refused(server, service, change, words):
+    body = {"case": service, "tests": sent_table(), **change}
+    found = server.post("condition", body)
+    assert found.status_code == 422, found.text[:300]
+    assert any(words in line for line in found.json()["lines"]), found.json()["lines"]
+    assert not any("/ballscrew-" in line for line in found.json()["lines"])
+
+
+@pytest.mark.parametrize("address", ["sensitivity", "optimise", "condition"])
+def test_as_a_job(server, paper, service, address):
+    """It tells how far it is where it counts, and its answer is that of its address."""
+    body = {
+        "sensitivity": {"case": paper, "samples": 64},
+        "optimise": {"need": {**NEED, "optimise": {"elastic_generations": 0}}, **FEW},
+        "condition": {"case": service, "tests": sent_table()},
+    }[address]
+    started = server.post(f"jobs/{address}", body).json()["id"]
+    while (job := server.get(f"jobs/{started}", params={"wait": 5}).json())["state"] in ("waiting", "running"):
+        pass
+    assert job["state"] == "finished"
+    assert server.get(f"jobs/{started}/answer").json() == server.post(address, body).json()
+    if address != "condition":
+        assert job["total"] == job["finished"] > 0
