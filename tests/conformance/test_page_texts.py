@@ -23,6 +23,7 @@ ADDRESSES = "an address, a fragment or a file name"
 #: What is left, by file: what stands in the line, and what it is applied to.
 ALLOWED = {
     "cards.js": {'path.split(".")': PATHS},
+    "cards/axis.js": {'path.split(".")': PATHS},
     "cards/candidates.js": {'name.replaceAll("_", " ")': NAMES, ".split(/\\s+/)": TYPED},
     "cards/choose.js": {'name.replaceAll("_", " ")': NAMES},
     "cards/duty.js": {'path.split(".")': PATHS, 'name.replaceAll("_", " ")': NAMES},

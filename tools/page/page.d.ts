@@ -15,6 +15,7 @@ declare global {
   type WarmUpAnswer = Schemas["WarmUp"];
   type ReversalAnswer = Schemas["Reversal"];
   type RippleAnswer = Schemas["Ripple"];
+  type ChainAnswer = Schemas["Chain"];
   type Vocabulary = Schemas["Vocabulary"];
   type UnitChoice = Schemas["UnitChoice"];
   type Mechanisms = Vocabulary["mechanisms"];

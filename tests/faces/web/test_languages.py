@@ -80,7 +80,7 @@ CODES = {
     "chart whole-width", "field given",
     "field start given",
     "input, select", "kg cm^2", "lbf in", "line thin", "mm rpm",
-    "no element #…", "no element …", "scroll whole", "verdict careful",
+    "no element #…", "no element …", "part absent", "part-of-axis absent", "scroll whole", "verdict careful",
     "warning card-trouble",
 }  # fmt: skip
 

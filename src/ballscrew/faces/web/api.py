@@ -67,9 +67,9 @@ from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.faces.web.sent_files import written
 from ballscrew.physics.sizing.catalogue import catalogue as shipped
 from ballscrew.questions.axis import compute as chains
-from ballscrew.questions.axis import document as chain_documents
 from ballscrew.questions.axis.answer import ChainResults
 from ballscrew.questions.axis.options import AxisOptions
+from ballscrew.questions.axis.response import BesideChain
 from ballscrew.questions.band import compute as bands
 from ballscrew.questions.band import response as band_answers
 from ballscrew.questions.band.options import BandOptions
@@ -311,7 +311,7 @@ async def select_plan(request: Request) -> Response:
 @router.post(
     "/axis",
     openapi_extra=openapi.body(AxisBody),
-    response_model=response(ChainResults, "Chain", beside=answer_parts.Assumed),
+    response_model=response(ChainResults, "Chain", beside=BesideChain),
     responses=openapi.problems_of(),
 )
 async def axis(request: Request) -> Response:
@@ -321,7 +321,7 @@ async def axis(request: Request) -> Response:
 
     def work(_: Deadline) -> Response:
         moves = "motion" in body.case and "axis" in body.case
-        return as_json(chain_documents.document(chains.chain_of(case_of(body.case, moves=moves), options.at)))
+        return as_json(documents.chain(chains.chain_of(case_of(body.case, moves=moves), options.at)))
 
     return await heavy(request, work)
 

@@ -12,6 +12,8 @@ from ballscrew.basis import units
 from ballscrew.basis.records import Message, message_of
 from ballscrew.cases.case_files import case_file, case_messages
 from ballscrew.cases.case_files.uncertain_inputs import path_of
+from ballscrew.questions.axis import document as axis_documents
+from ballscrew.questions.axis.compute import ChainReport
 from ballscrew.questions.band import compute as bands
 from ballscrew.questions.band import document as band_documents
 from ballscrew.questions.band import text as band_text
@@ -156,6 +158,11 @@ def optimisation(found: Optimisation) -> dict[str, Any]:
 def warm_up(report: WarmUpReport, document: Mapping[str, Any]) -> dict[str, Any]:
     """The document of warming up, and what is assumed as messages."""
     return {**document, "display": {"assumed": messages(report.assumed)}}
+
+
+def chain(report: ChainReport) -> dict[str, Any]:
+    """The document of the chain of an axis, and what is assumed as messages."""
+    return {**axis_documents.document(report), "display": {"assumed": messages(report.assumed)}}
 
 
 def ripple(report: RippleReport) -> dict[str, Any]:

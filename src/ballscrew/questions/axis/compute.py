@@ -18,7 +18,7 @@ from ballscrew.basis.arrays import lazy
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Quantity, quantities_of
-from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.records import Measured, Message, Record, translatable
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 from ballscrew.questions.warm_up.compute import length_of
@@ -185,7 +185,7 @@ def chain_of(case: Case, positions: Sequence[Length] = ()) -> ChainReport:
     if installation.bearing_rigidity is None and "fixed" in case.bearings:
         rigidity, of_what = case.bearings["fixed"].axial_rigidity(largest)
         if rigidity is not None:
-            words.append(f"rigidity of the fixed bearing {of_what}")
+            words.append(units.filled_text("rigidity of the fixed bearing {of_what}", of_what=Message(of_what)))
         installation = dataclasses.replace(installation, bearing_rigidity=rigidity)
     installation = dataclasses.replace(installation, unsupported_length=length)
     travel = _travel(case, length)
@@ -201,16 +201,16 @@ def chain_of(case: Case, positions: Sequence[Length] = ()) -> ChainReport:
         **sizes,
     )
     if travel is None:
-        words.append("travels over nearly the whole shaft: no motion tells how far")
+        words.append(translatable("travels over nearly the whole shaft: no motion tells how far"))
     elif case.surroundings is None or case.surroundings.first_position is None:
-        words.append("travels in the middle of the shaft: surroundings.first_position is not given")
+        words.append(translatable("travels in the middle of the shaft: surroundings.first_position is not given"))
     axis = case.axis
     # where motion reverses, the table stands still for a moment
     rubs = math.nan if axis is None else axis.resting_guide_friction
     guided = axis is not None and (axis.guides is not None or rubs > 0)
     rubs = rubs if guided else math.nan
     if not guided:
-        words.append("no lost motion: the friction of the guides is not given ([guides])")
+        words.append(translatable("no lost motion: the friction of the guides is not given ([guides])"))
     return ChainReport(
         case,
         found,

@@ -12,6 +12,7 @@ import * as inputs from "./inputs.js";
 import { localEngine } from "./local_engine.js";
 import { inWords, labelOf } from "./messages.js";
 import * as moving from "./moving.js";
+import * as nutPicture from "./nut_picture.js";
 import { diamond } from "./operating_point.js";
 import { isVisible, move, showFailure } from "./plot.js";
 import { askPatiently, sendPatiently } from "./long_work.js";
@@ -214,6 +215,7 @@ class Answers {
     });
     drawings.NARROW.addEventListener("change", () => {
       if (this.#displayed.drawing) drawings.show(this.#displayed.drawing);
+      if (this.#displayed.answer) nutPicture.show(this.#displayed.answer);
     });
   }
 

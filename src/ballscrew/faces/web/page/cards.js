@@ -14,6 +14,7 @@ import * as views from "./views.js";
 /** Scripts of the cards, by the names of their places. @type {Record<string, string>} */
 const SCRIPTS = {
   "over-input": "./cards/over_input.js",
+  axis: "./cards/axis.js",
   duty: "./cards/duty.js",
   "warm-up": "./cards/warm_up.js",
   choose: "./cards/choose.js",
@@ -28,7 +29,14 @@ const SCRIPTS = {
   files: "./cards/files.js",
 };
 /** Sections of the case by the cards that have their fields. @type {Record<string, string>} */
-const HOMES = { axis: "duty", motion: "duty", motor: "duty", surroundings: "warm-up" };
+const HOMES = {
+  axis: "duty",
+  motion: "duty",
+  motor: "duty",
+  surroundings: "warm-up",
+  bearings: "axis",
+  guides: "axis",
+};
 
 /** The place of a card, whose script is loaded when it is first seen. */
 class Place {

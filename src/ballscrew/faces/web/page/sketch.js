@@ -68,7 +68,7 @@ class Sketch {
     for (const shape of this.layout.shapes ?? []) if (shape.layer !== "below") this.#shape(shape);
     context.restore();
     for (const note of this.layout.annotations ?? []) this.#note(note);
-    for (const trace of this.traces) if (trace.mode === "markers") this.#diamond(trace);
+    for (const trace of this.traces) if (trace.mode === "markers" && trace.x.length === 1) this.#diamond(trace);
   }
 
   /** @param {number} value */

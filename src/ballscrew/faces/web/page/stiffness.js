@@ -4,6 +4,8 @@ import * as parts from "./chart_parts.js";
 import { byId, element, table } from "./dom.js";
 import { draw, hide, layout } from "./plot.js";
 import { said } from "./messages.js";
+import * as nutPicture from "./nut_picture.js";
+import * as nutUnrolled from "./nut_unrolled.js";
 import { text } from "./texts.js";
 import * as units from "./units.js";
 import { vocabulary } from "./vocabulary.js";
@@ -37,6 +39,8 @@ export function show(answer) {
   /** @type {Record<string, any> | undefined} */
   const loads = answer.loads;
   const place = byId("stiffness");
+  nutPicture.show(answer);
+  nutUnrolled.show(answer);
   if (!loads) {
     const load = units.formatted("contact_load", answer.results.contact_load);
     place.replaceChildren(element("p", {}, text("stiffness.no_nut", { load })));

@@ -22,11 +22,12 @@ const RESUMED = "job ";
  * those of no field of the card; nothing where it has shown all of them in a place of its own.
  *
  * @typedef {object} Parts
- * @property {"duty" | "warm-up" | "reversal" | "ripple" | "fit" | "service" | "hand-over" | "sensitivity" | "optimise" | "condition"} address
+ * @property {"axis" | "duty" | "warm-up" | "reversal" | "ripple" | "fit" | "service" | "hand-over" | "sensitivity" | "optimise" | "condition"} address
  * @property {HTMLElement} result
  * @property {(answer: any) => void} show
  * @property {(faults: FaultLine[]) => FaultLine[] | undefined} place
  * @property {(body: object) => boolean} [isLarge] tests whether a body is too large to keep answers by it
+ * @property {boolean} [isShort] tests whether it takes so short that no job is needed
  * @property {() => any} [about] what its answer is shown with, and is not part of it
  */
 
@@ -35,7 +36,7 @@ const RESUMED = "job ";
  *
  * @param {Parts} parts
  */
-export function question({ address, result, show, place, isLarge = () => false, about }) {
+export function question({ address, result, show, place, isLarge = () => false, isShort = false, about }) {
   const line = element("div", { class: "card-line" });
   let request = new AbortController();
   /** @type {ReturnType<typeof setTimeout> | undefined} */
@@ -135,7 +136,9 @@ export function question({ address, result, show, place, isLarge = () => false, 
       const compute = async () => (await runJob(address, body, { ...options, about: about?.() })).json();
       await conclude(
         key,
-        isLarge(body) ? compute() : ask(/** @type {any} */ (address), body, options.signal, compute),
+        isLarge(body)
+          ? compute()
+          : ask(/** @type {any} */ (address), body, options.signal, isShort ? undefined : compute),
         options.signal,
       );
     }, rest);

@@ -1,0 +1,91 @@
+"""The card of the axis: a sketch whose parts lead to their inputs, and what gives way over the stroke."""
+
+from .test_page_access import violations
+from .test_page_duty import answered, case_of, edited, number
+
+SPRINGS = ("nut", "shaft", "bearings", "mount", "torsion")
+
+
+def part(here, name):
+    return here.text(f"#axis button[data-part={name}] strong")
+
+
+def test_a_feed_axis_from_its_sketch_to_its_numbers(visit, server):
+    here = visit()
+    here.open("#A=feed-axis&band=0&cards=axis")
+    page = here.page
+    answered(here, "axis")
+    answer = server.post("axis", {"case": case_of(here)}).json()
+    results = answer["results"]
+    softest = results["softest"]
+    known = [name for name in SPRINGS if any(one is not None for one in results[name])]
+    assert known == ["nut", "shaft", "bearings", "torsion"]  # housings are not given
+    for name in (*known, "total", "lost_motion", "critical_speed", "buckling_load"):
+        assert number(here, "axis", name) == softest[name]
+    assert page.locator("#axis [data-name=mount]").count() == 0
+    said = page.eval_on_selector_all("#axis [data-record]", "all => all.map((one) => one.dataset.record)")
+    assert said == [one["id"] for one in (*answer["verdicts"], *answer["warnings"])]
+    assert page.locator("#axis .card-result details li").count() == len(answer["assumed"])
+    # the chart has the whole and its parts at all places
+    page.locator("#axis-rigidity").scroll_into_view_if_needed()
+    page.wait_for_selector("#axis-rigidity .main-svg")
+    drawn = page.eval_on_selector("#axis-rigidity .plot", "one => one.data.map(({ y }) => y.length)")
+    assert drawn == [len(results["position"])] * (len(known) + 1)
+    whole = page.eval_on_selector("#axis-rigidity .plot", "one => Math.min(...one.data.at(-1).y)")
+    assert abs(whole - min(results["total"]) / 1e6) < 1e-9 * whole
+    # each part shows its input, and what the case lacks is dashed
+    assert {name: part(here, name) for name in ("table", "fixed", "ends", "shaft", "motor", "mount")} == {
+        "table": "500 kg", "fixed": "800 N/µm", "ends": "fixed-supported", "shaft": "1100 mm", "motor": "not given",
+        "mount": "not given",
+    }  # fmt: skip
+    absent = page.eval_on_selector_all("#axis svg .absent", "all => all.map((one) => one.dataset.part).sort()")
+    assert absent == ["counterweight", "inclination", "motor", "mount"]
+    buttons = page.eval_on_selector_all("#axis button.absent", "all => all.map((one) => one.dataset.part).sort()")
+    assert buttons == absent
+    # by keyboard to a field of the form, of another card, and of this one; a click on the picture does the same
+    for name, id in (
+        ("mount", "f-installation-mount_rigidity"), ("table", "f-axis-mass"),
+        ("guides", "f-guides-friction_coefficient"),
+    ):  # fmt: skip
+        page.locator(f"#axis button[data-part={name}]").press("Enter")
+        page.wait_for_function(f"() => document.activeElement.id === '{id}'")
+    page.locator("#axis svg g[data-part=fixed] rect").first.click(position={"x": 9, "y": 4})
+    page.wait_for_function("() => document.activeElement.id === 'f-bearings-fixed-rigidity'")
+    # an edit here is one of the case
+    edited(here, "axis", lambda: page.locator("#f-bearings-fixed-rigidity").fill("400"))
+    assert case_of(here)["bearings"]["fixed"]["rigidity"] == "400 N/um"
+    assert part(here, "fixed") == "400 N/µm"
+    assert number(here, "axis", "bearings") == 400e6
+    assert number(here, "axis", "total") < softest["total"]
+    here.type("installation.mount_rigidity", "500 N/um")
+    page.wait_for_selector("#axis [data-name=mount]")
+    answered(here, "axis")
+    assert number(here, "axis", "mount") == 500e6
+    assert page.locator("#axis svg g.absent[data-part=mount]").count() == 0
+    assert violations(here, charts=False) == []
+
+
+def test_an_axis_without_an_installation_in_german(visit):
+    here = visit(width=390, height=844, scheme="dark")
+    here.expected = ("status of 422",)
+    try:
+        here.page.context.add_cookies([{"name": "ballscrew-language", "value": "de", "url": here.address}])
+        here.open("#A=paper&band=0&cards=axis")
+        page = here.page
+        page.wait_for_selector("#axis .fault:has-text('freie Länge')")
+        assert part(here, "table") == "nicht angegeben"
+        page.locator("#axis button[data-part=shaft]").press("Enter")
+        page.wait_for_function("() => document.activeElement.id === 'f-installation-unsupported_length'")
+        page.keyboard.type("800")
+        here.choose("installation.ends", "fixed-free")
+        answered(here, "axis")
+        assert page.locator("#axis .fault").count() == 0
+        assert "fast die ganze Spindel" in here.text("#axis")
+        assert "keine Umkehrspanne" in here.text("#axis")
+        assert not page.locator("#axis-lost").is_visible()
+        assert page.locator("#axis svg g[data-part=ends] > *").count() == 0  # its far end is free
+        assert page.locator("#axis [lang=en]").count() == 0
+        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+        assert violations(here, charts=False) == []
+    finally:
+        here.page.context.clear_cookies()
