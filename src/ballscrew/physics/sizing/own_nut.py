@@ -119,8 +119,11 @@ class Estimate:
 class OwnNut(ByValue):
     """A complete row, what was estimated in it, and what does not go together in the numbers given."""
 
+    #: The row, which makes a screw as one of the catalogue does.
     row: CatalogueRow
+    #: Numbers that the catalogue does not print, each with its band and where it is from.
     estimates: tuple[Estimate, ...]
+    #: Numbers given that do not go together, with the value and what to do.
     warnings: tuple[Record, ...]
 
 

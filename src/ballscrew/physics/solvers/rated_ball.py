@@ -23,7 +23,7 @@ def ball_of_rating(
     ``lead`` its lead (m), ``contact_angle`` in rad, ``loaded_turns`` the turns that carry load. Of a turn
     :math:`\pi d_m/(d_w \cos\varphi) - 1/2` balls are counted, the mean of the whole numbers of balls that find room:
     with whole ones the rating would fall where one fewer finds room. Searched are :data:`SEARCHED`.
-    Found by bisection, as the rating then grows with the ball, by about its power of 1.13. The formulas are those of
+    Found by bisection, as the rating then grows with the ball, by about its power of 1.3. The formulas are those of
     :mod:`ballscrew.physics.equations.rating`, as recalled, corroborated for balls of 3 mm to 10 mm.
     """
     phi = geometry.lead_angle(lead, ball_circle)
