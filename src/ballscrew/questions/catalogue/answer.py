@@ -60,7 +60,7 @@ class Row(CatalogueEntry):
     case: Tables
 
 
-class Estimate(Closed):
+class NutEstimate(Closed):
     """A number that the catalogue does not print, with its band, in SI."""
 
     name: str = Field(description="field of the row or of the screw that it makes")
@@ -78,6 +78,6 @@ class OwnNut(Closed):
 
     name: str
     case: Tables
-    estimates: list[Estimate]
+    estimates: list[NutEstimate]
     warnings: list[Record]
     provenance: Version

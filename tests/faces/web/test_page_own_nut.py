@@ -1,0 +1,45 @@
+"""The card of a nut of one's own: few numbers in, estimates with their bands beneath, and a design of them."""
+
+import pytest
+
+
+def opened(here, **typed):
+    here.page.click("#own-nut-open")
+    for name, value in typed.items():
+        here.page.fill(f"#own-nut-{name}", value)
+    return here.page
+
+
+def row(page, label):
+    """The cells of an estimate by the label of its field."""
+    line = page.locator("#own-nut tbody tr").filter(has=page.locator("th", has_text=label))
+    return [cell.inner_text() for cell in line.locator("td").all()]
+
+
+def test_few_numbers_become_a_design(visit):
+    here = visit().open("#A=paper")
+    page = opened(here, nominal_diameter="40", lead="10", turns="2x2.5", dynamic_load_rating="52.7", name="40x10")
+    page.wait_for_selector("#own-nut table")
+    value, low, high, source = row(page, "ball diameter")
+    assert (value, low, high) == ("5.696 mm", "5.24 mm", "7.063 mm")
+    assert "ISO 3408-5" in source
+    page.click("#own-nut-use")
+    page.wait_for_selector("#own-nut >> text=40x10 is a design now.")
+    page.wait_for_function("document.querySelector('#screw-ball_diameter').value === '5.696'")
+
+
+def test_numbers_that_do_not_go_together_are_named(visit):
+    page = opened(visit().open("#A=paper"), nominal_diameter="40", lead="10", turns="5", ball_diameter="6",
+                  dynamic_load_rating="5.27")  # fmt: skip
+    page.wait_for_selector("#own-nut .warning >> text=check its unit")
+    page.fill("#own-nut-ball_diameter", "60")
+    page.wait_for_selector("#own-nut .fault")
+    assert page.locator("#own-nut-use").is_disabled()
+
+
+@pytest.mark.parametrize("language", ["de"])
+def test_in_german_with_a_comma(visit, language):
+    page = opened(visit(locale=language).open("#A=paper"), nominal_diameter="40", lead="10", turns="5",
+                  dynamic_load_rating="52,7")  # fmt: skip
+    page.wait_for_selector("#own-nut >> text=Geschätzt")
+    assert row(page, "Kugeldurchmesser")[0] == "5,696 mm"
