@@ -1,7 +1,5 @@
 """The card of a nut of one's own: few numbers in, estimates with their bands beneath, and a design of them."""
 
-import pytest
-
 
 def opened(here, **typed):
     here.page.click("#own-nut-open")
@@ -13,7 +11,7 @@ def opened(here, **typed):
 def row(page, label):
     """The cells of an estimate by the label of its field."""
     line = page.locator("#own-nut tbody tr").filter(has=page.locator("th", has_text=label))
-    return [cell.inner_text() for cell in line.locator("td").all()]
+    return [cell.inner_text().replace("\N{NO-BREAK SPACE}", " ") for cell in line.locator("td").all()]
 
 
 def test_few_numbers_become_a_design(visit):
@@ -35,11 +33,3 @@ def test_numbers_that_do_not_go_together_are_named(visit):
     page.fill("#own-nut-ball_diameter", "60")
     page.wait_for_selector("#own-nut .fault")
     assert page.locator("#own-nut-use").is_disabled()
-
-
-@pytest.mark.parametrize("language", ["de"])
-def test_in_german_with_a_comma(visit, language):
-    page = opened(visit(locale=language).open("#A=paper"), nominal_diameter="40", lead="10", turns="5",
-                  dynamic_load_rating="52,7")  # fmt: skip
-    page.wait_for_selector("#own-nut >> text=Geschätzt")
-    assert row(page, "Kugeldurchmesser")[0] == "5,696 mm"

@@ -228,6 +228,8 @@ def test_own_nut_in_python():
         ({"turns": 0.2}, "turns: must be above 0.24"),
         ({"nut": "twin"}, "nut: unknown kind of nut"),
         ({"ball_diameter": 0.011}, "too big for the lead"),
+        # whose rating would be that of no circle at all
+        ({"ball_diameter": 0.06, "dynamic_load_rating": 5e4}, "ball_diameter: too big for the pitch circle"),
         ({"lead": float("nan")}, "lead: "),
     ],
 )

@@ -188,6 +188,7 @@ def completed(listed: Mapping[str, Any]) -> OwnNut:
         estimates.append(ball)
         warnings += odd
     row = CatalogueRow(**fields)
+    row.screw()  # raises for faults between the numbers, as of a ball that is too big for the lead
     if "ball_diameter" in listed:
         warnings += _odd_rating(row)
     if row.pitch_circle_diameter is None:
@@ -200,7 +201,7 @@ def completed(listed: Mapping[str, Any]) -> OwnNut:
     if "contact_angle" not in fields:
         estimates.append(Estimate("contact_angle", row.contact_angle, *ANGLES, BY_HABIT))
     estimates.append(_balls(row, next((one for one in estimates if one.name == "ball_diameter"), None)))
-    screw = row.screw()  # raises for faults between the numbers, as of a ball that is too big for the lead
+    screw = row.screw()
     estimates += [_within(name, getattr(screw, name), *told) for name, told in _ROUGHNESSES.items()]
     return OwnNut(row, tuple(estimates), tuple(warnings))
 
