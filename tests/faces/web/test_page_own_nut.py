@@ -1,5 +1,7 @@
 """The card of a nut of one's own: few numbers in, estimates with their bands beneath, and a design of them."""
 
+import tomllib
+
 
 def opened(here, **typed):
     here.page.click("#own-nut-open")
@@ -23,11 +25,16 @@ def test_few_numbers_become_a_design(visit):
     assert "ISO 3408-5" in source
     page.click("#own-nut-use")
     page.wait_for_selector("#own-nut >> text=40x10 is a design now.")
-    page.wait_for_function("document.querySelector('#screw-ball_diameter').value === '5.696'")
+    assert (
+        tomllib.loads(here.download("#downloads button:text-is('TOML')").decode())["screw"]["ball_diameter"]
+        == "5.696 mm"
+    )
 
 
 def test_numbers_that_do_not_go_together_are_named(visit):
-    page = opened(visit().open("#A=paper"), nominal_diameter="40", lead="10", turns="5", ball_diameter="6",
+    here = visit().open("#A=paper")
+    here.expected = ("status of 422",)
+    page = opened(here, nominal_diameter="40", lead="10", turns="5", ball_diameter="6",
                   dynamic_load_rating="5.27")  # fmt: skip
     page.wait_for_selector("#own-nut .warning >> text=check its unit")
     page.fill("#own-nut-ball_diameter", "60")

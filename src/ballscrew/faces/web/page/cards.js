@@ -23,7 +23,7 @@ const SCRIPTS = {
   calibration: "./cards/calibrate.js",
   service: "./cards/service.js",
   "hand-over": "./cards/hand_over.js",
-  "own-nut": "./cards/own_nut.js",
+  "own-nut": "./cards/own_nut_card.js",
   files: "./cards/files.js",
 };
 /** Sections of the case by the cards that have their fields. @type {Record<string, string>} */
