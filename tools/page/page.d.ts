@@ -25,6 +25,7 @@ declare global {
   type ProblemDocument = Schemas["Problem"];
   type FaultLine = Schemas["FaultLine"];
   type CatalogueRow = Schemas["Row"];
+  type OwnNutAnswer = Schemas["OwnNut"];
   type Opened = Schemas["Opened"];
   type LogAnswer = Schemas["Log"];
   type FitAnswer = Schemas["Fit"];

@@ -29,6 +29,7 @@ from ballscrew.physics.sizing.catalogue import (
     is_shipped,
 )
 from ballscrew.physics.sizing.listed_nut import lists_preload
+from ballscrew.physics.sizing.own_nut import Estimate, completed
 
 #: Quantities of a row that are listed, and that follow from it.
 FIELDS = fields_of(CatalogueRow)
@@ -82,8 +83,8 @@ class Screws(dict[str, CatalogueRow]):
 def screws(path: str | Path, *, keep_going: bool = False) -> Screws:
     """The rows of a table of screws of one's own, CSV or a spreadsheet, by name: ``screws("mine.csv")["A"].screw()``.
 
-    Returns :class:`Screws` of the file ``path``. Their ``notes`` name columns that are not used, and with
-    ``keep_going`` rows that are left out.
+    Returns :class:`Screws` of the file ``path``. Their ``notes`` name columns that are not used, rows whose ball
+    diameter is estimated (the word ``estimate`` in its cell), and with ``keep_going`` rows that are left out.
 
     Raises :class:`~ballscrew.basis.errors.InputError` with all faults of the table; with ``keep_going`` only if no row
     is good.
@@ -92,8 +93,15 @@ def screws(path: str | Path, *, keep_going: bool = False) -> Screws:
     table = read(path, COLUMNS)
     taken: dict[str, int] = {}
     logs: dict[str, Path] = {}
-    found, notes = made(table, lambda row: _made(row, path, taken, logs), keep_going)
-    return Screws(found, path.name, notes, logs)
+    odd: list[str] = []
+    found, notes = made(table, lambda row: _made(row, path, taken, logs, odd), keep_going)
+    estimated = [row.name for row in found if row.ball_diameter_source]
+    if estimated:
+        notes.append(
+            f"{path.name}: ball diameters are estimated of {len(estimated)} rows: {', '.join(estimated[:5])}"
+            + (", …" if len(estimated) > 5 else "")
+        )
+    return Screws(found, path.name, [*notes, *odd], logs)
 
 
 def load(path: Path | None, keep_going: bool = False) -> tuple[Mapping[str, CatalogueRow], Sequence[str]]:
@@ -104,9 +112,12 @@ def load(path: Path | None, keep_going: bool = False) -> tuple[Mapping[str, Cata
     return found, found.notes
 
 
-def _made(row: Row, path: Path, taken: dict[str, int], logs: dict[str, Path]) -> CatalogueRow:
+def _made(row: Row, path: Path, taken: dict[str, int], logs: dict[str, Path], odd: list[str]) -> CatalogueRow:
     """The catalogue row of a row of a table; without a name it is called by its sizes."""
     values = dict(row.values)
+    is_estimated = values.get("ball_diameter") == column_names.ESTIMATED
+    if is_estimated:
+        del values["ball_diameter"]
     file, log = path.name, values.pop("log", None)
     if isinstance(values.get("preload"), Share):
         values["preload_share"] = float(values.pop("preload"))
@@ -130,7 +141,12 @@ def _made(row: Row, path: Path, taken: dict[str, int], logs: dict[str, Path]) ->
         values["spacer_balls"] = values["spacer_balls"] == column_names.YES
     try:
         fields: dict[str, Any] = {**values, "nut": kind_in(values.get("nut", ""))}
-        found = CatalogueRow(**fields)
+        if is_estimated:
+            own = completed(fields)
+            found = own.row
+            odd += [f"{path.name} row {row.line}: {units.filled(one.message)}" for one in own.warnings]
+        else:
+            found = CatalogueRow(**fields)
         found.screw()
     except InputError as error:
         # a share stands in the column of the preload
@@ -172,7 +188,8 @@ def _in_column(fault: Fault, row: Row) -> Fault:
 
 
 def _called_by_sizes(values: Mapping[str, Any]) -> str:
-    sizes = [units.from_si(values[name], FIELDS[name]) for name in ("nominal_diameter", "lead", "ball_diameter")]
+    names = ("nominal_diameter", "lead", "ball_diameter")
+    sizes = [units.from_si(values[name], FIELDS[name]) for name in names if name in values]
     return f"{'x'.join(f'{size:.6g}' for size in sizes)}-{values['turns']:g}"
 
 
@@ -243,12 +260,17 @@ def assumed(row: CatalogueRow) -> dict[str, str]:
         found["pitch_circle_diameter"] = (
             "pitch circle as large as the nominal diameter; those that a catalogue lists are 1.5 to 5 % larger"
         )
+    if row.ball_diameter_source:
+        found["ball_diameter"] = f"ball diameter: {row.ball_diameter_source}"
     found["loaded_turns"] = f"{TURNS_WITHOUT_LOAD:g} turns without load where the balls leave and enter (ISO 3408-5)"
     return found
 
 
-def case_text(row: CatalogueRow) -> str:
-    """A complete case file of a row: a usual oil, a tenth of the dynamic load rating, 600 rpm."""
+def case_text(row: CatalogueRow, estimates: Sequence[Estimate] = ()) -> str:
+    """A complete case file of a row: a usual oil, a tenth of the dynamic load rating, 600 rpm.
+
+    Each number that is one of the ``estimates`` has a comment with its band and where it is from.
+    """
     screw = row.screw()
     fields = fields_of(BallScrew)
     names = [
@@ -261,6 +283,7 @@ def case_text(row: CatalogueRow) -> str:
         "nut_conformity",
     ]
     names += ["starts"] if screw.starts > 1 else []
+    names += [one.name for one in estimates if one.name.endswith("_roughness")]
     unlisted = assumed(row)
     comments = {
         "pitch_circle_diameter": "the nominal diameter; the row lists no pitch circle"
@@ -269,7 +292,10 @@ def case_text(row: CatalogueRow) -> str:
         "loaded_balls": f"{row.balls_per_turn} a turn, {row.loaded_turns:g} of {row.turns:g} turns; one nut body",
         "contact_angle": "not listed, the usual one" if "contact_angle" in unlisted else "",
         "screw_conformity": f"not listed, good to {CONFORMITY_DOUBT:g}" if "conformity" in unlisted else "",
+        "ball_diameter": f"estimated: {row.ball_diameter_source}" if row.ball_diameter_source else "",
     }
+    for one in estimates:
+        comments |= dict.fromkeys(_ESTIMATED_AS.get(one.name, (one.name,)), _comment(one))
     listed = [name for name in LISTED if getattr(row, name) is not None]
     rating = row.dynamic_load_rating
     load = 1000.0 if rating is None else rating / 10
@@ -304,6 +330,20 @@ def case_text(row: CatalogueRow) -> str:
     ]
     # no letters that a terminal or a redirection could write in another encoding than UTF-8
     return "\n".join(lines).encode("ascii", "backslashreplace").decode()
+
+
+#: Fields of a case that an estimate stands in, where they have other names.
+_ESTIMATED_AS: Mapping[str, tuple[str, ...]] = {
+    "ball_circle": ("pitch_circle_diameter",),
+    "conformity": ("screw_conformity", "nut_conformity"),
+}
+
+
+def _comment(one: Estimate) -> str:
+    """What stands beside an estimated number: its band, and where it is from."""
+    band = " to ".join(units.shown(value, one.quantity, digits=4) for value in (one.low, one.high))
+    # a case file is written without letters of other encodings
+    return f"estimated, {band}: {units.filled(one.source)}".replace("\N{MICRO SIGN}", "u")
 
 
 def _nut(row: CatalogueRow) -> list[str]:
@@ -363,6 +403,7 @@ def _document(row: CatalogueRow) -> dict[str, Any]:
         "nut": row.nut or None,
         "source": row.source,
         "seal_torque_source": row.seal_torque_source or None,
+        "ball_diameter_source": row.ball_diameter_source or None,
         "row": {name: getattr(row, name) for name in FIELDS},
         "derived": {name: getattr(row, name) for name in DERIVED},
     }

@@ -71,3 +71,35 @@ def _say(notes: Sequence[str]) -> None:
     """Print omitted rows on the error stream."""
     for note in notes:
         typer.echo(note, err=True)
+
+
+@app.command()
+def own(
+    numbers: Annotated[
+        str,
+        typer.Argument(
+            metavar="NUMBERS", help='NAME=VALUE with units, commas between them: "d0=40 mm, lead=10 mm, turns=2x2.5".'
+        ),
+    ],
+    as_json: AsJson = False,
+    as_case: Annotated[bool, typer.Option("--case", help="A case file, ready for ballscrew run.")] = False,
+) -> None:
+    """A nut of your own from the few numbers of its catalogue page: what is estimated, and a case file.
+
+    Needed are d0, lead and turns (all circuits of one nut body); each of Ca, C0a, ball, dp, dr, starts, nut, preload,
+    D1 that is given makes the rest better.
+    """
+    from ballscrew.basis.errors import Fault, InputError
+    from ballscrew.basis.output import json_text
+    from ballscrew.cases.screw_tables import catalogue
+    from ballscrew.cases.screw_tables.own_nut import numbers_in, own_nut_of
+    from ballscrew.questions.catalogue import own_nut
+
+    if as_case and as_json:
+        raise InputError(Fault("--case", "does not go with --json", "", "give one of the two"))
+    found = own_nut_of(numbers_in(numbers))
+    if as_case:
+        typer.echo(catalogue.case_text(found.row, found.estimates))
+        _say([f"warning: {line}" for line in own_nut.warnings(found)])
+    else:
+        typer.echo(json_text.as_json(own_nut.document(found)) if as_json else own_nut.text(found))

@@ -29,6 +29,7 @@ from ballscrew.faces.web import (
     module_api,
     moving_api,
     openapi,
+    own_nut_api,
     study_api,
     vocabulary,
 )
@@ -118,6 +119,7 @@ router.include_router(file_api.router)
 router.include_router(log_api.router)
 router.include_router(moving_api.router)
 router.include_router(study_api.router)
+router.include_router(own_nut_api.router)
 router.include_router(module_api.router)
 router.include_router(job_api.router)
 

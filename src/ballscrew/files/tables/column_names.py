@@ -94,6 +94,8 @@ PRODUCTS = ("turns",)
 SHARES: Mapping[str, str] = {"preload": "preload_share"}
 #: What the standard seals of a vendor are called, and none.
 STANDARD, NONE = "standard", "none"
+#: What stands for a ball diameter that the catalogue does not print.
+ESTIMATED = "estimate"
 #: What a column that says yes or no has.
 YES, NO = "yes", "no"
 #: Words in place of a number, or the only ones, in small letters.
@@ -101,6 +103,7 @@ WORDS: Mapping[str, Mapping[str, str]] = {
     "seal_torque": {
         STANDARD: STANDARD, **dict.fromkeys((NONE, "no", "without", "ohne", "keine", "nein"), NONE),
     },
+    "ball_diameter": dict.fromkeys((ESTIMATED, "estimated", "?", "schätzen", "geschätzt"), ESTIMATED),
     "spacer_balls": {
         **dict.fromkeys((YES, "true", "with", "ja", "mit", "1:1"), YES),
         **dict.fromkeys((NO, "false", NONE, "without", "nein", "ohne", "keine"), NO),

@@ -290,10 +290,11 @@ def _scaled(where: str, heading: Heading, body: Sequence[Record]) -> Heading | F
 def _cells_tell_unit(heading: Heading, body: Sequence[Record]) -> bool:
     """Test whether a heading needs no unit: its cells are empty, have units, or are asked each for its own."""
     # in place of numbers with a unit there may be words and shares
-    if heading.column.share is not None or heading.column.words:
+    words = heading.column.words
+    if heading.column.share is not None or (words and not heading.column.required):
         return True
     cells = [record.cells[heading.place] for record in body if heading.place < len(record.cells)]
-    filled = [cell for cell in cells if cell not in NOTHING]
+    filled = [cell for cell in cells if cell not in NOTHING and str(cell).casefold() not in words]
     return not filled or any(isinstance(cell, str) and units.unit_in(cell.replace(",", ".")) for cell in filled)
 
 

@@ -106,6 +106,8 @@ class CatalogueRow(ByValue):
     ] = None
     #: Where the outer diameter of the nut is from, if not from the source of the row.
     nut_outer_diameter_source: str = ""
+    #: Where the ball diameter is from, if not from the source of the row.
+    ball_diameter_source: str = ""
     #: Who makes the nut, and how its balls return: the limit of its DN value is looked up by both.
     make: str = ""
     recirculation: str = ""

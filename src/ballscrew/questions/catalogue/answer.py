@@ -6,7 +6,7 @@ from pydantic import Field
 
 from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.physics.sizing.catalogue import CatalogueRow
-from ballscrew.questions.shared.answer_parts import Closed, Tables
+from ballscrew.questions.shared.answer_parts import Closed, Message, Record, Tables
 from ballscrew.questions.shared.declared import table_of, with_answers
 
 _LISTED, _ALL_OF_ROW = fields_of(CatalogueRow), quantities_of(CatalogueRow)
@@ -27,6 +27,7 @@ class CatalogueEntry(with_answers(row=ListedRow, derived=DerivedRow)):
     nut: str | None
     source: str
     seal_torque_source: str | None = Field(description="of whose seals the torque is, where it is not the row's own")
+    ball_diameter_source: str | None = Field(description="where the ball diameter is from, if not from the row")
 
 
 class RowUnits(Closed):
@@ -57,3 +58,26 @@ class Row(CatalogueEntry):
     units: RowUnits
     provenance: Version
     case: Tables
+
+
+class NutEstimate(Closed):
+    """A number that the catalogue does not print, with its band, in SI."""
+
+    name: str = Field(description="field of the row or of the screw that it makes")
+    value: float
+    low: float
+    high: float
+    unit: str
+    shown_in: str = Field(description="unit that people have for it")
+    source: str = Field(description="where it is from, in English")
+    message: Message = Field(description="the same as a template with its values")
+
+
+class OwnNut(Closed):
+    """A nut of few numbers as a case, what was estimated, and what does not go together."""
+
+    name: str
+    case: Tables
+    estimates: list[NutEstimate]
+    warnings: list[Record]
+    provenance: Version

@@ -26,6 +26,7 @@ const SCRIPTS = {
   condition: "./cards/condition.js",
   optimise: "./cards/optimise.js",
   "hand-over": "./cards/hand_over.js",
+  "own-nut": "./cards/own_nut_card.js",
   files: "./cards/files.js",
 };
 /** Sections of the case by the cards that have their fields. @type {Record<string, string>} */

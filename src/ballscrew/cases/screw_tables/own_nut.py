@@ -1,0 +1,119 @@
+"""A nut of one's own as people write it: a few numbers by their names in catalogues, with their units."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from ballscrew.basis import units
+from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
+from ballscrew.basis.records import Message
+from ballscrew.cases.screw_tables.catalogue import COLUMNS
+from ballscrew.cases.screw_tables.nut_kinds import Share, kind_in
+from ballscrew.files.tables import column_names, decimals
+from ballscrew.files.tables.cells import shown, text_of, value_of
+from ballscrew.files.tables.headings import NOTHING, Column, Heading
+from ballscrew.physics.sizing.own_nut import OwnNut, completed
+
+#: Where faults say that they are.
+WHERE = "own-nut"
+#: What stands for the source of a row that has none.
+SOURCE = "numbers of one's own"
+#: Columns of a table that one nut does not have: it has no log, and its seals are a torque.
+_COLUMNS = {column.name: column for column in COLUMNS if column.name != "log"}
+_NEEDED = ("nominal_diameter", "lead", "turns")
+
+
+def own_nut_of(numbers: Mapping[str, Any]) -> OwnNut:
+    """The nut of numbers as people write them: ``{"d0": "40 mm", "lead": "10 mm", "turns": "2x2.5", "Ca": "52 kN"}``.
+
+    A name is that of a field of a row or one that catalogues have for it, in English or German. Raises
+    :class:`~ballscrew.basis.errors.InputError` with all faults.
+    """
+    values: dict[str, Any] = {}
+    faults: list[Fault] = []
+    decimal = decimals.evidence(text for text in numbers.values() if isinstance(text, str))
+    for name, given in numbers.items():
+        column = _column(name)
+        if column is None:
+            remedy = nearest(name, [*_COLUMNS, "d0", "Ph", "Ca", "Dw"])
+            faults.append(Fault(f"{WHERE}.{name}", "unknown number of a nut", "", remedy))
+            continue
+        where = f"{WHERE}.{column.name}"
+        if column.name in values:
+            faults.append(Fault(where, "is given twice", name, "leave one out"))
+            continue
+        text = shown(given)
+        if text in NOTHING:
+            continue
+        value = _value(where, given, text, column, decimal)
+        if isinstance(value, Fault):
+            faults.append(value)
+        else:
+            values[column.name] = value
+    missing = [name for name in _NEEDED if name not in values and not any(_is_of(fault, name) for fault in faults)]
+    faults += [Fault(f"{WHERE}.{name}", "is missing", "", _example(_COLUMNS[name])) for name in missing]
+    raise_if_any(faults)
+    return completed(_fields(values))
+
+
+def numbers_in(text: str) -> dict[str, str]:
+    """The numbers of a text, ``d0=40 mm, lead=10 mm``.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for a part that is no NAME=VALUE.
+    """
+    found: dict[str, str] = {}
+    for part in filter(None, map(str.strip, re.split(r"[,;](?!\d)", text))):
+        name, equals, value = part.partition("=")
+        name = name.strip()
+        if not equals or not name or name in found:
+            problem = "is given twice" if name in found else "is no NAME=VALUE"
+            raise InputError(Fault(WHERE, problem, part, 'write "d0=40 mm, lead=10 mm, turns=5"'))
+        found[name] = value.strip()
+    return found
+
+
+def _column(name: str) -> Column | None:
+    """The column of that name, if one alone has it."""
+    if name in _COLUMNS:
+        return _COLUMNS[name]
+    found = [column for column in _COLUMNS.values() if column.answers_to(name)]
+    return found[0] if len(found) == 1 else None
+
+
+def _value(where: str, given: Any, text: str, column: Column, decimal: frozenset[str]) -> Any:
+    """A number in SI, a text, or the fault in it."""
+    if isinstance(given, bool):
+        given = text = column_names.YES if given else column_names.NO
+    heading = Heading(column.name, column, 0)
+    if column.quantity is None:
+        return text_of(where, text, heading)
+    return value_of(where, given, text, heading, decimal)
+
+
+def _fields(values: Mapping[str, Any]) -> dict[str, Any]:
+    """The fields of a row of these values."""
+    fields: dict[str, Any] = {"name": "own nut", "source": SOURCE, **values}
+    if fields.get("ball_diameter") == column_names.ESTIMATED:
+        del fields["ball_diameter"]
+    if isinstance(fields.get("preload"), Share):
+        fields["preload_share"] = float(fields.pop("preload"))
+    if isinstance(seals := fields.get("seal_torque"), str):
+        if seals != column_names.NONE:
+            raise InputError(Fault(f"{WHERE}.seal_torque", "is no torque", seals, 'write a torque: "0.2 N m"'))
+        fields["seal_torque"] = 0.0
+    if "spacer_balls" in fields:
+        fields["spacer_balls"] = fields["spacer_balls"] == column_names.YES
+    if "nut" in fields:
+        fields["nut"] = kind_in(fields["nut"])
+    return fields
+
+
+def _is_of(fault: Fault, name: str) -> bool:
+    return fault.where == f"{WHERE}.{name}"
+
+
+def _example(column: Column) -> Message:
+    assert column.quantity is not None
+    return Message("write {example}", {"example": units.example_of(column.quantity)})

@@ -1,0 +1,21 @@
+// The card of a nut of one's own, which becomes a design.
+
+import * as designs from "../designs.js";
+import { element } from "../dom.js";
+import { ownNut } from "../own_nut.js";
+import { LETTERS } from "../state.js";
+import { text } from "../texts.js";
+
+/** @param {HTMLElement} holder */
+export function setUp(holder) {
+  const place = element("div");
+  const words = element("p", { "aria-live": "polite" });
+  holder.replaceChildren(place, words);
+  ownNut(place, async (tables, name) => {
+    const left = designs.add([await designs.ofCase(tables, { name })]);
+    words.textContent = left
+      ? text("open.no_room", { names: name, most: LETTERS.length })
+      : text("own_nut.done", { name });
+  });
+  return { follow: () => {}, stop: () => {} };
+}

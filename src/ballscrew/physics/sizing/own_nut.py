@@ -1,0 +1,315 @@
+"""A nut from the few numbers that a catalogue prints: the row that they make, what is estimated in it, and how well."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import InputError, accepts_units, shown_in_si
+from ballscrew.basis.quantities import (
+    Angle,
+    Count,
+    Force,
+    Length,
+    Quantity,
+    Ratio,
+    Stiffness,
+    Torque,
+    fields_of,
+    quantities_of,
+)
+from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.usual_ranges import IMPLAUSIBLE
+from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.equations import geometry
+from ballscrew.physics.sizing.catalogue import CONFORMITY_DOUBT, CatalogueRow
+from ballscrew.physics.sizing.ratings import ratings_of
+from ballscrew.physics.solvers.rated_ball import ball_of_rating
+
+#: The rule of the ball diameter without a load rating: its factor, its exponent, and the lead over the diameter from
+#: which on the ball grows no more. Least squares of the logarithms over the 44 rows shipped.
+RULE_FACTOR, RULE_EXPONENT, LARGEST_PITCH = 0.146, 0.85, 0.25
+#: True ball diameter over that by the rule: those of 44 rows, each by the rows of other sizes, and of 31 stocked nuts.
+RULE_BAND = (0.69, 1.66)
+#: True ball diameter over that of the rating: of the same 44 rows and 31 nuts, none of which it is fitted to.
+RATED_BAND = (0.92, 1.24)
+#: The same of balls below SMALL_BALL, whose ratings are lower than the formula has them.
+SMALL_BAND, SMALL_BALL = (0.92, 1.39), 2.3e-3
+#: Dynamic load rating as listed over that by the geometry, of the same rows and nuts.
+RATING_RATIOS = (0.65, 1.13)
+#: Balls that a nut may have, over its nominal diameter and over the distance of neighbouring grooves.
+BALLS_PER_DIAMETER, BALLS_PER_PITCH = (0.04, 0.26), 0.8
+#: Conformities that makers are known to grind.
+CONFORMITIES = (0.51, 0.58)
+#: Pitch circle over nominal diameter, of rows that list both.
+PITCH_CIRCLES = (1.0, 1.05)
+#: Turns that carry load over those listed, at least: nuts of 2.5 turns a circuit have ratings as if 0.57 did not.
+LEAST_LOADED = 0.77
+#: Usual contact angles, rad.
+ANGLES = (math.radians(40), math.radians(50))
+
+#: Decimals of a length in metres, and of a conformity, that an estimate is written with.
+_WHOLE_MICROMETRES, _DIGITS = 6, 4
+
+#: Where each estimate is from.
+BY_RATING = Message(
+    "the ball whose dynamic load rating by ISO 3408-5 is the one listed: within -8 and +24 % on 75 rows of catalogues, "
+    "balls below 2.3 mm within +39 %"
+)
+BY_RULE = Message(
+    "from lead and diameter alone, a rule of 44 rows of catalogues: each is within -31 and +66 % of the rule of the "
+    "others; give the ball diameter or the dynamic load rating"
+)
+BY_NOMINAL = Message("as large as the nominal diameter; those that a catalogue lists are 1.5 to 5 % larger")
+BY_ROOT = Message("from the diameter at the bottom of the groove, good to about 0.01")
+BY_DEFAULT = Message("most root diameters of a catalogue imply 0.54, some 0.56; good to about 0.01")
+BY_HABIT = Message("the usual one; no catalogue that was read prints it")
+BY_SURFACE = Message("balls have 0.02 to 0.1 um; the usual one stands for what no catalogue prints")
+BY_GRINDING = Message("ground races have 0.2 to 0.4 um, rolled ones more; no catalogue that was read prints it")
+BY_ROOM = Message(
+    "whole balls that find room in a turn, {count}, times {loaded} of {turns} turns: 0.24 turns without load fit the "
+    "ratings of nuts with long circuits; those of circuits of 2.5 turns fit 23 % fewer balls"
+)
+
+_ODD_RATING = Message(
+    "dynamic_load_rating {listed} is {ratio} times that by the geometry, {computed}; rows of catalogues have 0.65 to "
+    "1.13: check its unit, the ball diameter, and that the turns are those of one nut body, all circuits together"
+)
+_NO_BALL = Message(
+    "dynamic_load_rating {listed} goes with no ball that a nut of this size has; the ball diameter is estimated from "
+    "lead and diameter: check the unit of the rating and the turns, or give the ball diameter"
+)
+_ODD_ROOT = Message(
+    "root_diameter {listed} is no bottom of a groove for this ball and pitch circle: it would need a conformity "
+    "outside 0.51 to 0.58; the conformity is the usual one: leave the root diameter out or give the conformity"
+)
+
+#: What may be estimated: quantities of a row, and of the screw that it makes.
+QUANTITIES: Mapping[str, Quantity] = {**fields_of(BallScrew), **quantities_of(CatalogueRow)}
+#: Roughnesses, with their bands as shares, which are those of ``data/uncertainties.toml``.
+_ROUGHNESSES: Mapping[str, tuple[tuple[float, float], Message]] = {
+    "ball_roughness": ((1 / 3, 3.0), BY_SURFACE),
+    "screw_roughness": ((1 / 1.5, 1.5), BY_GRINDING),
+    "nut_roughness": ((1 / 1.5, 1.5), BY_GRINDING),
+}
+
+
+@dataclasses.dataclass(frozen=True)
+class Estimate:
+    """A number that the catalogue does not print: its field, its value and band in SI, and where it is from."""
+
+    #: A field of the row or of the screw that it makes: ``ball_diameter``, ``loaded_balls``.
+    name: str
+    value: float
+    #: Ends of the band that holds the rows of catalogues it was held against.
+    low: float
+    high: float
+    source: Message
+
+    @property
+    def quantity(self) -> Quantity:
+        """What it is, with its unit."""
+        return QUANTITIES[self.name]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class OwnNut(ByValue):
+    """A complete row, what was estimated in it, and what does not go together in the numbers given."""
+
+    #: The row, which makes a screw as one of the catalogue does.
+    row: CatalogueRow
+    #: Numbers that the catalogue does not print, each with its band and where it is from.
+    estimates: tuple[Estimate, ...]
+    #: Numbers given that do not go together, with the value and what to do.
+    warnings: tuple[Record, ...]
+
+
+@accepts_units("own_nut")
+def own_nut(
+    *,
+    nominal_diameter: Length,
+    lead: Length,
+    turns: Ratio,
+    ball_diameter: Length | None = None,
+    dynamic_load_rating: Force | None = None,
+    static_load_rating: Force | None = None,
+    starts: Count | None = None,
+    pitch_circle_diameter: Length | None = None,
+    root_diameter: Length | None = None,
+    contact_angle: Angle | None = None,
+    conformity: Ratio | None = None,
+    rigidity: Stiffness | None = None,
+    nut_outer_diameter: Length | None = None,
+    nut: str = "",
+    preload: Force | None = None,
+    preload_share: Ratio | None = None,
+    seal_torque: Torque | None = None,
+    spacer_balls: bool | None = None,
+    name: str = "own nut",
+    source: str = "",
+    make: str = "",
+) -> OwnNut:
+    """A nut of one's own from the few numbers that its catalogue prints.
+
+    Needed are ``nominal_diameter`` (m), ``lead`` (m) and ``turns``, those of one nut body, all circuits together: 2.5
+    turns in two circuits are 5. Of the others, each may be left out: ``ball_diameter`` (m), ``dynamic_load_rating`` and
+    ``static_load_rating`` (N), ``starts`` of the thread, ``pitch_circle_diameter`` and ``root_diameter`` (m),
+    ``contact_angle`` (rad), ``conformity`` (groove radius over ball diameter), ``rigidity`` as listed (N/m),
+    ``nut_outer_diameter`` (m), ``nut``, how the nut is braced (``single``, ``oversize-balls``, ``double``,
+    ``offset-lead``), ``preload`` (N) or ``preload_share`` of the dynamic load rating, ``seal_torque`` (N m),
+    ``spacer_balls``, whether every second ball is one. ``name``, ``source`` and ``make`` are texts of the row.
+
+    The ball diameter is that whose rating by ISO 3408-5 is the dynamic load rating listed, else follows from lead and
+    diameter (:data:`BY_RATING`, :data:`BY_RULE`); the conformity follows from the root diameter where ball and pitch
+    circle are listed. It does not follow from the rating: makers rate all their grooves with one conformity, 0.52.
+    Returns an :class:`OwnNut`: ``row`` makes a screw with ``row.screw()``, ``estimates`` have bands. Raises
+    :class:`~ballscrew.basis.errors.InputError` for numbers out of bounds.
+    """
+    given = dict(locals())
+    return completed({name: value for name, value in given.items() if value is not None})
+
+
+def completed(listed: Mapping[str, Any]) -> OwnNut:
+    """The nut of the fields of a :class:`CatalogueRow` that are listed, SI; see :func:`own_nut`.
+
+    ``listed`` has a ``name``, the nominal diameter, the lead and the turns at least. Raises
+    :class:`~ballscrew.basis.errors.InputError` for numbers out of bounds.
+    """
+    estimates: list[Estimate] = []
+    warnings: list[Record] = []
+    fields: dict[str, Any] = dict(listed)
+    if "ball_diameter" not in fields:
+        start = _of_any_ball(fields)
+        ball, odd = _ball(start)
+        fields |= {"ball_diameter": ball.value, "ball_diameter_source": ball.source.filled(shown_in_si)}
+        estimates.append(ball)
+        warnings += odd
+    row = CatalogueRow(**fields)
+    row.screw()  # raises for faults between the numbers, as of a ball that is too big for the lead
+    if "ball_diameter" in listed:
+        warnings += _odd_rating(row)
+    if row.pitch_circle_diameter is None:
+        estimates.append(_within("ball_circle", row.ball_circle, PITCH_CIRCLES, BY_NOMINAL))
+    if "conformity" not in fields:
+        conformity, odd = _conformity(row, is_listed={"ball_diameter", "root_diameter"} <= listed.keys())
+        row = dataclasses.replace(row, conformity=conformity.value)
+        estimates.append(conformity)
+        warnings += odd
+    if "contact_angle" not in fields:
+        estimates.append(Estimate("contact_angle", row.contact_angle, *ANGLES, BY_HABIT))
+    estimates.append(_balls(row, next((one for one in estimates if one.name == "ball_diameter"), None)))
+    screw = row.screw()
+    estimates += [_within(name, getattr(screw, name), *told) for name, told in _ROUGHNESSES.items()]
+    return OwnNut(row, tuple(estimates), tuple(warnings))
+
+
+def _of_any_ball(fields: Mapping[str, Any]) -> CatalogueRow:
+    """A row of these fields with some ball, to have the others checked first."""
+    diameter = fields["nominal_diameter"]
+    try:
+        ball = abs(float(diameter)) / 10
+    except (TypeError, ValueError):
+        ball = 1e-3
+    try:
+        given: dict[str, Any] = {**fields, "ball_diameter": ball or 1e-3}
+        return CatalogueRow(**given)
+    except InputError as error:
+        # the ball is none of the user's
+        own = [fault for fault in error.faults if not fault.where.endswith(".ball_diameter")]
+        raise (InputError(*own) if own else error) from None
+
+
+def _ball(row: CatalogueRow) -> tuple[Estimate, list[Record]]:
+    """The ball diameter that goes with the dynamic load rating, else with lead and diameter."""
+    pitch = row.lead / row.starts
+    by_rule = RULE_FACTOR * row.nominal_diameter
+    by_rule *= (min(pitch / row.nominal_diameter, LARGEST_PITCH) / LARGEST_PITCH) ** RULE_EXPONENT
+    rule = _within("ball_diameter", round(by_rule, _WHOLE_MICROMETRES), RULE_BAND, BY_RULE)
+    rating = row.dynamic_load_rating
+    if rating is None:
+        return rule, []
+    # of spacers and balls by turns, half carry, with the power of 2/3 of the rating
+    of_all = rating * 2 ** (2 / 3) if row.spacer_balls else rating
+    found = ball_of_rating(of_all, row.ball_circle, row.lead, row.contact_angle, row.loaded_turns)
+    ball = round(found, _WHOLE_MICROMETRES)
+    low, high = (share * row.nominal_diameter for share in BALLS_PER_DIAMETER)
+    if low <= ball <= min(high, BALLS_PER_PITCH * pitch):
+        band = SMALL_BAND if ball < SMALL_BALL else RATED_BAND
+        return _within("ball_diameter", ball, band, BY_RATING), []
+    message = _NO_BALL.of(listed=Measured(rating, QUANTITIES["dynamic_load_rating"]))
+    return rule, [_warning("dynamic_load_rating", rating, message)]
+
+
+def _within(name: str, value: float, band: tuple[float, float], source: Message) -> Estimate:
+    """An estimate whose band is given as shares of it."""
+    return Estimate(name, value, band[0] * value, band[1] * value, source)
+
+
+def _odd_rating(row: CatalogueRow) -> list[Record]:
+    """A warning of a dynamic load rating that does not go with the geometry."""
+    rating = row.dynamic_load_rating
+    if rating is None:
+        return []
+    computed = float(ratings_of(row).dynamic)
+    low, high = RATING_RATIOS
+    if low <= rating / computed <= high:
+        return []
+    quantity = QUANTITIES["dynamic_load_rating"]
+    message = _ODD_RATING.of(
+        listed=Measured(rating, quantity),
+        ratio=Measured(rating / computed, digits=2),
+        computed=Measured(computed, quantity),
+    )
+    return [_warning("dynamic_load_rating", rating / computed, message, high if rating > computed else low)]
+
+
+def _conformity(row: CatalogueRow, *, is_listed: bool) -> tuple[Estimate, list[Record]]:
+    """The conformity by the root diameter where ball and pitch circle are listed, too; else the usual one."""
+    usual = Estimate(
+        "conformity", row.conformity, row.conformity - CONFORMITY_DOUBT, row.conformity + CONFORMITY_DOUBT, BY_DEFAULT
+    )
+    if not is_listed or row.pitch_circle_diameter is None or row.root_diameter is None:
+        return usual, []
+    low, high = CONFORMITIES
+    deepest, highest = (_bottom(row, share) for share in (high, low))
+    if not deepest <= row.root_diameter <= highest:
+        listed = Measured(row.root_diameter, QUANTITIES["root_diameter"])
+        return usual, [_warning("root_diameter", row.root_diameter, _ODD_ROOT.of(listed=listed))]
+    for _ in range(40):
+        middle = (low + high) / 2
+        low, high = (middle, high) if _bottom(row, middle) > row.root_diameter else (low, middle)
+    found = round(low, _DIGITS)
+    return Estimate("conformity", found, found - CONFORMITY_DOUBT, found + CONFORMITY_DOUBT, BY_ROOT), []
+
+
+def _bottom(row: CatalogueRow, conformity: Ratio) -> Length:
+    """Diameter at the bottom of the groove, which falls with the conformity."""
+    return float(geometry.groove_root_diameter(row.ball_circle, row.ball_diameter, conformity, row.contact_angle))
+
+
+def _balls(row: CatalogueRow, ball: Estimate | None) -> Estimate:
+    """The loaded balls, with the band of returns and of the ball where it is estimated."""
+    most = row.balls_per_turn * row.turns
+    low, high = LEAST_LOADED * most, most
+    if ball is not None:
+        low, high = low * ball.value / ball.high, high * ball.value / ball.low
+    source = BY_ROOM.of(
+        count=Measured(row.balls_per_turn), loaded=Measured(row.loaded_turns), turns=Measured(row.turns)
+    )
+    return Estimate("loaded_balls", row.loaded_balls, math.floor(low), math.ceil(high), source)
+
+
+def _warning(subject: str, value: float, message: Message, limit: float | None = None) -> Record:
+    return Record(
+        id=IMPLAUSIBLE,
+        subject=f"screw.{subject}",
+        text=message.filled(shown_in_si),
+        severity="warning",
+        holds=False,
+        value=value,
+        limit=limit,
+        message=message,
+    )
