@@ -46,6 +46,22 @@ def test_the_document_has_low_and_high_beside_each_output(ballscrew):
     assert set(found["outputs"]) == {*sweep.BAND_OUTPUTS, "valid"}
 
 
+def test_the_document_has_narrower_intervals_of_the_same_samples(ballscrew):
+    """Those of a band of their level; a file has none of them."""
+    vary = ("--vary", "screw_speed=300, 1500 rpm", "--output", "screw_torque", "--samples", "128")
+    found = json.loads(ballscrew("sweep", DRIVE, *vary, "--band", "--json").stdout)["outputs"]
+    assert [one["level"] for one in found["screw_torque"]["inner"]] == [0.5, 0.8]
+    assert "inner" not in found["valid"]
+    for one in found["screw_torque"]["inner"]:
+        options = (*vary, "--level", str(one["level"]), "--json")
+        alone = json.loads(ballscrew("sweep", DRIVE, *options).stdout)["outputs"]["screw_torque"]
+        assert (one["low"], one["high"]) == (alone["low"], alone["high"])
+        # only what is narrower than the band itself
+        assert [each["level"] for each in alone.get("inner", [])] == [0.5] * (one["level"] > 0.5)
+    case = case_file.load(DRIVE)
+    assert not [name for name in swept(case, ["screw_speed=300 rpm"]) if name.endswith(("_of_50", "_of_80"))]
+
+
 #: The section of each axis in a case file.
 SECTIONS = {
     "screw_conformity": "screw", "axial_load": "operation", "temperature": "lubricant", "nut.preload": "",

@@ -48,15 +48,26 @@ def test_the_torque_over_the_speed_has_its_band(visit, server):
     band = server.post("band", {"case": case}).json()["band"]["screw_torque"]
     found = chart(here, "torque-chart")
     names = [name for name, _, _ in found["lines"]]
-    assert names == ["lower end of the band", "upper end of the band", "sum"]
+    within = [f"{end} end, {share} % of the samples" for share in (80, 50) for end in ("lower", "upper")]
+    assert names == ["lower end of the band", "upper end of the band", *within, "sum"]
     speed, _ = found["point"]
-    low, high, _ = found["lines"]
+    low, high, low_of_80, high_of_80, low_of_50, high_of_50, _ = found["lines"]
     assert at(low, speed) == pytest.approx(band["low"], rel=0.01)
     assert at(high, speed) == pytest.approx(band["high"], rel=0.01)
+    # the narrower intervals are those of the same samples at a level of their own, and lie in each other
+    of_level = {0.5: (low_of_50, high_of_50), 0.8: (low_of_80, high_of_80)}
+    for level, ends in of_level.items():
+        one = server.post("band", {"case": case, "level": level}).json()["band"]["screw_torque"]
+        assert [at(end, speed) for end in ends] == pytest.approx([one["low"], one["high"]], rel=0.01)
+    nested = zip(*(line[2] for line in (low, low_of_80, low_of_50, high_of_50, high_of_80, high)), strict=True)
+    assert all(list(ends) == sorted(ends) for ends in nested)
+    legend = here.text("#torque-chart ul.legend")
+    assert all(f"band: {share} % of the samples" in legend for share in (95, 80, 50))
     here.page.locator("#torque-chart summary").click()
     here.page.wait_for_selector("#torque-chart tbody td")
     row = here.page.locator("#torque-chart tbody tr").first.locator("td").all_inner_texts()
-    assert [float(cell) for cell in row[1:3]] == pytest.approx([low[2][0], high[2][0]], rel=1e-3)
+    intervals = (low, high, low_of_80, high_of_80, low_of_50, high_of_50)
+    assert [float(cell) for cell in row[1:7]] == pytest.approx([line[2][0] for line in intervals], rel=1e-3)
     here.page.locator("#band").uncheck()
     here.page.wait_for_function(
         "() => !document.querySelector('#torque-chart ul.legend').innerText.includes('the samples')"

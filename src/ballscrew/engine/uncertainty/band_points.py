@@ -58,6 +58,8 @@ class PointBands:
     parameters: Mapping[str, tuple[Values, Values]]
     #: Share of the samples of each point that lie outside the validity of the model.
     invalid_share: Values
+    #: Narrower intervals of inputs and laws together by output, one for each inner level.
+    inner: Mapping[str, Sequence[tuple[Values, Values]]] = dataclasses.field(default_factory=dict)
 
 
 def bands_of(
@@ -70,9 +72,11 @@ def bands_of(
     engine: SweepEngine | None,
     done: Callable[[int], None] | None = None,
     recorded: bool = False,
+    inner: Sequence[float] = (),
 ) -> PointBands:
     """The bands of :func:`~ballscrew.engine.uncertainty.bands.band` at the points of a group; ``done`` gets the
-    samples, and ``recorded`` is as of :meth:`~ballscrew.engine.evaluation.evaluation.Evaluation.of`.
+    samples, and ``recorded`` is as of :meth:`~ballscrew.engine.evaluation.evaluation.Evaluation.of`. Besides that of
+    ``level`` there is an interval of the same samples for each of the ``inner`` levels.
     """
     computed = evaluated_outputs(outputs)
     evaluator = BandEvaluator.of(
@@ -81,15 +85,17 @@ def bands_of(
     shares = sample_probabilities(evaluator.dimensions, count, seed)
     below, above = tails(level)
     points = len(group.uncertain)
-    ends = {name: np.full((5, points), np.nan) for name in outputs}
+    within = [share for one in inner for share in tails(one)]
+    ends = {name: np.full((5 + len(within), points), np.nan) for name in outputs}
     invalid = np.empty(points)
     for place, found in enumerate(_samples(group, evaluator, shares, engine, done, recorded=recorded)):
         factor = sample_law_factors(evaluator.law_factors_at(place), shares[evaluator.inputs :])
         both = Sample(**{name: found[name] for name in computed}, factor=factor)
         alone = both._replace(factor=np.ones(1))
         for name, rows in ends.items():
-            rows[:3, place] = quantiles(DERIVED_OUTPUTS[name](both), (below, 0.5, above))
-            rows[3:, place] = quantiles(DERIVED_OUTPUTS[name](alone), (below, above))
+            found_of_both = quantiles(DERIVED_OUTPUTS[name](both), (below, 0.5, above, *within))
+            rows[:3, place], rows[5:, place] = found_of_both[:3], found_of_both[3:]
+            rows[3:5, place] = quantiles(DERIVED_OUTPUTS[name](alone), (below, above))
         invalid[place] = 1 - float(np.mean(found["valid"]))
     central = {name: np.asarray(getattr(evaluator.central, name), dtype=float) for name in outputs}
     return PointBands(
@@ -98,6 +104,7 @@ def bands_of(
         both={name: (rows[0], rows[2]) for name, rows in ends.items()},
         parameters={name: (rows[3], rows[4]) for name, rows in ends.items()},
         invalid_share=invalid,
+        inner={name: list(zip(rows[5::2], rows[6::2], strict=True)) for name, rows in ends.items()},
     )
 
 

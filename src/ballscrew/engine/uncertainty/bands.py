@@ -48,6 +48,8 @@ from ballscrew.physics.friction.model import (
 
 #: The ends of an interval, as the names of variables in a dataset end.
 ENDS = ("low", "high")
+#: The attribute of a dataset with the levels of its narrower intervals.
+INNER_LEVELS = "band_inner_levels"
 #: Default number of samples, and for a nut whose balls differ, every one of which is solved for.
 SAMPLES, NUT_SAMPLES = 2**14, 2**10
 
@@ -358,6 +360,16 @@ def with_ends(
         any_of_them.dims, np.asarray(invalid_share).reshape(any_of_them.shape), {"units": "1", "long_name": words}
     )  # fmt: skip
     return dataset.assign(found).assign_attrs(band_level=level, band_samples=count, band_seed=seed)
+
+
+def inner_end(name: str, end: str, level: float) -> str:
+    """The variable with an end, "low" or "high", of the interval of an output with a share of the samples in it."""
+    return f"{name}_{end}_of_{100 * level:g}"
+
+
+def inner_levels(dataset: xr.Dataset) -> Sequence[float]:
+    """The levels of the narrower intervals of a dataset; none where there are none."""
+    return dataset.attrs.get(INNER_LEVELS, ())
 
 
 @accepts_units("band")

@@ -115,9 +115,10 @@ def sweep(
     with _report_interruption(), studies.workers(scheduler, to) as cluster, progress("sweep") as done, log_on_stderr():
         dataset = studies.sweep(loaded, plan, done, to, cluster, verify=verify, trust=trust)
         if banded:
-            from ballscrew.questions.sweep.band import with_band  # for those only who ask
+            from ballscrew.questions.sweep.band import INNER, with_band  # for those only who ask
 
-            dataset = with_band(loaded, plan, dataset, options.of_bands, done, recorded=to is not None)
+            inner = INNER if as_json and to is None else ()  # files have the ends of one interval
+            dataset = with_band(loaded, plan, dataset, options.of_bands, done, recorded=to is not None, inner=inner)
     if verbose:
         say_engine(dataset.attrs)
     if as_json:

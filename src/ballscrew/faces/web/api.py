@@ -96,7 +96,7 @@ from ballscrew.questions.shared.declared import response
 from ballscrew.questions.sweep import compute as sweeps
 from ballscrew.questions.sweep import document as sweep_documents
 from ballscrew.questions.sweep import response as sweep_answers
-from ballscrew.questions.sweep.band import with_band
+from ballscrew.questions.sweep.band import INNER, with_band
 from ballscrew.questions.sweep.options import SweepOptions
 from ballscrew.questions.validate import answer as validate_answers
 from ballscrew.questions.validate import compute as validation
@@ -169,7 +169,7 @@ async def sweep(request: Request) -> Response:
         found = sweeps.sweep(case, plan, done)
         if plan.banded:
             of_bands = dataclasses.replace(options.of_bands, samples=samples)
-            found = with_band(case, plan, found, of_bands, done)
+            found = with_band(case, plan, found, of_bands, done, inner=INNER)
         return as_json(sweep_documents.document(case, plan, found))
 
     if limits.is_short(case, plan):

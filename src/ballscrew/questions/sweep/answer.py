@@ -8,7 +8,7 @@ from typing import Annotated, Any, NamedTuple
 
 import xarray as xr
 
-from ballscrew.engine.uncertainty.bands import ENDS
+from ballscrew.engine.uncertainty.bands import ENDS, inner_end, inner_levels
 from ballscrew.questions.shared.declared import FINITE, LEFT_OUT
 from ballscrew.questions.sweep.compute import Plan
 
@@ -26,6 +26,18 @@ class Values:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
+class InnerInterval:
+    """A narrower interval of an output: fewer of the samples of the band are between its ends."""
+
+    #: Share of the samples between the ends.
+    level: Annotated[float, FINITE]
+    #: Lower ends, SI.
+    low: Sequence[Any]
+    #: Upper ends, SI.
+    high: Sequence[Any]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
 class Swept(Values):
     """Values of an output, with the ends of its band where bands were asked for."""
 
@@ -33,6 +45,8 @@ class Swept(Values):
     low: Annotated[Sequence[Any] | None, LEFT_OUT] = None
     #: Upper ends of its band, SI.
     high: Annotated[Sequence[Any] | None, LEFT_OUT] = None
+    #: Narrower intervals within its band, from the narrowest on.
+    inner: Annotated[Sequence[InnerInterval] | None, LEFT_OUT] = None
 
 
 class SweepBand(NamedTuple):
@@ -65,7 +79,12 @@ def results(plan: Plan, dataset: xr.Dataset) -> SweepResults:
 
     def output(name: str) -> Swept:
         ends = (dataset[f"{name}_{end}"].to_numpy().tolist() for end in ENDS) if plan.banded else ()
-        return Swept(dataset[name].to_numpy().tolist(), *said(name), *ends)
+        inner = [
+            InnerInterval(level, *(dataset[inner_end(name, end, level)].to_numpy().tolist() for end in ENDS))
+            for level in inner_levels(dataset)
+            if name in plan.outputs
+        ]
+        return Swept(dataset[name].to_numpy().tolist(), *said(name), *ends, inner=inner or None)
 
     return SweepResults(
         axes={name: Values(values.tolist(), *said(name)) for name, values in plan.axes.items()},

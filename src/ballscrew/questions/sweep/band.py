@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,7 +18,7 @@ from ballscrew.engine.evaluation.outputs import OPERATION, inputs_of
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.band_evaluation import Values, faults_of_options, tails
 from ballscrew.engine.uncertainty.band_points import PointGroup, bands_of
-from ballscrew.engine.uncertainty.bands import ENDS, NUT_SAMPLES, SAMPLES, with_ends
+from ballscrew.engine.uncertainty.bands import ENDS, INNER_LEVELS, NUT_SAMPLES, SAMPLES, inner_end, with_ends
 from ballscrew.engine.uncertainty.distributions import Distribution, scaled
 from ballscrew.engine.uncertainty.sampling import Joint
 from ballscrew.physics.components.materials import TEMPERATURE
@@ -28,6 +28,8 @@ from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.sweep import compute as sweeps
 from ballscrew.questions.sweep.compute import Plan
 
+#: Shares of the samples between the ends of the narrower intervals of a document, as far as they are below its level.
+INNER = (0.5, 0.8)
 #: The seed of the random numbers of a case.
 _SEED = 0
 #: The part of a case whose inputs change what other laws would give.
@@ -51,14 +53,16 @@ def with_band(
     done: Callable[[int, int], None] | None = None,
     *,
     recorded: bool = False,
+    inner: Sequence[float] = (),
 ) -> xr.Dataset:
     """The dataset of a sweep with the ends of the band of each output, and of the validity, beside it.
 
     At each point they are those of :func:`~ballscrew.questions.band.compute.band` of the case with the point's values
     in place: an uncertain input that is varied has there what its default says of the new value. ``done`` gets the
-    samples. Points that cannot be have no band. For a file samples are ``recorded``: no bit depends on the kernels that
-    are kept. Raises :class:`~ballscrew.basis.errors.InputError` that names options
-    of the command line.
+    samples. Points that cannot be have no band. With ``inner`` levels the ends of an interval for each that is below
+    the level of the band stand beside, as ``x_low_of_50`` and ``x_high_of_50`` for 0.5. For a file samples are
+    ``recorded``: no bit depends on the kernels that are kept. Raises
+    :class:`~ballscrew.basis.errors.InputError` that names options of the command line.
     """
     count = options.samples
     if count is None:
@@ -73,6 +77,8 @@ def with_band(
     varied = {name.removeprefix("nut.") for name in plan.axes}
     groups = _groups(case, points, varied, np.flatnonzero(possible), only_given=options.only_given)
     ends = {name: (np.full(possible.size, np.nan), np.full(possible.size, np.nan)) for name in plan.outputs}
+    levels = [one for one in inner if one < level]
+    within = {(name, one): np.full((len(ENDS), possible.size), np.nan) for name in plan.outputs for one in levels}
     outside = np.ones(possible.size)
     before, total = 0, int(possible.sum()) * count
     for places, group in groups:
@@ -82,11 +88,22 @@ def with_band(
                 done(start + finished, total)
 
         found = bands_of(
-            group, plan.outputs, count=count, seed=_SEED, level=level, engine=None, done=tell, recorded=recorded
+            group,
+            plan.outputs,
+            count=count,
+            seed=_SEED,
+            level=level,
+            engine=None,
+            done=tell,
+            recorded=recorded,
+            inner=levels,
         )
         for name, both in ends.items():
             for end, values in zip(both, found.both[name], strict=True):
                 end[places] = values
+        for name in plan.outputs:
+            for one, pair in zip(levels, found.inner[name], strict=True):
+                within[name, one][:, places] = pair
         outside[places] = found.invalid_share
         before += len(places) * count
     complete = {name: (low.reshape(shape), high.reshape(shape)) for name, (low, high) in ends.items()}
@@ -97,7 +114,12 @@ def with_band(
         f"valid_{end}": (dims, outside.reshape(shape) < share, attributes)
         for end, share in zip(ENDS, tails(level), strict=True)
     }
-    return found.assign(masks)
+    narrower = {
+        inner_end(name, end, one): (dims, values.reshape(shape), found[f"{name}_{end}"].attrs)
+        for (name, one), both in within.items()
+        for end, values in zip(ENDS, both, strict=True)
+    }
+    return found.assign({**masks, **narrower}).assign_attrs({INNER_LEVELS: levels} if levels else {})
 
 
 def _points(case: Case, plan: Plan) -> dict[str, Values]:

@@ -8,6 +8,7 @@ import * as curves from "./curves.js";
 import { caseOf, titleOf } from "./designs.js";
 import { byId } from "./dom.js";
 import * as drawings from "./drawing.js";
+import { hotAndCold as hot } from "./hot_and_cold.js";
 import * as inputs from "./inputs.js";
 import { localEngine } from "./local_engine.js";
 import { inWords, labelOf } from "./messages.js";
@@ -16,12 +17,14 @@ import * as nutPicture from "./nut_picture.js";
 import { diamond } from "./operating_point.js";
 import { isVisible, move, showFailure } from "./plot.js";
 import { askPatiently, sendPatiently } from "./long_work.js";
+import { powerFlow } from "./power_flow.js";
 import * as results from "./results.js";
 import { withoutCards } from "./schema.js";
 import { keep, known, Latest, linesOf, Problem, sendLines } from "./server.js";
 import { LETTERS } from "./state.js";
 import * as stiffness from "./stiffness.js";
 import { store } from "./store.js";
+import * as stribeck from "./stribeck.js";
 import * as temperatures from "./temperatures.js";
 import { text } from "./texts.js";
 import { vocabulary } from "./vocabulary.js";
@@ -190,6 +193,11 @@ function after(delay, signal, work) {
   signal.addEventListener("abort", () => clearTimeout(timer));
 }
 
+/** Show where the power of an answer goes. @param {Run} answer */
+function showPower(answer) {
+  byId("power").replaceChildren(powerFlow(answer, vocabulary.mechanisms));
+}
+
 /** The answers to the state of the page, as far as they are there. */
 class Answers {
   #requests = new Latest();
@@ -291,6 +299,7 @@ class Answers {
     const answer = moving.answerOf(before, moved.values);
     byId("results").classList.add("moving");
     results.show(answer, { band: band && { state: "pending" } });
+    showPower(answer);
     this.#shown = { answer, moved };
     if (localEngine.timeOf(MOST_POINTS) < TIME_IN_FRAME) this.#drawMovedCurves();
     else this.#curves ??= setTimeout(() => this.#drawMovedCurves()); // the numbers are painted before
@@ -312,7 +321,7 @@ class Answers {
       ...(alongLoad && isSeen("pressure-chart") && { over_load: alongLoad }),
       ...(everywhere && isSeen("map-chart") && { over_both: everywhere }),
     };
-    move(["torque-chart", "film-chart", "pressure-chart", "map-chart"], isHeld, () => {
+    move(["torque-chart", "film-chart", "stribeck-chart", "hot-chart", "pressure-chart", "map-chart"], isHeld, () => {
       const found = moving.curvesOf(before, values, isHeld, TIME_OF_CURVES);
       if (found.over_speed) {
         charts.torque(found.over_speed, answer, vocabulary.mechanisms);
@@ -376,15 +385,18 @@ class Answers {
     const { answer, alongSpeed, everywhere, alongLoad, hotAndCold, drawing, designs, models } = found;
     if (!answer) return;
     results.show(answer, found);
+    showPower(answer);
     stiffness.show(answer);
     checks.show(found.checks);
     if (alongSpeed) {
       this.#drawTorque(answer);
       curves.film(alongSpeed, answer);
+      stribeck.show(alongSpeed, answer);
     }
     if (everywhere) charts.map(everywhere, answer);
     if (alongLoad) curves.pressure(alongLoad, answer);
     if (hotAndCold) temperatures.show(hotAndCold, answer);
+    if (hotAndCold) hot.redisplay();
     if (drawing) drawings.show(drawing);
     if (designs) showDesigns(designs, found.starts, vocabulary.mechanisms);
     if (models) showModels(models);
@@ -485,7 +497,10 @@ class Answers {
     await judged;
     const { answer } = this.#displayed;
     if (signal.aborted || !answer) return;
-    if (!isWarm) temperatures.leaveOut(answer);
+    if (!isWarm) {
+      temperatures.leaveOut(answer);
+      hot.leaveOut();
+    }
     await measurePaint("all", start, signal);
     if (signal.aborted) return;
     this.showBand(asked.band);
@@ -512,6 +527,7 @@ class Answers {
     if (wanted && !this.#displayed.band) this.#displayed.band = { state: "pending" };
     results.show(answer, this.#displayed);
     bath.show(answer);
+    showPower(answer);
     stiffness.show(answer);
     measurePaint("numbers", start, signal);
   }
@@ -551,11 +567,14 @@ class Answers {
       });
       measurePaint("chart", asked.start, asked.signal);
       await this.#drawn("film-chart", line, asked, (answer, found) => curves.film(found, answer));
+      await this.#drawn("stribeck-chart", line, asked, (answer, found) => stribeck.show(found, answer));
     },
     cold_and_hot: (line, asked) =>
       this.#drawn("temperatures", line, asked, (answer, found) => {
         this.#displayed.hotAndCold = found;
         temperatures.show(found, answer);
+        const { body, alongSpeed } = this.#displayed;
+        if (body && alongSpeed) hot.show(body, answer, found, alongSpeed);
       }),
     over_both: (line, asked) =>
       this.#drawn("map-chart", line, asked, (answer, found) => {

@@ -114,7 +114,7 @@ export async function follow() {
 export async function jump(path) {
   const home = HOMES[path.split(".")[0]];
   if (!home) {
-    if (views.current() === views.WITHOUT_FORM) await views.go("torque");
+    if (!views.hasForm()) await views.go("torque");
     jumpInForm(path);
     return;
   }

@@ -126,3 +126,37 @@ export function invalidEntries(valid) {
 export function yesOrNo(valid) {
   return text(valid ? "chart.yes" : "chart.no");
 }
+
+/**
+ * A curve, solid where the model is valid and dotted where it is not; both meet.
+ *
+ * @param {number[]} x
+ * @param {(number | null)[]} y
+ * @param {boolean[]} valid
+ * @param {string} name
+ * @param {string} colour
+ */
+export function linesByValidity(x, y, valid, name, colour) {
+  /** @param {(place: number) => boolean} isShown @param {string} dash */
+  const line = (isShown, dash) => ({
+    x,
+    y: y.map((value, place) => (isShown(place) ? value : null)),
+    name,
+    mode: "lines",
+    line: { color: colour, width: 2, dash },
+    hovertemplate: "%{y:.4g}",
+  });
+  const solid = line((place) => valid[place], "solid");
+  if (valid.every(Boolean)) return [solid];
+  const isBeside = (/** @type {number} */ place) => [place - 1, place, place + 1].some((one) => valid[one] === false);
+  return [solid, { ...line(isBeside, "dot"), showlegend: false, hoverinfo: "skip", hovertemplate: undefined }];
+}
+
+/**
+ * @param {boolean[]} valid
+ * @param {string} colour
+ * @returns {LegendEntry[]}
+ */
+export function dottedEntries(valid, colour) {
+  return valid.every(Boolean) ? [] : [{ kind: "dot", name: OUTSIDE, colour }];
+}

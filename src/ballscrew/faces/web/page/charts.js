@@ -20,20 +20,22 @@ const SCALE = [
  * @param {string} name
  * @param {Mechanisms} mechanisms
  */
-function wordsOf(name, mechanisms) {
+export function wordsOf(name, mechanisms) {
   return textOr(`mechanism.${name}`, mechanisms[name]?.words ?? name);
 }
 
 /** How dark the area of a band is, as two digits of a colour. */
 const SHADE = "24";
+/** The same of intervals in each other, from the widest on: so dark are as many areas over each other. */
+const DEPTHS = [SHADE, "43", "5d"];
 
 /**
- * The band of the torque over the speed: its traces, its entry in the legend, and its ends at a place of the curve.
+ * The band of the torque over the speed, as intervals in each other: its traces, its entry in the legend, and its ends at a place of the curve.
  *
  * @param {Sweep | string | undefined} banded or why there is none
  */
 function bandOf(banded) {
-  const none = { traces: () => [], entries: () => [], headings: [], cells: () => [] };
+  const none = { count: 0, traces: () => [], entries: () => [], headings: [], cells: () => [] };
   if (!banded) return none;
   if (typeof banded === "string") {
     const name = text("chart.no_band", { reason: banded });
@@ -41,33 +43,48 @@ function bandOf(banded) {
   }
   const speeds = parts.valuesOf(banded.axes.screw_speed);
   const shown = parts.converted("screw_speed", banded.axes.screw_speed);
-  const output = banded.outputs.screw_torque;
-  const [low, high] = [output.low ?? [], output.high ?? []].map((values) =>
-    parts.converted("screw_torque", { values }),
-  );
-  const words = text("chart.band", { share: units.digits(100 * (banded.band?.level ?? 0)) });
-  /** @param {import("./plot.js").Colours} colours @param {number[]} values @param {import("./texts.js").Key} key */
-  const end = ({ ink }, values, key) => ({
-    x: shown,
-    y: values,
-    name: text(key),
-    mode: "lines",
-    line: { color: ink, width: 1.2, dash: "dot" },
-    hovertemplate: "%{y:.4g}",
-  });
+  const { low, high, inner = [] } = banded.outputs.screw_torque;
+  /** @param {number | undefined} level */
+  const share = (level) => units.digits(100 * (level ?? 0));
+  /** From the widest on: each is drawn over those around it, and so is darker. */
+  const intervals = [
+    { level: banded.band?.level, low, high, names: [text("chart.low"), text("chart.high")] },
+    ...(inner ?? []).toReversed().map((one) => ({
+      ...one,
+      names: [text("chart.low_of", { share: share(one.level) }), text("chart.high_of", { share: share(one.level) })],
+    })),
+  ].map(({ level, names, ...ends }) => ({
+    names,
+    words: text("chart.band", { share: share(level) }),
+    ends: [ends.low, ends.high].map((values) => parts.converted("screw_torque", { values: values ?? [] })),
+  }));
   return {
+    count: 2 * intervals.length,
     /** @param {import("./plot.js").Colours} colours */
-    traces: (colours) => [
-      end(colours, low, "chart.low"),
-      { ...end(colours, high, "chart.high"), fill: "tonexty", fillcolor: `${colours.ink}${SHADE}` },
-    ],
+    traces: ({ ink }) =>
+      intervals.flatMap(({ names, ends }, place) =>
+        ends.map((y, end) => ({
+          x: shown,
+          y,
+          name: names[end],
+          mode: "lines",
+          line: place ? { color: `${ink}${SHADE}`, width: 0.6 } : { color: ink, width: 1.2, dash: "dot" },
+          hovertemplate: "%{y:.4g}",
+          ...(end && { fill: "tonexty", fillcolor: `${ink}${SHADE}` }),
+        })),
+      ),
     /** @param {import("./plot.js").Colours} colours */
-    entries: ({ ink }) => [{ kind: "dot", name: words, colour: ink }],
-    headings: [text("chart.low"), text("chart.high")].map((one) => parts.titled("screw_torque", one)),
+    entries: ({ ink }) =>
+      intervals.map(({ words }, place) => ({
+        kind: intervals.length > 1 ? "area" : "dot",
+        name: words,
+        colour: intervals.length > 1 ? `${ink}${DEPTHS[place] ?? SHADE}` : ink,
+      })),
+    headings: intervals.flatMap(({ names }) => names.map((one) => parts.titled("screw_torque", one))),
     /** @param {number} speed in SI */
     cells: (speed) => {
       const place = speeds.indexOf(speed);
-      return place < 0 ? ["", ""] : [low[place], high[place]];
+      return intervals.flatMap(({ ends }) => ends.map((values) => (place < 0 ? "" : values[place])));
     },
   };
 }
@@ -111,7 +128,7 @@ export function torque(swept, answer, mechanisms, banded) {
     const [[place]] = speeds.map((one, i) => [i, Math.abs(one - at)]).sort(([, a], [, b]) => a - b);
     return total[place];
   };
-  const others = names.length + (banded && typeof banded !== "string" ? 2 : 0);
+  const others = names.length + band.count;
   return draw("torque-chart", {
     name: "torque_over_speed",
     drag: { x: "screw_speed", trace: others + 1, place: (at) => [at, nearest(at)] },

@@ -21,7 +21,7 @@ const PRESSURES = {
   maximum_pressure: text("pressure.greatest"),
 };
 /** Regimes of lubrication, and where the next one begins. @type {[string, number, number, string][]} */
-const REGIMES = [
+export const REGIMES = [
   [text("film.boundary"), 0, 1, "#D55E00"],
   [text("film.mixed"), 1, 3, "#E69F00"],
   [text("contact.full"), 3, Number.POSITIVE_INFINITY, "#009E73"],

@@ -1,5 +1,6 @@
 // The first view: what somebody has, be it a part number, a need, a log or a file.
 
+import { namedButton } from "./controls.js";
 import * as designs from "./designs.js";
 import { byId, element } from "./dom.js";
 import { rowLabel } from "./form.js";
@@ -32,15 +33,6 @@ function has({ name, source, nut }, words) {
 function tile(title, ...rest) {
   const isShort = rest.length === 1 && rest[0] instanceof HTMLButtonElement;
   return element("div", { class: isShort ? "tile short" : "tile" }, element("h3", {}, title), ...rest);
-}
-
-/**
- * @param {string} id
- * @param {string} words
- * @param {() => void} does
- */
-function button(id, words, does) {
-  return element("button", { type: "button", id, onclick: does }, words);
 }
 
 /** The search over all rows of the catalogue. @returns {Node[]} */
@@ -107,16 +99,20 @@ export function setUp() {
     element("h2", {}, text("have.heading")),
     tile(text("have.part"), ...partNumber()),
     tile(
+      text("have.own"),
+      namedButton("have-own", "have.own.do", () => views.go("start.own")),
+    ),
+    tile(
       text("have.need"),
-      button("have-need", text("have.need.do"), () => views.go("choose")),
+      namedButton("have-need", "have.need.do", () => views.go("choose")),
     ),
     tile(
       text("have.log"),
-      button("have-log", text("have.log.do"), () => views.go("measure")),
+      namedButton("have-log", "have.log.do", () => views.go("measure")),
     ),
     tile(
       text("have.file"),
-      button("have-file", text("have.file.do"), () => byId("open").click()),
+      namedButton("have-file", "have.file.do", () => byId("open").click()),
     ),
     tile(text("have.example"), element("p", { class: "examples" }, ...examples())),
   );

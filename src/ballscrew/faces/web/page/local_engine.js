@@ -189,6 +189,22 @@ class LocalEngine {
   }
 
   /**
+   * All inputs of a case at another temperature of its oil; none where its module does not know the oil by that alone.
+   *
+   * @param {Body} body
+   * @param {number} temperature in kelvin
+   * @returns {Values | undefined}
+   */
+  valuesAt(body, temperature) {
+    const values = this.valuesOf(body);
+    if (!values || !this.#known) return undefined;
+    const { about, engine } = this.#known;
+    if (!Object.values(about.places).some(({ input }) => input === TEMPERATURE)) return undefined;
+    for (const [name, [number]] of Object.entries(engine.oil(HERE, temperature, 1))) values[name] = number;
+    return values;
+  }
+
+  /**
    * The axes of the curves around a point.
    *
    * @param {Point} point

@@ -5,8 +5,8 @@ import { byId, element } from "./dom.js";
 import { store } from "./store.js";
 import { textOr } from "./texts.js";
 
-/** The pane that stands in place of the form. */
-export const WITHOUT_FORM = "start";
+/** The view that stands in place of the form. */
+const WITHOUT_FORM = "start";
 
 /**
  * The pane of an element by its address, ``torque.map``; a view of one pane has no second part.
@@ -39,6 +39,11 @@ function viewOf(pane) {
  */
 export function paneAt(address) {
   return panes().find((one) => one === address || viewOf(one) === address);
+}
+
+/** Test whether the form is on the page. */
+export function hasForm() {
+  return viewOf(current()) !== WITHOUT_FORM;
 }
 
 /** The pane that is seen. */

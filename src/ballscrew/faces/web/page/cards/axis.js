@@ -146,7 +146,7 @@ export function setUp(holder) {
     );
   }
 
-  return { follow, stop: asked.stop };
+  return { follow };
 }
 
 function about() {

@@ -2,12 +2,13 @@
 // each, the trend, and the alarm.
 
 import * as designs from "../designs.js";
+import { namedButton } from "../controls.js";
 import { element, scrolling, table } from "../dom.js";
 import { draw, layout, watch } from "../plot.js";
 import { text } from "../texts.js";
 import * as units from "../units.js";
 import { vocabulary } from "../vocabulary.js";
-import { button, caseFile, commandLine, dropZone, exampleButton, faultLines } from "./log_parts.js";
+import { caseFile, commandLine, dropZone, exampleButton, faultLines } from "./log_parts.js";
 import { flags, optionFields } from "./option_fields.js";
 import { data, quantity, TEMPERATURE, TORQUE } from "./quantities.js";
 import { question } from "./question.js";
@@ -61,7 +62,7 @@ export function setUp(holder) {
     tests = [];
     add(logs);
   });
-  const start = button("condition-start", "condition.start", async () => {
+  const start = namedButton("condition-start", "condition.start", async () => {
     tables = await designs.currentCase();
     asked.follow(body(), 0);
   });
@@ -153,7 +154,7 @@ export function setUp(holder) {
     rest.replaceChildren(states(found));
   }
 
-  return { follow, stop: asked.stop };
+  return { follow };
 }
 
 /** @param {number | null} share */

@@ -2,6 +2,7 @@
 // front of the best, each design by the full model, and as a design to take. The need is that of the card of choosing.
 
 import * as designs from "../designs.js";
+import { namedButton } from "../controls.js";
 import { element, scrolling, table } from "../dom.js";
 import { labelOf, said } from "../messages.js";
 import { FIELDS } from "../needs.js";
@@ -12,7 +13,7 @@ import { text, textOr } from "../texts.js";
 import * as units from "../units.js";
 import { vocabulary } from "../vocabulary.js";
 import { heading, numberOf, objective, verdictOf } from "./candidates.js";
-import { button, commandLine, faultLines } from "./log_parts.js";
+import { commandLine, faultLines } from "./log_parts.js";
 import { tables } from "./need_tables.js";
 import { flags, optionFields } from "./option_fields.js";
 import { data, quantity } from "./quantities.js";
@@ -85,7 +86,7 @@ export function setUp(holder) {
     element(
       "p",
       { class: "card-start" },
-      button("optimise-start", "optimise.start", async () => {
+      namedButton("optimise-start", "optimise.start", async () => {
         need = await tables(store.state.need);
         asked.follow(body(), 0);
       }),
@@ -196,7 +197,7 @@ export function setUp(holder) {
     taken.textContent = text("choose.taken", { name, letter: LETTERS[store.state.show] });
   }
 
-  return { follow, stop: asked.stop };
+  return { follow };
 }
 
 /** What the need asks for, in words. */

@@ -17,5 +17,5 @@ export function setUp(holder) {
       ? text("open.no_room", { names: name, most: LETTERS.length })
       : text("own_nut.done", { name });
   });
-  return { follow: () => {}, stop: () => {} };
+  return { follow: () => {} };
 }

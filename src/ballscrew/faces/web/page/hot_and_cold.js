@@ -1,0 +1,180 @@
+// The friction torque over the speed, cold and hot: curves at the temperatures of the table, drawn once they are seen.
+
+import * as parts from "./chart_parts.js";
+import { byId } from "./dom.js";
+import { localEngine, pointsOf } from "./local_engine.js";
+import { draw, hide, layout, showFailure } from "./plot.js";
+import { Latest, linesOf, sendJson } from "./server.js";
+import { text } from "./texts.js";
+import * as units from "./units.js";
+
+/** @typedef {{ case: Record<string, unknown> }} Body */
+/** The torque, SI, and whether it is valid, at one temperature. @typedef {{ torque: (number | null)[], valid: boolean[] }} Curve */
+/**
+ * What is shown: the curves of a case at temperatures, K, over speeds, rad/s.
+ *
+ * @typedef {object} Wanted
+ * @property {Body} body
+ * @property {Run} answer
+ * @property {number[]} temperatures
+ * @property {number[]} speeds
+ * @property {Curve[]} [curves]
+ */
+
+const ID = "hot-chart";
+const TEMPERATURE = "temperature";
+
+/**
+ * The curves of the module in the browser; none where it does not know the oil.
+ *
+ * @param {Wanted} wanted
+ * @returns {Curve[] | undefined}
+ */
+function computedHere({ body, answer, temperatures, speeds }) {
+  const values = temperatures.map((one) => localEngine.valuesAt(body, one));
+  const points = pointsOf(parts.operationOf(answer), { screw_speed: speeds });
+  /** @type {Curve[]} */
+  const curves = [];
+  for (const one of values) {
+    if (!one) return undefined;
+    const found = localEngine.at(one, points);
+    curves.push({
+      torque: Array.from(found.screw_torque, (value) => (Number.isFinite(value) ? value : null)),
+      valid: Array.from(found.valid, Boolean),
+    });
+  }
+  return curves;
+}
+
+/**
+ * The curves of the server.
+ *
+ * @param {Wanted} wanted
+ * @param {AbortSignal} signal
+ * @returns {Promise<Curve[]>}
+ */
+async function computedThere({ body, temperatures, speeds }, signal) {
+  const vary = { temperature: `${temperatures.join(", ")} K`, screw_speed: `${speeds.join(", ")} rad/s` };
+  const { outputs } = await sendJson("sweep", { ...body, vary, outputs: ["screw_torque"] }, signal);
+  return temperatures.map((_, place) => ({
+    torque: /** @type {number[][]} */ (outputs.screw_torque.values)[place],
+    valid: /** @type {boolean[][]} */ (outputs.valid.values)[place],
+  }));
+}
+
+/** The chart of a case, which is computed when it is first seen. */
+class HotAndCold {
+  /** @type {Wanted | undefined} */
+  #wanted;
+  #isSeen = false;
+  #requests = new Latest();
+
+  constructor() {
+    new IntersectionObserver(([entry]) => {
+      this.#isSeen = entry.isIntersecting;
+      if (this.#isSeen) this.#compute();
+    }).observe(byId("temperatures"));
+  }
+
+  /**
+   * Show the curves of a case whose oil follows the temperature.
+   *
+   * @param {Body} body
+   * @param {Run} answer
+   * @param {Sweep} table its sweep over the temperature
+   * @param {Sweep} alongSpeed its sweep over the speed
+   */
+  show(body, answer, table, alongSpeed) {
+    const temperatures = parts.valuesOf(table.axes[TEMPERATURE]);
+    const speeds = parts.valuesOf(alongSpeed.axes.screw_speed);
+    this.#requests.cancel();
+    this.#wanted = { body, answer, temperatures, speeds };
+    if (this.#isSeen) this.#compute();
+  }
+
+  /** There is nothing to compare. */
+  leaveOut() {
+    this.#requests.cancel();
+    this.#wanted = undefined;
+    hide(ID);
+  }
+
+  /** Show it again, in other units. */
+  redisplay() {
+    if (this.#wanted?.curves) drawCurves(this.#wanted, this.#wanted.curves);
+  }
+
+  async #compute() {
+    const wanted = this.#wanted;
+    if (!wanted || wanted.curves) return;
+    const signal = this.#requests.begin();
+    try {
+      wanted.curves = computedHere(wanted) ?? (await computedThere(wanted, signal));
+    } catch (error) {
+      if (signal.aborted) return;
+      byId(ID).hidden = false;
+      showFailure(ID, linesOf(error).join("; "));
+      return;
+    }
+    if (!signal.aborted) await drawCurves(wanted, wanted.curves);
+  }
+}
+
+/**
+ * @param {Wanted} wanted
+ * @param {Curve[]} curves
+ */
+function drawCurves({ answer, temperatures, speeds }, curves) {
+  const { screw_speed: speed, axial_load: load } = parts.operationOf(answer);
+  const names = temperatures.map((one) => units.formattedIn(one, "degC", "K"));
+  const shown = parts.converted("screw_speed", { values: speeds });
+  const torques = curves.map(({ torque }) => parts.converted("screw_torque", { values: torque }));
+  const x = parts.titled("screw_speed", text("chart.speed"));
+  const y = parts.titled("screw_torque", text("chart.torque"));
+  const now = answer.results.screw_torque;
+  /** The coldest, the hottest, and between them that of the case. @param {import("./plot.js").Colours} colours @param {number} place */
+  const style = ({ accent, second, ink }, place) => {
+    if (place === 0) return { colour: accent, kind: "line" };
+    return place === temperatures.length - 1 ? { colour: second, kind: "line" } : { colour: ink, kind: "line" };
+  };
+  return draw(ID, {
+    name: "torque_cold_and_hot",
+    caption: text("hot.caption", { load: units.formatted("axial_load", load) }),
+    description: text("hot.description", {
+      torque: units.formatted("screw_torque", now),
+      from: names[0],
+      to: names.at(-1) ?? "",
+    }),
+    figure: (colours) => ({
+      traces: [
+        ...curves.flatMap(({ valid }, place) =>
+          parts.linesByValidity(shown, torques[place], valid, names[place], style(colours, place).colour),
+        ),
+        parts.pointAt(colours, units.inDisplayUnit("screw_speed", speed), units.inDisplayUnit("screw_torque", now)),
+      ],
+      layout: layout(colours, x, y),
+    }),
+    legend: (colours) => [
+      ...names.map((name, place) => ({ ...style(colours, place), name })),
+      parts.pointEntry(colours),
+      ...parts.dottedEntries(
+        curves.flatMap(({ valid }) => valid),
+        colours.ink,
+      ),
+    ],
+    numbers: () => [
+      [
+        x,
+        ...names.map((name) => parts.titled("screw_torque", name)),
+        ...names.map((name) => text("hot.valid", { temperature: name })),
+      ],
+      shown.map((at, i) => [
+        at,
+        ...torques.map((values) => values[i]),
+        ...curves.map(({ valid }) => parts.yesOrNo(valid[i])),
+      ]),
+    ],
+  });
+}
+
+export const hotAndCold = new HotAndCold();
