@@ -76,12 +76,24 @@ export function ownNut(holder, onCase) {
       { class: "own-nut-field" },
       element("label", { for: `own-nut-${field}` }, text(key)),
       inputs[place],
-      unit ? element("span", { class: "unit" }, symbol(inSystem(unit))) : null,
+      element("span", { class: "unit" }, unit ? symbol(inSystem(unit)) : ""),
     ),
   );
   const rest = [
-    element("p", { class: "own-nut-field" }, element("label", { for: "own-nut-nut" }, text("own_nut.kind")), kind),
-    element("p", { class: "own-nut-field" }, element("label", { for: "own-nut-name" }, text("own_nut.name")), name),
+    element(
+      "p",
+      { class: "own-nut-field" },
+      element("label", { for: "own-nut-nut" }, text("own_nut.kind")),
+      kind,
+      element("span", { class: "unit" }),
+    ),
+    element(
+      "p",
+      { class: "own-nut-field" },
+      element("label", { for: "own-nut-name" }, text("own_nut.name")),
+      name,
+      element("span", { class: "unit" }),
+    ),
   ];
   const form = element(
     "form",
