@@ -28,14 +28,15 @@ $(READY): pyproject.toml constraints.txt
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	@touch $@
 
-# all versions with their hashes: constraints.txt, and floors.txt with the oldest that pyproject.toml allows; new
-# versions by UPGRADE=--upgrade
+# all versions with their hashes: constraints.txt, floors.txt with the oldest that pyproject.toml allows, and those of the
+# container; new versions by UPGRADE=--upgrade
 COMPILE := $(UV) pip compile --quiet --universal --python-version 3.11.5 --generate-hashes --no-emit-index-url --no-annotate \
 	--custom-compile-command "make constraints"
 
 constraints: $(UV)
 	$(COMPILE) $(UPGRADE) --extra dev pyproject.toml --output-file constraints.txt
 	$(COMPILE) $(UPGRADE) --extra calibrate --extra cluster --extra data --extra fast --extra test --extra web --resolution lowest-direct pyproject.toml --output-file floors.txt
+	$(COMPILE) --constraint constraints.txt --extra fast --extra web pyproject.toml --output-file tools/container/requirements.txt
 
 # the tests of what leans on other packages most, with the oldest of them
 floors: $(UV)

@@ -21,7 +21,7 @@ MACHINE_CODE = (
     b"\xca\xfe\xba\xbe", b"\x00asm",
 )  # fmt: skip
 #: Names that nobody can own (RFC 2606, RFC 6761): an address below one of them leads nowhere.
-RESERVED = (".example", ".invalid", ".test", ".localhost", "example.com", "example.org", "example.net")
+RESERVED = (".example", ".invalid", ".test", ".localhost", ".example.com", ".example.org", ".example.net")
 
 
 class Archive(NamedTuple):

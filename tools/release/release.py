@@ -77,7 +77,10 @@ def source(root: Path) -> str:
 
 
 def released(before: Mapping[str, str], version: str, day: str, sources: str) -> dict[str, str]:
-    """The same files for a version, its day and the address of its sources. Raises ``Refusal`` where they cannot be those of a release."""
+    """The same files for a version, its day and the address of its sources.
+
+    Raises ``Refusal`` where they cannot be those of a release.
+    """
     assigned = _ASSIGNED.search(before[VERSION_FILE])
     if assigned is None:
         raise Refusal(f'{VERSION_FILE}: has no line __version__ = "…"')
