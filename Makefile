@@ -1,6 +1,7 @@
 # make demo: set up and reproduce the paper.  make test: set up and run the tests (make test-all: the long ones too).
 # make app: the page in the browser.
-.PHONY: app demo test test-all lint types layers js docs bench hostile mutate mutate-check constraints floors readme rooms interpreter interpreter-check screenshots clean
+.PHONY: app demo test test-all lint types layers js docs bench hostile mutate mutate-check constraints floors readme rooms interpreter interpreter-check \
+	screenshots dist release trials workflows clean
 
 .DEFAULT_GOAL := demo
 
@@ -27,14 +28,15 @@ $(READY): pyproject.toml constraints.txt
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation --editable .
 	@touch $@
 
-# all versions with their hashes: constraints.txt, and floors.txt with the oldest that pyproject.toml allows; new
-# versions by UPGRADE=--upgrade
+# all versions with their hashes: constraints.txt, floors.txt with the oldest that pyproject.toml allows, and those of the
+# container; new versions by UPGRADE=--upgrade
 COMPILE := $(UV) pip compile --quiet --universal --python-version 3.11.5 --generate-hashes --no-emit-index-url --no-annotate \
 	--custom-compile-command "make constraints"
 
 constraints: $(UV)
 	$(COMPILE) $(UPGRADE) --extra dev pyproject.toml --output-file constraints.txt
 	$(COMPILE) $(UPGRADE) --extra calibrate --extra cluster --extra data --extra fast --extra test --extra web --resolution lowest-direct pyproject.toml --output-file floors.txt
+	$(COMPILE) --constraint constraints.txt --extra fast --extra web pyproject.toml --output-file tools/container/requirements.txt
 
 # the tests of what leans on other packages most, with the oldest of them
 floors: $(UV)
@@ -137,6 +139,37 @@ interpreter-check:
 		cmp out/interpreter/$$file $(C_SOURCES)/$$file || exit 1; \
 		echo "the same bytes: $$file"; \
 	done
+
+# dist/*.whl and dist/*.tar.gz, built twice, their libraries compiled again, their files compared with tools/release/rules.toml;
+# PUBLISH=1 also refuses what must not be published
+RELEASE_TOOLS := out/release/tools
+
+$(RELEASE_TOOLS)/.ready: tools/release/requirements.txt
+	@$(PYTHON) -m venv $(RELEASE_TOOLS)
+	@$(RELEASE_TOOLS)/bin/python -m pip install --quiet --disable-pip-version-check --requirement tools/release/requirements.txt
+	@touch $@
+
+dist: $(READY) $(RELEASE_TOOLS)/.ready
+	@rm -rf out/interpreter
+	@$(MAKE) --silent interpreter INTO=out/interpreter
+	$(BIN)/python tools/release/dist.py --twine $(RELEASE_TOOLS)/bin/twine $(if $(PUBLISH),--publish)
+
+# shows what make release VERSION=0.2.0 would commit and tag; DO=1 does it
+release: $(READY)
+	@$(BIN)/python tools/release/release.py $(or $(VERSION),$(error VERSION: not given: make release VERSION=0.2.0)) $(if $(DO),--do)
+
+# the wheel of dist/ into empty environments: no extras, each extra alone, oldest and pinned packages
+trials: $(UV)
+	$(PYTHON) tools/release/trials.py --uv $(UV) $(if $(ONLY),--only $(ONLY))
+
+# the workflows, forms and hooks, by the linters of their makers
+workflows: $(RELEASE_TOOLS)/.ready
+	$(RELEASE_TOOLS)/bin/check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/*.yml
+	$(RELEASE_TOOLS)/bin/check-jsonschema --builtin-schema vendor.github-issue-forms $(filter-out %/config.yml,$(wildcard .github/ISSUE_TEMPLATE/*.yml))
+	$(RELEASE_TOOLS)/bin/check-jsonschema --builtin-schema vendor.github-issue-config .github/ISSUE_TEMPLATE/config.yml
+	$(RELEASE_TOOLS)/bin/check-jsonschema --builtin-schema vendor.dependabot .github/dependabot.yml
+	$(RELEASE_TOOLS)/bin/pre-commit validate-config .pre-commit-config.yaml
+	$(RELEASE_TOOLS)/bin/zizmor --offline --quiet --persona pedantic .github
 
 screenshots: $(READY)
 	$(BIN)/python docs/make_screenshots.py

@@ -38,10 +38,30 @@ EXCEPTIONS = {
         '.venv/bin/ballscrew condition xjtu.csv --case examples/xjtu.toml --speed "100 rpm" --column torque=lower '
         "--set nut.type=double"
     ): ("the licence of the data is not stated, so the repository has none of it"),
+    **dict.fromkeys(
+        ("make dist", "make trials"), "it takes minutes and a network; tests/conformance/test_release.py has its rules"
+    ),
+    **dict.fromkeys(
+        (
+            "make release VERSION=0.2.0",
+            "make release VERSION=0.2.0 DO=1",
+            "git push --atomic origin HEAD v0.2.0",
+        ),
+        "it needs a clone, and changes or publishes it; tests/conformance/test_release.py makes one in a clone",
+    ),
+    **dict.fromkeys(
+        (
+            "podman build --tag ballscrew .",
+            "podman run --rm --read-only --tmpfs /tmp --cap-drop all --publish 127.0.0.1:8017:8017 ballscrew",
+        ),
+        "it needs an engine of containers, which machines that run tests need not have",
+    ),
 }
 
 #: What such a command must have in it that would fail or hurt here; without it there is no reason to leave it out.
-CANNOT_RUN_HERE = re.compile(r"pip install|benchmarks/|tcp://head:|xjtu\.csv|DATA_EMPS")
+CANNOT_RUN_HERE = re.compile(
+    r"pip install|benchmarks/|tcp://head:|xjtu\.csv|DATA_EMPS|make (?:dist|trials|release)|git push|podman "
+)
 
 #: Options that write a file. A command without them does the same on every page, and is run for the first of them.
 WRITES = re.compile(r"\s(?:--to|--out|--output-file|--picture|-o)\b|\bout/|>")

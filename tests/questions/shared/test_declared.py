@@ -2,12 +2,13 @@
 
 from collections.abc import Mapping, Sequence
 from types import SimpleNamespace
-from typing import Annotated, NamedTuple
+from typing import Annotated, Any, NamedTuple, TypeVar
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from pydantic import ValidationError
+from typing_extensions import TypeAliasType
 
 from ballscrew.basis.quantities import Force, Info, Length, Quantity, Torque, Unit
 from ballscrew.questions.shared import declared
@@ -154,3 +155,19 @@ def test_a_document_is_valid_by_its_schema_and_another_is_not():
     for wrong in ({**DOCUMENT, "more": 1}, {**DOCUMENT, "places": "none"}, {"torque": 1.0}):
         with pytest.raises(ValidationError):
             model.model_validate(wrong)
+
+
+def test_a_name_of_an_array_is_an_array():
+    # numpy.typing.NDArray is one from NumPy 2.5 on; here one that every NumPy has
+    number = TypeVar("number", bound=np.generic)
+    numbers = TypeAliasType("numbers", np.ndarray[Any, np.dtype[number]], type_params=(number,))
+
+    class Of(Answer):
+        """Forces."""
+
+        @property
+        def forces(self) -> Annotated[numbers[np.float64], Info("F", "forces", "N")]:
+            """Forces."""
+            return np.array([1.0])
+
+    assert declared.schema(Of).model_json_schema()["properties"]["forces"]["type"] == "array"

@@ -52,8 +52,8 @@ def unreadable(path: Path, error: OSError | ValueError, remedy: str = OTHER) -> 
 def row(plan: str, cells: Sequence[Any]) -> bytes:
     """The cells of a row, and their checksum in the store of a plan, by its digest, as a line of text."""
     text = io.StringIO()
-    csv.writer(text, lineterminator=",").writerow(cells)
-    line = text.getvalue().encode()
+    csv.writer(text, lineterminator="").writerow(cells)  # a comma, which ends it, is refused here from Python 3.13 on
+    line = f"{text.getvalue()},".encode()
     return line + _checksum(plan, line)
 
 

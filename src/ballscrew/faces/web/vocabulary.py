@@ -6,6 +6,7 @@ import functools
 import importlib.metadata
 from collections.abc import Mapping
 from typing import Any
+from urllib.parse import urlsplit
 
 from pydantic import BaseModel, ConfigDict
 
@@ -190,7 +191,8 @@ def _documentation() -> str | None:
         return None
     for written in addresses:
         label, _, address = str(written).partition(",")
-        if label.strip().lower() == "documentation":
+        # a name below .example is nobody's (RFC 2606): a project without a home has no documentation to link to
+        if label.strip().lower() == "documentation" and not urlsplit(address.strip()).netloc.endswith(".example"):
             return address.strip()
     return None
 

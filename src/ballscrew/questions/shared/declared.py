@@ -120,6 +120,13 @@ def _bare(annotation: Any) -> Any:
     return inner
 
 
+def _origin(annotation: Any) -> Any:
+    """The class behind an annotation, without its arguments; ``NDArray`` of NumPy 2.5 is a name of one."""
+    kind = get_origin(annotation) or annotation
+    meant = getattr(kind, "__value__", None)  # of ``type`` statements, which Python has from 3.12 on
+    return kind if meant is None else get_origin(meant) or meant
+
+
 def _is_union(annotation: Any) -> bool:
     return isinstance(annotation, types.UnionType) or get_origin(annotation) is Union
 
@@ -218,7 +225,7 @@ def _units(part: Part, value: Any) -> Any:
         return part.unit
     if _is_answer(type(value)):
         return units(value)
-    kind, inner = get_origin(part.bare) or part.bare, get_args(part.bare)
+    kind, inner = _origin(part.bare), get_args(part.bare)
     if is_answer(kind):
         return units_of(kind)
     if kind is Mapping:
@@ -308,7 +315,7 @@ def _unit_within(annotation: Any) -> str | None:
 
 
 def _kind(part: Part) -> Any:
-    kind, inner = get_origin(part.bare) or part.bare, get_args(part.bare)
+    kind, inner = _origin(part.bare), get_args(part.bare)
     if part.words_allowed:
         return Literal[part.words_allowed]
     if kind is Mapping:

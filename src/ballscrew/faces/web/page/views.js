@@ -22,9 +22,9 @@ function places() {
   return [.../** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-pane]"))];
 }
 
-/** Addresses of all panes, in the order of the tabs. */
+/** Addresses of all panes, in the order of the tabs: that of the sections. */
 function panes() {
-  return [...new Set(places().flatMap(panesOf))];
+  return [...new Set([...document.querySelectorAll("section[data-pane]")].flatMap(panesOf))];
 }
 
 /** The view of a pane. @param {string} pane */
