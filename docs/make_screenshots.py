@@ -25,7 +25,7 @@ BROWSERS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-c
 STATIC, STATIC_SIZE = f"start={DOUBLE}", {"width": 1360, "height": 860}
 COMMAND = [sys.executable, "-m", "ballscrew.faces.cli"]
 
-DESKTOP, PHONE = {"width": 1360, "height": 1500}, {"width": 390, "height": 844}
+DESKTOP, PHONE = {"width": 1440, "height": 900}, {"width": 390, "height": 844}
 OF_PAGE = {
     "app_light.png": ("light", DESKTOP, "#A=paper"),
     "app_dark.png": ("dark", DESKTOP, f"#A={DOUBLE}&A.operation.axial_load=7+kN&B=paper"),

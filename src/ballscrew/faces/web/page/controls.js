@@ -29,6 +29,17 @@ export function namedButton(id, key, onclick) {
 }
 
 /**
+ * The button that a view is about: one in each.
+ *
+ * @param {string} id
+ * @param {import("./texts.js").Key} key of its words
+ * @param {() => void} onclick
+ */
+export function primaryButton(id, key, onclick) {
+  return button(text(key), onclick, { id, class: "primary" });
+}
+
+/**
  * A menu.
  *
  * @param {[value: string, words: string][]} options

@@ -1,7 +1,7 @@
 // A card of the case that takes some seconds: its options, and an answer that is asked for by its button alone.
 
 import * as designs from "../designs.js";
-import { namedButton } from "../controls.js";
+import { primaryButton } from "../controls.js";
 import { element } from "../dom.js";
 import { watch } from "../plot.js";
 import * as units from "../units.js";
@@ -56,7 +56,7 @@ export function askedByButton(holder, name, about, start, charts, show, own = NO
       return undefined;
     },
   });
-  const asks = namedButton(`${name}-start`, start, async () => {
+  const asks = primaryButton(`${name}-start`, start, async () => {
     tables = await designs.currentCase();
     asked.follow(body(), 0);
   });

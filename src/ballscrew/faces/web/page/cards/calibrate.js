@@ -1,7 +1,7 @@
 // The card of a calibration: a log, what its columns were taken for, the fit, and the case with what was found.
 
 import * as designs from "../designs.js";
-import { namedButton } from "../controls.js";
+import { namedButton, primaryButton } from "../controls.js";
 import { element, redraw, scrollingTable } from "../dom.js";
 import { said } from "../messages.js";
 import { watch } from "../plot.js";
@@ -142,7 +142,7 @@ export function setUp(holder) {
   function showColumns() {
     if (!seen || !log) return;
     const isReady = !seen.moving && !seen.faults.length;
-    const start = namedButton("calibrate-fit", "calibrate.fit", () => {
+    const start = primaryButton("calibrate-fit", "calibrate.fit", () => {
       fittedCase = tables;
       fit.follow(body(), 0);
     });

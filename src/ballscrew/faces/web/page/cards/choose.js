@@ -1,7 +1,7 @@
 // The card of choosing: what a screw has to do, and every row of the catalogue judged by the full model, ranked.
 
 import * as designs from "../designs.js";
-import { box, button, framed, namedButton } from "../controls.js";
+import { box, button, framed, namedButton, primaryButton } from "../controls.js";
 import { element, within } from "../dom.js";
 import { inWords, labelOf } from "../messages.js";
 import { choiceField, numberField } from "../fields.js";
@@ -31,7 +31,7 @@ export function setUp(holder) {
   const faults = element("div", { class: "faults" });
   const progress = element("div", { class: "card-line" });
   const result = element("div", { id: "choose-result", "aria-live": "off" });
-  const start = namedButton("choose-start", "choose.start", () => ask());
+  const start = primaryButton("choose-start", "choose.start", () => ask());
   const fill = button(text("choose.from_design"), () => takeDesign());
   holder.replaceChildren(
     framed(text("choose.need"), element("p", { class: "small" }, text("choose.load_by")), fields, sources),

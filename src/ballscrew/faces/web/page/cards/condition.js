@@ -2,7 +2,7 @@
 // each, the trend, and the alarm.
 
 import * as designs from "../designs.js";
-import { namedButton } from "../controls.js";
+import { primaryButton } from "../controls.js";
 import { element, scrolling, table } from "../dom.js";
 import { draw, layout, watch } from "../plot.js";
 import { text } from "../texts.js";
@@ -62,7 +62,7 @@ export function setUp(holder) {
     tests = [];
     add(logs);
   });
-  const start = namedButton("condition-start", "condition.start", async () => {
+  const start = primaryButton("condition-start", "condition.start", async () => {
     tables = await designs.currentCase();
     asked.follow(body(), 0);
   });

@@ -1,7 +1,7 @@
 // The card of a hand-over: a target, its choices, the error of what is made, its files, and the command for the same.
 
 import * as designs from "../designs.js";
-import { framed, labelled, namedButton, opened } from "../controls.js";
+import { framed, labelled, namedButton, primaryButton, opened } from "../controls.js";
 import { element, scrollingTable } from "../dom.js";
 import { said, translated } from "../messages.js";
 import { save } from "../saving.js";
@@ -38,7 +38,7 @@ export function setUp(holder) {
       return undefined;
     },
   });
-  const make = namedButton("hand-over-make", "hand_over.make", async () => {
+  const make = primaryButton("hand-over-make", "hand_over.make", async () => {
     tables = await designs.currentCase();
     asked.follow(body(), 0);
   });

@@ -2,7 +2,7 @@
 // front of the best, each design by the full model, and as a design to take. The need is that of the card of choosing.
 
 import * as designs from "../designs.js";
-import { namedButton } from "../controls.js";
+import { primaryButton } from "../controls.js";
 import { element, scrolling, table } from "../dom.js";
 import { labelOf, said } from "../messages.js";
 import { FIELDS } from "../needs.js";
@@ -86,7 +86,7 @@ export function setUp(holder) {
     element(
       "p",
       { class: "card-start" },
-      namedButton("optimise-start", "optimise.start", async () => {
+      primaryButton("optimise-start", "optimise.start", async () => {
         need = await tables(store.state.need);
         asked.follow(body(), 0);
       }),

@@ -1,7 +1,7 @@
 // The card of a service: two logs, the preload that is left in the nut, and what else could explain them.
 
 import * as designs from "../designs.js";
-import { labelled, namedButton, textField } from "../controls.js";
+import { labelled, primaryButton, textField } from "../controls.js";
 import { element, scrollingTable } from "../dom.js";
 import { draw, layout, watch } from "../plot.js";
 import { said } from "../messages.js";
@@ -57,7 +57,7 @@ export function setUp(holder) {
     for (const [place, file] of found.entries()) zones[place].use(file);
   });
   const tolerance = textField(TOLERANCE, () => follow(), { id: "service-tolerance", size: "5" });
-  const start = namedButton("service-start", "service.start", async () => {
+  const start = primaryButton("service-start", "service.start", async () => {
     tables = await designs.currentCase();
     asked.follow(body(), 0);
   });
