@@ -117,8 +117,11 @@ def test_work_goes_on_while_another_view_is_seen(visit):
 def test_a_view_is_one_screen(visit, view):
     here = visit(width=1440, height=900).open(f"#A={DOUBLE}&band=0&view={view}")
     here.rest(300)
-    ends = "(id) => { const one = document.getElementById(id); return one.checkVisibility() ? one.getBoundingClientRect().bottom : 0; }"
-    assert max(here.page.evaluate(ends, one) for one in ("form", "have", "results")) <= 900
+    bottom = """(id) => {
+        const one = document.getElementById(id);
+        return one.checkVisibility() ? one.getBoundingClientRect().bottom : 0;
+    }"""
+    assert max(here.page.evaluate(bottom, one) for one in ("form", "have", "results")) <= 900
 
 
 @pytest.mark.parametrize("view", ["start", "torque.speed", "nut.film", "choose", "measure"])
