@@ -12,7 +12,7 @@ def part(here, name):
 
 def test_a_feed_axis_from_its_sketch_to_its_numbers(visit, server):
     here = visit()
-    here.open("#A=feed-axis&band=0&cards=axis")
+    here.open("#A=feed-axis&band=0&view=axis")
     page = here.page
     answered(here, "axis")
     answer = server.post("axis", {"case": case_of(here)}).json()
@@ -70,7 +70,7 @@ def test_an_axis_without_an_installation_in_german(visit):
     here.expected = ("status of 422",)
     try:
         here.page.context.add_cookies([{"name": "ballscrew-language", "value": "de", "url": here.address}])
-        here.open("#A=paper&band=0&cards=axis")
+        here.open("#A=paper&band=0&view=axis")
         page = here.page
         page.wait_for_selector("#axis .fault:has-text('freie Länge')")
         assert part(here, "table") == "nicht angegeben"

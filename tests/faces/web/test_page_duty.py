@@ -160,7 +160,7 @@ def test_warming_up_with_a_band_that_is_cancelled(visit, server):
 
 def test_focus_and_cursor_stay_while_the_fields_of_a_card_are_made_anew(visit):
     here = visit()
-    here.open("#A=warm-up&band=0&cards=warm-up")
+    here.open("#A=warm-up&band=0&view=heat")
     page = here.page
     answered(here, "warm-up")
     edited(here, "warm-up", lambda: page.locator("#warm-hours").fill("12"))

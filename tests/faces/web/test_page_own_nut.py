@@ -2,7 +2,7 @@
 
 
 def opened(here, **typed):
-    here.page.click("#own-nut-open")
+    here.go("start.own")
     for name, value in typed.items():
         here.page.fill(f"#own-nut-{name}", value)
     return here.page

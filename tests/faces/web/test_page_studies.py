@@ -17,13 +17,13 @@ def with_need(need):
     kept = urllib.parse.quote(
         json.dumps({"texts": need, "units": {}, "rest": {"optimise": {"elastic_generations": 0}}})
     )
-    return f"#A=paper&band=0&cards=optimise&need={kept}"
+    return f"#A=paper&band=0&view=choose.optimise&need={kept}"
 
 
 def test_sources_of_the_band(visit, server):
     """The bars are those of the answer, about its mean; a click on one, or on its name, goes to the field."""
     here = visit()
-    here.open("#A=paper&band=0&cards=sensitivity")
+    here.open("#A=paper&band=0&view=checks.sensitivity")
     page = here.page
     page.wait_for_selector("#sensitivity-start")
     page.locator("#sensitivity details.card-fields > summary").click()
@@ -95,7 +95,7 @@ def test_a_condition_over_time(visit, server):
     """From a table; then from logs, which are put in order by hand, and cannot be judged with a wrong option."""
     here = visit(width=390, height=844)
     here.expected = ("status of 422",)
-    here.open("#A=paper&band=0&cards=condition")
+    here.open("#A=paper&band=0&view=measure.condition")
     page = here.page
     page.locator("#condition-example").click()
     page.wait_for_selector("#condition-start:enabled")

@@ -27,13 +27,12 @@ def test_each_pane_has_an_address_and_is_reached_by_tabs(visit):
         here.go(one)
         assert pane(here) == one
         assert here.page.locator("#views [aria-current=page]").count() == 1
-        usual = here.page.evaluate("(view) => !location.hash.includes('view=') === (view === 'torque')", one)
-        assert usual or one.startswith("torque")
+        assert f"&view={one}" in here.page.evaluate("location.hash + '&'") or one == panes[0]
         seen = here.page.evaluate(
             """() => [...document.querySelectorAll("#results > section, #have")]
                 .filter((one) => one.checkVisibility() && !one.matches(".answer")).length"""
         )
-        assert seen >= (one != "checks.assumed")
+        assert seen >= 1
     assert here.page.evaluate("location.hash").endswith(f"view={panes[-1]}")
 
 
@@ -45,6 +44,8 @@ def test_back_returns_to_the_view_and_undo_takes_back_an_edit(visit):
     here.page.go_back()
     here.page.wait_for_function(f"{PANE} === 'nut.film'")
     assert here.page.locator(here.id("operation.axial_load")).input_value() == "3000"
+    here.page.reload()
+    here.page.wait_for_selector("html[data-ready]")
     here.page.locator("#undo").click()
     here.page.wait_for_function("() => document.querySelector('#f-operation-axial_load').value === '4000'")
     here.settle()

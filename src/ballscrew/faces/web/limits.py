@@ -5,8 +5,10 @@ Each of these takes some seconds at most on two processors: ``benchmarks/serve.p
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
@@ -29,6 +31,7 @@ from ballscrew.questions.ripple.options import RippleOptions
 from ballscrew.questions.select.need import Need
 from ballscrew.questions.sensitivity.options import SensitivityOptions
 from ballscrew.questions.sweep import compute as sweeps
+from ballscrew.questions.sweep.band import INNER
 
 #: Axes and points of a sweep, and the values that it returns; a nut takes a hundred times as long as one ball.
 MOST_AXES, MOST_POINTS, MOST_POINTS_OF_NUT, MOST_RETURNED = 8, 20_000, 2_000, 200_000
@@ -62,8 +65,8 @@ MOST_COLUMNS, _FIRST_LINES = 1_000, 5_000
 MOST_MORE = 8
 #: Balls with two contacts that take as long as one with four.
 _FOUR_CONTACTS = 3
-#: Values of an output with the ends of its band.
-_WITH_ENDS = 3
+#: Values of an output with the ends of its band and of the intervals within it.
+_WITH_ENDS = 3 + 2 * len(INNER)
 
 
 def check_size(vary: Mapping[str, str], outputs: int, *, banded: bool = False) -> None:
@@ -221,12 +224,14 @@ def check_search(need: Need, options: OptimiseOptions) -> None:
     """Refuse a search whose generations are too large for the memory, before its space is made."""
     asked: Mapping[str, int | None] = {"population": options.population, "samples": None}
     for name, given in asked.items():
-        value = need.optimise.get(name) if given is None else given
+        value: Any = need.optimise.get(name) if given is None else given
+        with contextlib.suppress(TypeError, ValueError):  # what is no number is refused where it is read
+            value = float(value)  # a file may have a number as a text
         if isinstance(value, int | float) and value > MOST_IN_A_GENERATION:
             remedy = Message(
                 "{most} at most here; the rest by ballscrew optimise", {"most": units.grouped(MOST_IN_A_GENERATION)}
             )
-            raise InputError(Fault(f"optimise.{name}", "too many", f"{value:,}", remedy))
+            raise InputError(Fault(f"optimise.{name}", "too many", f"{value:,.0f}", remedy))
 
 
 def check_plan(plan: Plan) -> None:

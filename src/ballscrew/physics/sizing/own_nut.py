@@ -299,7 +299,7 @@ def _balls(row: CatalogueRow, ball: Estimate | None) -> Estimate:
     source = BY_ROOM.of(
         count=Measured(row.balls_per_turn), loaded=Measured(row.loaded_turns), turns=Measured(row.turns)
     )
-    return Estimate("loaded_balls", row.loaded_balls, math.floor(low), math.ceil(high), source)
+    return Estimate("loaded_balls", row.loaded_balls, min(math.floor(low), row.loaded_balls), math.ceil(high), source)
 
 
 def _warning(subject: str, value: float, message: Message, limit: float | None = None) -> Record:

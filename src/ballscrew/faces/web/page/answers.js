@@ -569,13 +569,15 @@ class Answers {
       await this.#drawn("film-chart", line, asked, (answer, found) => curves.film(found, answer));
       await this.#drawn("stribeck-chart", line, asked, (answer, found) => stribeck.show(found, answer));
     },
-    cold_and_hot: (line, asked) =>
-      this.#drawn("temperatures", line, asked, (answer, found) => {
+    cold_and_hot: (line, asked) => {
+      if ("problem" in line || !this.#displayed.alongSpeed) hot.leaveOut(); // that of the case before
+      return this.#drawn("temperatures", line, asked, (answer, found) => {
         this.#displayed.hotAndCold = found;
         temperatures.show(found, answer);
         const { body, alongSpeed } = this.#displayed;
         if (body && alongSpeed) hot.show(body, answer, found, alongSpeed);
-      }),
+      });
+    },
     over_both: (line, asked) =>
       this.#drawn("map-chart", line, asked, (answer, found) => {
         this.#displayed.everywhere = found;

@@ -120,6 +120,7 @@ export async function jump(path) {
   }
   const holder = byId(home);
   await views.goTo(holder);
+  await follow(); // its script may not be there yet
   /** @type {NodeListOf<HTMLElement>} */
   const fields = holder.querySelectorAll("[data-path]");
   const field = [...fields].find((one) => one.dataset.path === path);

@@ -31,8 +31,9 @@ class Entries {
   /** Follow the buttons of the page and of the browser. */
   begin() {
     this.#place = history.state?.place ?? 0;
+    this.#looks = new Set(history.state?.looks);
     this.#last = this.#place;
-    history.replaceState({ place: this.#place }, "", location.href);
+    history.replaceState(this.#kept(), "", location.href);
     button("undo").addEventListener("click", () => {
       this.write();
       history.go(this.#edit(-1) - 1 - this.#place);
@@ -69,6 +70,7 @@ class Entries {
     this.#edited = undefined;
     if (!this.#push(fragment)) return;
     this.#looks.add(this.#place);
+    history.replaceState(this.#kept(), "", fragment);
     this.#showButtons();
   }
 
@@ -114,8 +116,8 @@ class Entries {
   /** Write the pending address. */
   write() {
     clearTimeout(this.#timer);
-    const [place, address] = [this.#place, this.#pending];
-    if (address !== undefined && address !== location.hash) history.replaceState({ place }, "", address);
+    const address = this.#pending;
+    if (address !== undefined && address !== location.hash) history.replaceState(this.#kept(), "", address);
     this.#pending = undefined;
   }
 
@@ -132,7 +134,7 @@ class Entries {
     this.#last = this.#place;
     this.#late.clear();
     for (const place of this.#looks) if (place >= this.#place) this.#looks.delete(place);
-    history.pushState({ place: this.#place }, "", fragment);
+    history.pushState(this.#kept(), "", fragment);
     this.#showButtons();
     return true;
   }
@@ -146,7 +148,7 @@ class Entries {
     // a link within the page has no place yet: it is the next one
     if (place === undefined) this.#last = this.#place + 1;
     this.#place = place ?? this.#last;
-    history.replaceState({ place: this.#place }, "", this.#late.get(this.#place) ?? location.href);
+    history.replaceState(this.#kept(), "", this.#late.get(this.#place) ?? location.href);
     this.#late.delete(this.#place);
     this.#showButtons();
   }
@@ -160,6 +162,11 @@ class Entries {
     let place = direction > 0 ? this.#place + 1 : this.#place;
     while (this.#looks.has(place)) place += direction;
     return place;
+  }
+
+  /** What an entry has beside its address, which is there again after the page was loaded again. */
+  #kept() {
+    return { place: this.#place, looks: [...this.#looks] };
   }
 
   #showButtons() {

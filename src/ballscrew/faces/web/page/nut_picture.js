@@ -212,7 +212,8 @@ function loadArrow(load, first, last, y, width) {
   if (!load) return [];
   const long = Math.min(90, last - first, width / 3);
   const middle = (first + last) / 2;
-  const [from, to] = load > 0 ? [middle - long / 2, middle + long / 2] : [middle + long / 2, middle - long / 2];
+  // as on the sketch of the axis: a positive speed moves the nut to the right, against a positive load
+  const [from, to] = load < 0 ? [middle - long / 2, middle + long / 2] : [middle + long / 2, middle - long / 2];
   const words = text("nut_picture.load", { load: units.formatted("axial_load", Math.abs(load)) });
   return [arrow(from, to, y + 6, "load"), shape("text", { x: middle, y: y - 6, "text-anchor": "middle" }, words)];
 }

@@ -6,7 +6,7 @@ import { element, scrolling, table } from "./dom.js";
 import { labelOf, said } from "./messages.js";
 import { Latest, linesOf, Problem, sendJson } from "./server.js";
 import { text } from "./texts.js";
-import { formattedIn, inSystem, symbol, withPoint, withPowers } from "./units.js";
+import { currentSystem, formattedIn, inSystem, symbol, withPoint, withPowers } from "./units.js";
 
 /** @typedef {import("./texts.js").Key} Key */
 
@@ -42,6 +42,7 @@ const NEEDED = 3;
  */
 export function ownNut(holder, onCase) {
   const latest = new Latest();
+  let system = currentSystem();
   /** @type {OwnNutAnswer | undefined} */
   let answer;
   /** @type {ReturnType<typeof setTimeout> | undefined} */
@@ -70,13 +71,14 @@ export function ownNut(holder, onCase) {
   use.addEventListener("click", async () => {
     if (answer) await onCase(answer.case, answer.name);
   });
-  const labelled = FIELDS.map(([field, key, unit], place) =>
+  const marks = FIELDS.map(() => element("span", { class: "unit" }));
+  const labelled = FIELDS.map(([field, key], place) =>
     element(
       "p",
       { class: "own-nut-field" },
       element("label", { for: `own-nut-${field}` }, text(key)),
       inputs[place],
-      element("span", { class: "unit" }, unit ? symbol(inSystem(unit)) : ""),
+      marks[place],
     ),
   );
   const rest = [
@@ -104,15 +106,37 @@ export function ownNut(holder, onCase) {
   form.addEventListener("submit", (event) => event.preventDefault());
   form.addEventListener("input", () => {
     clearTimeout(timer);
+    latest.cancel(); // an answer that is on its way is of other numbers
+    answer = undefined;
     use.disabled = true;
     timer = setTimeout(ask, REST);
   });
+  showUnits();
   holder.replaceChildren(
     element("p", { class: "small" }, text("own_nut.about")),
     form,
     result,
     element("p", { class: "card-start" }, use),
   );
+
+  /** The unit beside each field, which a plain number has. */
+  function showUnits() {
+    for (const [place, [, , unit]] of FIELDS.entries()) marks[place].textContent = unit ? symbol(inSystem(unit)) : "";
+  }
+
+  /** Follow the units of the page: a plain number gets the one beside which it was typed. */
+  function follow() {
+    if (system === currentSystem()) return;
+    for (const [place, [, , unit]] of FIELDS.entries()) {
+      const typed = withPoint(inputs[place].value.trim());
+      const before = marks[place].textContent;
+      if (unit && typed && Number.isFinite(Number(typed)))
+        inputs[place].value = `${inputs[place].value.trim()} ${before}`;
+    }
+    system = currentSystem();
+    showUnits();
+    if (answer) result.replaceChildren(...shown(answer));
+  }
 
   /** What was typed, a plain number with the unit beside it. */
   function numbers() {
@@ -147,6 +171,8 @@ export function ownNut(holder, onCase) {
       result.replaceChildren(...words);
     }
   }
+
+  return { follow };
 }
 
 /** What was estimated, and what does not go together. @param {OwnNutAnswer} found */

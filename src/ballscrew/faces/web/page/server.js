@@ -240,8 +240,10 @@ async function requested(address, body, signal, how) {
   try {
     const other = awaited.get(key);
     if (other) return await other;
-  } catch {
-    signal.throwIfAborted(); // whoever asked before has left or was refused: this one asks on its own
+  } catch (error) {
+    signal.throwIfAborted();
+    if (error instanceof Problem) throw error; // refused or cancelled: for this one as well
+    // whoever asked before has left: this one asks on its own
   }
   const own = how(address, body, signal);
   awaited.set(key, own);

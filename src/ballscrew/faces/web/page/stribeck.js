@@ -36,7 +36,7 @@ function pointsOf(swept, speed) {
       valid: valid[i],
       isSame: one * (speed || 1) > 0,
     }))
-    .filter(({ film, torque, isSame }) => isSame && film > 0 && Number.isFinite(torque) && torque !== null)
+    .filter(({ film, torque, isSame }) => isSame && film > 0 && Number.isFinite(torque))
     .sort((one, other) => one.film - other.film);
 }
 

@@ -89,10 +89,15 @@ export function setUp(holder) {
   function add(files) {
     const names = files.map(({ name }) => name);
     const others = tests.filter(({ name }) => !names.includes(name));
-    tests = [...others, ...files]
-      .slice(0, MOST)
-      .sort((one, other) => one.name.localeCompare(other.name, "en", { numeric: true }));
+    const sorted = [...files].sort((one, other) => one.name.localeCompare(other.name, "en", { numeric: true }));
+    const all = [...others, ...sorted]; // those that are there keep the order that they were given by hand
+    tests = all.slice(0, MOST);
     showTests();
+    const left = all.slice(MOST).map(({ name }) => name);
+    if (left.length)
+      problems.replaceChildren(
+        element("p", { class: "warning" }, text("condition.most", { most: MOST, names: left.join(", ") })),
+      );
   }
 
   /** The tests in their order, each with buttons that move it or leave it out. */

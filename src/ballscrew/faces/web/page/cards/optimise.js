@@ -2,15 +2,16 @@
 // front of the best, each design by the full model, and as a design to take. The need is that of the card of choosing.
 
 import * as designs from "../designs.js";
-import { primaryButton } from "../controls.js";
+import { button, primaryButton } from "../controls.js";
 import { element, scrolling, table } from "../dom.js";
 import { labelOf, said } from "../messages.js";
 import { FIELDS } from "../needs.js";
-import { draw, layout, watch } from "../plot.js";
+import { draw, hide, layout, watch } from "../plot.js";
 import { LETTERS } from "../state.js";
 import { store } from "../store.js";
 import { text, textOr } from "../texts.js";
 import * as units from "../units.js";
+import * as views from "../views.js";
 import { vocabulary } from "../vocabulary.js";
 import { heading, numberOf, objective, verdictOf } from "./candidates.js";
 import { commandLine, faultLines } from "./log_parts.js";
@@ -39,8 +40,9 @@ const SIZES = {
  * @returns {import("../cards.js").Card}
  */
 export function setUp(holder) {
-  /** @type {object} */
+  /** @type {Record<string, any>} */
   let need = {};
+  let isOwn = false;
   /** @type {OptimiseAnswer | undefined} */
   let answer;
   let system = "";
@@ -67,8 +69,15 @@ export function setUp(holder) {
   const chosen = {};
   const boxes = OBJECTIVES.map((name) => {
     const box = element("input", { type: "checkbox", checked: USUAL.includes(name), value: name });
-    box.addEventListener("change", follow);
+    box.addEventListener("change", () => {
+      isOwn = true;
+      follow();
+    });
     return box;
+  });
+  const start = primaryButton("optimise-start", "optimise.start", async () => {
+    need = await tables(store.state.need);
+    asked.follow(body(), 0);
   });
   holder.replaceChildren(
     asks,
@@ -83,14 +92,7 @@ export function setUp(holder) {
       ),
     ),
     optionFields("optimise", options, chosen, follow),
-    element(
-      "p",
-      { class: "card-start" },
-      primaryButton("optimise-start", "optimise.start", async () => {
-        need = await tables(store.state.need);
-        asked.follow(body(), 0);
-      }),
-    ),
+    element("p", { class: "card-start" }, start),
     command,
     asked.line,
     problems,
@@ -101,15 +103,20 @@ export function setUp(holder) {
   asked.resume();
 
   function body() {
-    const names = boxes.filter((box) => box.checked).map((box) => box.value);
-    return { need, ...(JSON.stringify(names) !== JSON.stringify(USUAL) && { objectives: names }), ...chosen };
+    const objectives = boxes.filter((box) => box.checked).map((box) => box.value);
+    return { need, objectives, ...chosen };
   }
 
   async function follow() {
     need = await tables(store.state.need);
     asks.replaceChildren(element("p", {}, `${text("optimise.need")} ${summary()}`), element("p", {}, toNeed()));
-    const { objectives } = /** @type {{ objectives?: string[] }} */ (body());
-    const names = objectives ? ["--objectives", objectives.join(",")] : [];
+    const listed = need.optimise?.objectives;
+    // those of the need, until others are chosen here
+    if (!isOwn) for (const box of boxes) box.checked = (Array.isArray(listed) ? listed : USUAL).includes(box.value);
+    const { objectives } = body();
+    start.disabled = !objectives.length;
+    const names =
+      JSON.stringify(objectives) === JSON.stringify(listed ?? USUAL) ? [] : ["--objectives", objectives.join(",")];
     command.replaceChildren(commandLine(["ballscrew", "optimise", "need.toml", ...names, ...flags(options, chosen)]));
     if (answer && system !== units.currentSystem()) show(answer);
     asked.compare(body());
@@ -134,7 +141,10 @@ export function setUp(holder) {
       ...lines([], warnings),
     );
     if (candidates.length) front(found);
-    else rest.replaceChildren();
+    else {
+      for (const place of [axes, rest]) place.replaceChildren();
+      hide(CHART);
+    }
   }
 
   /** The menus of the axes, the chart and the table. @param {OptimiseAnswer} found */
@@ -211,8 +221,7 @@ function summary() {
 
 /** A button to the card that has the fields of the need. */
 function toNeed() {
-  const open = () => document.querySelector('[data-card="choose"]')?.dispatchEvent(new MouseEvent("click"));
-  return element("button", { type: "button", onclick: open }, text("optimise.to_need"));
+  return button(text("optimise.to_need"), () => views.go("choose.rows"));
 }
 
 /**

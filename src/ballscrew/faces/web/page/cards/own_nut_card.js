@@ -11,11 +11,11 @@ export function setUp(holder) {
   const place = element("div");
   const words = element("p", { "aria-live": "polite" });
   holder.replaceChildren(place, words);
-  ownNut(place, async (tables, name) => {
+  const { follow } = ownNut(place, async (tables, name) => {
     const left = designs.add([await designs.ofCase(tables, { name })]);
     words.textContent = left
       ? text("open.no_room", { names: name, most: LETTERS.length })
       : text("own_nut.done", { name });
   });
-  return { follow: () => {} };
+  return { follow };
 }
