@@ -263,7 +263,7 @@ def test_on_paper_it_is_a_sheet(visit):
     assert here.page.evaluate(visible.format("button, nav, .tools, #band")) == 0
     assert here.page.evaluate(visible.format("[data-path='operation.axial_load'] input")) == 1
     assert here.page.evaluate(visible.format("[data-path='limits.static_safety']")) == 0  # nothing given there
-    assert here.page.evaluate(visible.format(".main-svg")) > 3
+    assert here.page.evaluate(visible.format(".main-svg")) >= 3
     dark = here.page.evaluate("getComputedStyle(document.querySelector('#pressure-chart .xtick text')).fill")
     assert contrast(dark, "rgb(255, 255, 255)") > 7
     pages = PdfReader(io.BytesIO(here.page.pdf(format="A4"))).pages

@@ -47,7 +47,7 @@ def test_a_feed_axis_from_its_sketch_to_its_numbers(visit, server):
         ("mount", "f-installation-mount_rigidity"), ("table", "f-axis-mass"),
         ("guides", "f-guides-friction_coefficient"),
     ):  # fmt: skip
-        page.locator(f"#axis button[data-part={name}]").press("Enter")
+        here.go("axis").page.locator(f"#axis button[data-part={name}]").press("Enter")
         page.wait_for_function(f"() => document.activeElement.id === '{id}'")
     page.locator("#axis svg g[data-part=fixed] rect").first.click(position={"x": 9, "y": 4})
     page.wait_for_function("() => document.activeElement.id === 'f-bearings-fixed-rigidity'")

@@ -35,7 +35,7 @@ def value(here, name):
 
 def rows_of_chart(here):
     """The numbers of the unrolled nut, as its button saves them."""
-    here.page.locator("#nut-unrolled").scroll_into_view_if_needed()
+    here.see("#nut-extremes").page.locator("#nut-unrolled").scroll_into_view_if_needed()
     here.page.wait_for_selector("#nut-unrolled .main-svg")
     text = here.download("#nut-unrolled button:text-is('CSV')").decode()
     return list(csv.reader(io.StringIO(text)))[1:]
@@ -84,12 +84,12 @@ def test_what_is_alike_and_what_is_assumed_is_said(visit, server):
     greater = np.maximum(loads["forward_load"], loads["backward_load"])
     found = [load for *_, load in balls(here)]
     assert found == np.repeat(greater, len(found) // 2).tolist()
-    words = here.text("#nut-picture")
+    words = here.see("#nut-picture").text("#nut-picture")
     assert "All balls of a half carry the same" in words
     assert "their distance is not given" in words
     ends = here.page.locator("#nut-picture .load polygon").evaluate("one => one.getBBox().x")
     line = here.page.locator("#nut-picture .load line").evaluate("one => one.getBBox().x")
-    assert ends < line  # a negative load points back
+    assert ends > line  # a positive load acts against the motion of a positive speed, to the left
     # inches, without a request
     here.page.locator("#system").select_option("inch")
     here.settle()

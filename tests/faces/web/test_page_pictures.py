@@ -25,7 +25,7 @@ def powers(here):
 
 def rows_of(here, name):
     """The headings and the numbers of a chart, as its file has them."""
-    here.page.locator(f"#{name}").scroll_into_view_if_needed()
+    here.see(f"#{name}").page.locator(f"#{name}").scroll_into_view_if_needed()
     here.page.wait_for_selector(f"#{name} .plot .main-svg")
     rows = list(csv.reader(io.StringIO(here.download(f"#{name} button:text-is('CSV')").decode("utf-8-sig"))))
     return rows[0], rows[1:]
@@ -86,7 +86,7 @@ def test_power_in_german_and_on_a_phone(visit):
     here = visit(width=390, height=844)
     here.page.context.add_cookies([{"name": "ballscrew-language", "value": "de", "url": here.address}])
     try:
-        here.open()
+        here.open().see("#power")
         assert "Nutzleistung an der Mutter" in here.text("#power table")
         assert here.page.evaluate("() => document.documentElement.scrollWidth <= innerWidth")
         sizes = here.page.evaluate(
@@ -129,7 +129,9 @@ def test_the_stribeck_curve_has_the_numbers_of_the_server(visit, server):
 
 
 def check_hot_and_cold(here, server, **operation):
-    here.page.locator("#temperatures").scroll_into_view_if_needed()  # the curves are computed once they are seen
+    here.see("#temperatures").page.locator(
+        "#temperatures"
+    ).scroll_into_view_if_needed()  # the curves are computed once they are seen
     headings, rows = rows_of(here, "hot-chart")
     temperatures = [0, 40, 80]
     assert headings[1:4] == [f"{one}\u00a0°C (N·m)" for one in temperatures]
@@ -169,7 +171,7 @@ def test_cold_and_hot_curves_of_the_module_are_those_of_the_server(visit, server
     here = visit().open(HOT)
     here.page.locator(here.id("operation.axial_load")).focus()
     here.page.wait_for_selector("html[data-engine=ready]", state="attached", timeout=300_000)
-    here.page.locator("#temperatures").scroll_into_view_if_needed()
+    here.see("#temperatures").page.locator("#temperatures").scroll_into_view_if_needed()
     here.page.wait_for_selector("#hot-chart .plot .main-svg")
     before = sum(one.endswith("/sweep") for one in here.requests)
     here.type("operation.axial_load", "3000")

@@ -172,7 +172,7 @@ def test_a_long_request_is_shown_and_cancelled(visit, server):
     running = {"id": "one", "address": "compare", "state": "running", "before": 0, "finished": 1, "total": 4,
                "computed": 1.0, "limit": 600.0, "rows": []}  # fmt: skip
     page.route("**/api/v1/jobs/*", lambda route: route.fulfill(status=200, json=running))
-    page.locator("#models-button").click()
+    here.see("#models-button").page.locator("#models-button").click()
     line = page.locator("#long-work p[data-address=compare]")
     line.wait_for()
     assert "Models side by side" in line.inner_text()

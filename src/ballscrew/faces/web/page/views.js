@@ -24,7 +24,7 @@ function places() {
 
 /** Addresses of all panes, in the order of the tabs: that of the sections. */
 function panes() {
-  return [...new Set([...document.querySelectorAll("section[data-pane]")].flatMap(panesOf))];
+  return [...new Set([...document.querySelectorAll("#have, section[data-pane]")].flatMap(panesOf))];
 }
 
 /** The view of a pane. @param {string} pane */

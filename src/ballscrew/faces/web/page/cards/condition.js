@@ -28,6 +28,16 @@ const MOST = 100;
 const GREEN = "#009E73";
 const RED = "#c62828";
 
+/** @param {{ name: string }} one @param {{ name: string }} other */
+function byName(one, other) {
+  return one.name.localeCompare(other.name, "en", { numeric: true });
+}
+
+/** Test whether tests stand in the order of their names. @param {{ name: string }[]} tests */
+function isByName(tests) {
+  return tests.every((one, place) => !place || byName(tests[place - 1], one) <= 0);
+}
+
 /**
  * @param {HTMLElement} holder
  * @returns {import("../cards.js").Card}
@@ -89,8 +99,8 @@ export function setUp(holder) {
   function add(files) {
     const names = files.map(({ name }) => name);
     const others = tests.filter(({ name }) => !names.includes(name));
-    const sorted = [...files].sort((one, other) => one.name.localeCompare(other.name, "en", { numeric: true }));
-    const all = [...others, ...sorted]; // those that are there keep the order that they were given by hand
+    const all = [...others, ...files];
+    if (isByName(others)) all.sort(byName); // an order that was given by hand stays
     tests = all.slice(0, MOST);
     showTests();
     const left = all.slice(MOST).map(({ name }) => name);
