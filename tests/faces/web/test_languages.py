@@ -400,7 +400,7 @@ def test_the_page_in_german(visit):
         assert "nach Formeln aus dem Gedächtnis" in here.text("#checks tr[data-check=life]")
         assert "Gedächtnis" not in here.text("#checks tr[data-check=shaft_stress]")
         assert re.search(r"\d,\d", here.text("#numbers"))
-        here.page.locator("#drawing text", has_text="Schnitt quer zur Bahn").wait_for()
+        here.see("#drawing").page.locator("#drawing text", has_text="Schnitt quer zur Bahn").wait_for()
         assert "Rauheit von Kugeln, Spindel, Mutter" in here.text("#assumed")
         assert here.page.locator("#results [lang=en]").count() == 0
         assert not re.search(r"\d\.\d", here.text("#numbers"))

@@ -204,7 +204,7 @@ def test_members_are_spread_over_the_front():
 
 def member(loss, life, *checks, valid=True, searched=2.0):
     run = types.SimpleNamespace(run=types.SimpleNamespace(friction=types.SimpleNamespace(valid=valid)))
-    return compute.Member({}, {"loss": searched}, run, checks, {"loss": loss, "life": life})
+    return compute.Member({}, {"loss": searched}, run, checks, {"loss": loss, "life": life}, {})
 
 
 def test_members_by_their_first_objective_with_their_front():
@@ -240,13 +240,13 @@ def test_the_tables_of_a_design():
     found = compute.tables_of(need, design_space(need), sizes, balls=99.0, preload=1234.5)
     assert found["screw"] == {
         "contact_angle": "40 deg", "screw_conformity": 0.54, "nut_conformity": 0.54, "loaded_balls": 99,
-        "pitch_circle_diameter": "0.05 m", "lead": "0.01 m", "ball_diameter": "0.006 m",
+        "pitch_circle_diameter": "50 mm", "lead": "10 mm", "ball_diameter": "6 mm",
     }  # fmt: skip
     assert found["bodies"] == {}
     assert found["nut"] == {"type": "double", "spacer_balls": True, "preload": "1234.5 N"}
     speed, unit = found["operation"]["screw_speed"].split()
-    assert unit == "rad/s"
-    assert float(speed) == pytest.approx(10 / 60 / 0.010 * 2 * math.pi)
+    assert unit == "rpm"
+    assert float(speed) == pytest.approx(10 / 0.010)
     need = need_of({**POINT, "nut": "single"})
     single = compute.tables_of(need, design_space(need), sizes, balls=9, preload=1.0)
     assert "preload" not in single["nut"]

@@ -272,7 +272,7 @@ def test_an_objective_that_is_zero_has_no_change():
     space = design_space(need, objectives=["loss", "preload_torque"])
     numbers = ([2.0, 2.2, 0.0, 0.0], [4.0, 4.0, -0.0, 0.1])
     members = [
-        compute.Member({}, {"loss": s, "preload_torque": m}, None, [], {"loss": full, "preload_torque": n})
+        compute.Member({}, {"loss": s, "preload_torque": m}, None, [], {"loss": full, "preload_torque": n}, {})
         for s, full, m, n in numbers
     ]
     found = compute.Optimisation(need, space, members, 0, None, ("", ""))

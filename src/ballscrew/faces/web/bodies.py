@@ -146,6 +146,12 @@ A ``complete`` list has the full model also of those that their loads alone rule
 )
 
 
+class OwnNutBody(Body):
+    """The numbers of a nut by their names, with their units: ``{"d0": "40 mm", "lead": "10 mm", "turns": "2x2.5"}``."""
+
+    numbers: Tables = Field(description="texts with their units; d0, lead and turns are needed")
+
+
 class OpenBody(Body):
     """A file of cases or of screws: a case file, a project, or a table."""
 

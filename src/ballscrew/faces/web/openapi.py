@@ -17,6 +17,7 @@ from ballscrew.faces.web.bodies import (
     NeedBody,
     OpenBody,
     OptimiseBody,
+    OwnNutBody,
     ProjectBody,
     SensitivityBody,
     SweepBody,
@@ -58,6 +59,8 @@ def _bodies(kind: type[BaseModel]) -> dict[str, Any]:
     if kind is NeedBody:
         need = {"force": "2 kN", "feed": "15 m/min", "length": "1 m", "ends": "fixed-supported", "life": "20000 h"}
         return {"few": {"need": {**need, "preload": "2 %"}, "words": "rexroth 32x"}}
+    if kind is OwnNutBody:
+        return {"few": {"numbers": {"d0": "40 mm", "lead": "10 mm", "turns": "2x2.5", "Ca": "52.7 kN"}}}
     if kind is OptimiseBody:
         need = {"force": "2 kN", "feed": "15 m/min", "length": "1 m", "ends": "fixed-supported", "life": "20000 h"}
         few = {"population": 8, "generations": 2, "members": 2}

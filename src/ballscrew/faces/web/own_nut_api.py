@@ -3,23 +3,16 @@
 from __future__ import annotations
 
 from fastapi import APIRouter, Request
-from pydantic import Field
 from starlette.responses import Response
 
 from ballscrew.cases.screw_tables.own_nut import own_nut_of
 from ballscrew.faces.web import openapi
-from ballscrew.faces.web.bodies import Body, Tables, read
+from ballscrew.faces.web.bodies import OwnNutBody, read
 from ballscrew.faces.web.endpoint_parts import as_json, queue_of
 from ballscrew.questions.catalogue import answer as catalogue_answers
 from ballscrew.questions.catalogue import own_nut as own_nuts
 
 router = APIRouter()
-
-
-class OwnNutBody(Body):
-    """The numbers of a nut by their names, with their units: ``{"d0": "40 mm", "lead": "10 mm", "turns": "2x2.5"}``."""
-
-    numbers: Tables = Field(description="texts with their units; d0, lead and turns are needed")
 
 
 @router.post(

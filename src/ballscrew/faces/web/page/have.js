@@ -31,8 +31,9 @@ function has({ name, source, nut }, words) {
  * @param {(Node | string)[]} rest
  */
 function tile(title, ...rest) {
-  const isShort = rest.length === 1 && rest[0] instanceof HTMLButtonElement;
-  return element("div", { class: isShort ? "tile short" : "tile" }, element("h3", {}, title), ...rest);
+  const found = element("div", { class: "tile" }, element("h3", {}, title), ...rest);
+  found.classList.toggle("short", rest.length === 1 && rest[0] instanceof HTMLButtonElement);
+  return found;
 }
 
 /** The search over all rows of the catalogue. @returns {Node[]} */

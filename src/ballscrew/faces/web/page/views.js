@@ -24,7 +24,13 @@ function places() {
 
 /** Addresses of all panes, in the order of the tabs: that of the sections. */
 function panes() {
-  return [...new Set([...document.querySelectorAll("#have, section[data-pane]")].flatMap(panesOf))];
+  return [
+    ...new Set(
+      places()
+        .filter((one) => one.matches("section") || one.id === "have")
+        .flatMap(panesOf),
+    ),
+  ];
 }
 
 /** The view of a pane. @param {string} pane */
