@@ -256,7 +256,7 @@ def test_sweeps_of_nuts(server, paper, elastic):
     wide = {"case": paper, "vary": {"axial_load": "1:2:9000 N"}, "outputs": outputs}
     refused(server, "sweep", wide, 422, "too many values (810,000)")
     banded = {"case": paper, "vary": {"screw.lead": "5:10:9000 mm"}, "outputs": [*"abcdefgh"], "band": True}
-    refused(server, "sweep", banded, 422, "too many values (216,000)")  # the ends of bands are values, too
+    refused(server, "sweep", banded, 422, "too many values (504,000)")  # the ends of all intervals are values, too
 
 
 @pytest.mark.parametrize("balls", [1e18, 10**18, 501, 1e300])
