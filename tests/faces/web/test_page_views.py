@@ -45,7 +45,7 @@ def test_back_returns_to_the_view_and_undo_takes_back_an_edit(visit):
     here.type("operation.axial_load", "3000")
     here.go("nut.film").go("checks")
     here.page.go_back()
-    here.page.wait_for_function(f"{PANE} === 'nut.film'")
+    here.page.wait_for_function(f"() => {PANE} === 'nut.film'")
     assert here.page.locator(here.id("operation.axial_load")).input_value() == "3000"
     here.page.reload()
     here.page.wait_for_selector("html[data-ready]")
@@ -57,12 +57,23 @@ def test_back_returns_to_the_view_and_undo_takes_back_an_edit(visit):
     here.page.wait_for_function("() => document.querySelector('#f-operation-axial_load').value === '3000'")
 
 
+def test_a_link_within_the_page_takes_the_place_of_views_that_were_left(visit):
+    """Its entry has the number of a view that one had gone back from, and is no view itself."""
+    here = visit().open("#A=paper&band=0")
+    here.go("nut.film").page.go_back()
+    here.page.wait_for_function(f"() => {PANE} === 'torque.speed'")
+    here.page.evaluate("location.hash = '#A=paper&A.operation.axial_load=3000+N&band=0'")
+    here.page.wait_for_function("() => document.querySelector('#f-operation-axial_load').value === '3000'")
+    here.page.locator("#undo").click()
+    here.page.wait_for_function("() => document.querySelector('#f-operation-axial_load').value === '4000'")
+
+
 def test_another_view_asks_the_server_for_nothing_that_is_known(visit):
     here = visit().open("#A=paper&band=0").rest(300)
     asked = here.posts()
     here.go("nut").go("checks").go("torque")
     here.page.go_back()
-    here.page.wait_for_function(f"{PANE} === 'checks.limits'")
+    here.page.wait_for_function(f"() => {PANE} === 'checks.limits'")
     assert here.posts() == asked
 
 

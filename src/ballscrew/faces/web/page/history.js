@@ -133,7 +133,7 @@ class Entries {
     this.#place += 1;
     this.#last = this.#place;
     this.#late.clear();
-    for (const place of this.#looks) if (place >= this.#place) this.#looks.delete(place);
+    this.#forgetLooks(this.#place);
     history.pushState(this.#kept(), "", fragment);
     this.#showButtons();
     return true;
@@ -146,7 +146,10 @@ class Entries {
     this.#pending = undefined;
     this.#edited = undefined;
     // a link within the page has no place yet: it is the next one
-    if (place === undefined) this.#last = this.#place + 1;
+    if (place === undefined) {
+      this.#last = this.#place + 1;
+      this.#forgetLooks(this.#last);
+    }
     this.#place = place ?? this.#last;
     history.replaceState(this.#kept(), "", this.#late.get(this.#place) ?? location.href);
     this.#late.delete(this.#place);
@@ -162,6 +165,11 @@ class Entries {
     let place = direction > 0 ? this.#place + 1 : this.#place;
     while (this.#looks.has(place)) place += direction;
     return place;
+  }
+
+  /** Entries from a place on are others now. @param {number} first */
+  #forgetLooks(first) {
+    for (const place of this.#looks) if (place >= first) this.#looks.delete(place);
   }
 
   /** What an entry has beside its address, which is there again after the page was loaded again. */
