@@ -108,18 +108,18 @@ def test_a_library_that_its_sources_do_not_give_is_named_with_both_compilers(arc
     (tmp_path / "linux64").mkdir()
     again = tmp_path / "linux64" / "ballscrew.so"
     again.write_bytes(wheel(archives).files[LIBRARY])
-    assert archives.library_faults(wheel(archives), rule, tmp_path) == []
+    assert archives.faults_of_libraries(wheel(archives), rule, tmp_path) == []
     again.write_bytes(b"\x7fELF there GCC: (Ubuntu 13.3.0) 13.3.0\0")
-    (fault,) = archives.library_faults(wheel(archives), rule, tmp_path)
+    (fault,) = archives.faults_of_libraries(wheel(archives), rule, tmp_path)
     assert fault == (
         f"{LIBRARY}: differs from what its sources give now (built by (Debian 12.2.0) 12.2.0, now by (Ubuntu 13.3.0) "
         "13.3.0): build with (Debian 12.2.0) 12.2.0"
     )
     again.write_bytes(b"\x7fELF here GCC: (Debian 12.2.0) 12.2.0\0\0")
-    (fault,) = archives.library_faults(wheel(archives), rule, tmp_path)
+    (fault,) = archives.faults_of_libraries(wheel(archives), rule, tmp_path)
     assert fault.endswith("make interpreter, and commit what it writes")
     again.unlink()
-    (fault,) = archives.library_faults(wheel(archives), rule, tmp_path)
+    (fault,) = archives.faults_of_libraries(wheel(archives), rule, tmp_path)
     assert f"{LIBRARY}: not built again" in fault
 
 

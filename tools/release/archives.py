@@ -132,7 +132,7 @@ def sdist_faults(sdist: Archive, tracked: Iterable[str], rules: Mapping[str, Any
     ]
 
 
-def library_faults(wheel: Archive, rules: Mapping[str, Any], rebuilt: Path) -> list[str]:
+def faults_of_libraries(wheel: Archive, rules: Mapping[str, Any], rebuilt: Path) -> list[str]:
     """Libraries of a wheel that differ from those that ``rebuilt`` has, which were built again from the sources."""
     faults: list[str] = []
     for name in rules["files"]:

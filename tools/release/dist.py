@@ -57,7 +57,7 @@ def main() -> int:
     )
     faults += archives.wheel_faults(wheel, tracked, rules["wheel"])
     faults += archives.sdist_faults(sdist, tracked, rules["sdist"])
-    faults += archives.library_faults(wheel, rules["wheel"]["libraries"], given.rebuilt)
+    faults += archives.faults_of_libraries(wheel, rules["wheel"]["libraries"], given.rebuilt)
     version = version_of(ROOT / "src" / "ballscrew" / "basis" / "version.py")
     for archive in (wheel, sdist):
         faults += archives.metadata_faults(archive, project, version)
