@@ -10,18 +10,19 @@ that of the row as listed.
 
 from __future__ import annotations
 
-import csv
 import dataclasses
-import math
 from collections.abc import Callable, Iterable
-from importlib import resources
 
 import numpy as np
 
 import ballscrew as bs
+from ballscrew.evidence.validation.rows import screw_of
+from ballscrew.evidence.validation.sets import SETS
+from ballscrew.files.tables.column_names import YES
 from ballscrew.physics.sizing.catalogue import CatalogueRow, catalogue
 from ballscrew.physics.sizing.own_nut import LARGEST_PITCH, OwnNut, completed
 from ballscrew.physics.sizing.ratings import ratings_of
+from ballscrew.questions.validate.compute import shipped_rows
 
 #: Rows whose ratings do not go with their geometry, as the head of the file says.
 MISPRINTS = ("R25-4B2-FSW", "R32-8B1-OFSW")
@@ -32,22 +33,10 @@ Numbers = Iterable[float]
 
 def stock() -> list[CatalogueRow]:
     """The nuts of HIWIN's stock list, which no rule here was fitted to."""
-    text = resources.files("ballscrew").joinpath("data/validation/hiwin-stock.csv").read_text(encoding="utf-8")
-    rows = csv.DictReader(line for line in text.splitlines() if not line.startswith("#"))
     return [
-        CatalogueRow(
-            name=row["code"],
-            nominal_diameter=float(row["nominal_diameter_mm"]) / 1e3,
-            pitch_circle_diameter=float(row["pitch_circle_mm"]) / 1e3,
-            lead=float(row["lead_mm"]) / 1e3,
-            ball_diameter=float(row["ball_mm"]) / 1e3,
-            turns=math.prod(map(float, row["circuits"].split("x"))),
-            starts=int(row["starts"]),
-            dynamic_load_rating=float(row["dynamic_rating_N"]),
-            spacer_balls=row["spacer_balls"] == "1:1",
-        )
-        for row in rows
-        if row["code"] not in MISPRINTS
+        dataclasses.replace(screw_of(values), spacer_balls=values["spacer_balls"] == YES)
+        for values in shipped_rows(SETS["hiwin-stock"])
+        if values["name"] not in MISPRINTS
     ]
 
 

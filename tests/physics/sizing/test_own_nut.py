@@ -1,6 +1,5 @@
 """Nuts of few numbers: each number estimated against rows that list it, by rules that did not see the row."""
 
-import csv
 import dataclasses
 import math
 import tomllib
@@ -10,10 +9,14 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
+from ballscrew.evidence.validation.rows import screw_of
+from ballscrew.evidence.validation.sets import SETS
+from ballscrew.files.tables.column_names import YES
 from ballscrew.physics.sizing import own_nut as own
-from ballscrew.physics.sizing.catalogue import CatalogueRow, catalogue
+from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.physics.sizing.ratings import ratings_of
 from ballscrew.physics.solvers.rated_ball import ball_of_rating
+from ballscrew.questions.validate.compute import shipped_rows
 
 ROWS = tuple(catalogue().values())
 #: Rows of HIWIN's stock list whose ratings do not go with their geometry, as the head of the file has it.
@@ -22,23 +25,10 @@ KEPT = ("name", "nominal_diameter", "lead", "turns", "starts", "ball_diameter", 
         "root_diameter", "dynamic_load_rating", "spacer_balls")  # fmt: skip
 
 
-def stock():
-    text = resources.files("ballscrew").joinpath("data/validation/hiwin-stock.csv").read_text(encoding="utf-8")
-    for row in csv.DictReader(line for line in text.splitlines() if not line.startswith("#")):
-        yield CatalogueRow(
-            name=row["code"],
-            nominal_diameter=float(row["nominal_diameter_mm"]) / 1e3,
-            pitch_circle_diameter=float(row["pitch_circle_mm"]) / 1e3,
-            lead=float(row["lead_mm"]) / 1e3,
-            ball_diameter=float(row["ball_mm"]) / 1e3,
-            turns=math.prod(map(float, row["circuits"].split("x"))),
-            starts=int(row["starts"]),
-            dynamic_load_rating=float(row["dynamic_rating_N"]),
-            spacer_balls=row["spacer_balls"] == "1:1",
-        )
-
-
-STOCK = tuple(stock())
+STOCK = tuple(
+    dataclasses.replace(screw_of(values), spacer_balls=values["spacer_balls"] == YES)
+    for values in shipped_rows(SETS["hiwin-stock"])
+)
 ALL = (*ROWS, *(row for row in STOCK if row.name not in MISPRINTS))
 every_row = pytest.mark.parametrize("row", ALL, ids=[row.name for row in ALL])
 

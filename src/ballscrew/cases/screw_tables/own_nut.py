@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import re
 from collections.abc import Mapping
 from typing import Any
@@ -20,8 +21,14 @@ from ballscrew.physics.sizing.own_nut import OwnNut, completed
 WHERE = "own-nut"
 #: What stands for the source of a row that has none.
 SOURCE = "numbers of one's own"
-#: Columns of a table that one nut does not have: it has no log, and its seals are a torque.
-_COLUMNS = {column.name: column for column in COLUMNS if column.name != "log"}
+#: Columns of a table that one nut has: it has no log, and no maker whose standard seals are known.
+_COLUMNS = {
+    column.name: dataclasses.replace(
+        column, words={word: meant for word, meant in column.words.items() if meant != column_names.STANDARD}
+    )
+    for column in COLUMNS
+    if column.name != "log"
+}
 _NEEDED = ("nominal_diameter", "lead", "turns")
 
 
@@ -55,7 +62,11 @@ def own_nut_of(numbers: Mapping[str, Any]) -> OwnNut:
     missing = [name for name in _NEEDED if name not in values and not any(_is_of(fault, name) for fault in faults)]
     faults += [Fault(f"{WHERE}.{name}", "is missing", "", _example(_COLUMNS[name])) for name in missing]
     raise_if_any(faults)
-    return completed(_fields(values))
+    try:
+        return completed(_fields(values))
+    except InputError as error:
+        # of the row and of its screw, which have the same fields: here they are those of the nut
+        raise InputError(*(_here(fault) for fault in error.faults)) from None
 
 
 def numbers_in(text: str) -> dict[str, str]:
@@ -99,9 +110,7 @@ def _fields(values: Mapping[str, Any]) -> dict[str, Any]:
         del fields["ball_diameter"]
     if isinstance(fields.get("preload"), Share):
         fields["preload_share"] = float(fields.pop("preload"))
-    if isinstance(seals := fields.get("seal_torque"), str):
-        if seals != column_names.NONE:
-            raise InputError(Fault(f"{WHERE}.seal_torque", "is no torque", seals, 'write a torque: "0.2 N m"'))
+    if fields.get("seal_torque") == column_names.NONE:
         fields["seal_torque"] = 0.0
     if "spacer_balls" in fields:
         fields["spacer_balls"] = fields["spacer_balls"] == column_names.YES
@@ -112,6 +121,10 @@ def _fields(values: Mapping[str, Any]) -> dict[str, Any]:
 
 def _is_of(fault: Fault, name: str) -> bool:
     return fault.where == f"{WHERE}.{name}"
+
+
+def _here(fault: Fault) -> Fault:
+    return dataclasses.replace(fault, where=f"{WHERE}.{fault.where.rpartition('.')[2]}")
 
 
 def _example(column: Column) -> Message:

@@ -11,6 +11,8 @@ const OUT_OF_TIME = "out_of_time";
 /** Milliseconds until the line is shown: of what was known already nothing is to be seen. */
 const PATIENCE = 300;
 const SECOND = 1000;
+/** Milliseconds within which a job has ended that needed none. */
+const SOON = 5000;
 
 /** Addresses whose requests took too long: the next ones are jobs at once. @type {Set<string>} */
 const slow = new Set();
@@ -61,6 +63,7 @@ export function askPatiently(address, body, signal) {
  * @param {AbortSignal} signal
  */
 async function asJob(address, body, place, signal) {
+  const start = performance.now();
   const own = new AbortController();
   const { line, told, end } = lineOf(address, () => own.abort());
   const leave = () => own.abort();
@@ -70,6 +73,7 @@ async function asJob(address, body, place, signal) {
   try {
     const found = await (await runJob(address, body, { place, signal: own.signal, told })).json();
     drop(place); // its answer is here
+    if (performance.now() - start < SOON) slow.delete(address); // the next one may be waited for again
     return found;
   } catch (error) {
     signal.throwIfAborted();

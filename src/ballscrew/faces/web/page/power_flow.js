@@ -3,13 +3,13 @@
 import { operationOf } from "./chart_parts.js";
 import { wordsOf } from "./charts.js";
 import { element, scrolling, table } from "./dom.js";
+import { shape } from "./shapes.js";
 import { text } from "./texts.js";
 import * as units from "./units.js";
 
 /** One flow of power, W: a loss has the name of its part of the torque. @typedef {{ name: string, power: number, isLoss: boolean }} Flow */
 /** What comes in and what goes out; both sums are equal. @typedef {{ sources: Flow[], sinks: Flow[], sum: number }} Balance */
 
-const SVG = "http://www.w3.org/2000/svg";
 /** Sizes in the picture, in its own units: where bands begin and end, and how wide all of the power is. */
 const [WIDTH, LEFT, TRUNK, SPREAD, RIGHT] = [760, 200, 310, 340, 470];
 const WHOLE = 150;
@@ -118,18 +118,6 @@ function key(words, colour) {
 }
 
 /**
- * @param {string} name
- * @param {Record<string, string | number>} attributes
- * @param {(string | Node)[]} children
- */
-function svg(name, attributes, ...children) {
-  const found = document.createElementNS(SVG, name);
-  for (const [one, value] of Object.entries(attributes)) found.setAttribute(one, String(value));
-  found.append(...children);
-  return found;
-}
-
-/**
  * Bands from the left to the trunk in the middle, and from there to the right; all widths have one scale.
  *
  * @param {Balance} balance
@@ -160,12 +148,12 @@ function picture({ sources, sinks, sum }, words, colour, label) {
       const amount = units.formatted("friction_power", flow.power, 3);
       const at = { x: isIn ? LEFT - 2 * BAR : RIGHT + 2 * BAR, "text-anchor": isIn ? "end" : "start" };
       /** @param {string} name @param {number} y @param {string} said */
-      const line = (name, y, said) => svg("text", { class: name, ...at, y }, said);
+      const line = (name, y, said) => shape("text", { class: name, ...at, y }, said);
       row += room;
       inner += own;
       return [
-        svg("path", { ...common, d: band(from, start, to, end, own) }),
-        svg("rect", {
+        shape("path", { ...common, d: band(from, start, to, end, own) }),
+        shape("rect", {
           ...common,
           "data-flow": `${side}-${flow.name}`,
           x: isIn ? LEFT - BAR : RIGHT,
@@ -178,10 +166,10 @@ function picture({ sources, sinks, sum }, words, colour, label) {
       ];
     });
   };
-  return svg(
+  return shape(
     "svg",
     { viewBox: `0 0 ${WIDTH} ${height + 2 * MARGIN}`, role: "img", "aria-label": label },
-    svg("rect", { class: "trunk", x: TRUNK, y: top, width: SPREAD - TRUNK, height: WHOLE }),
+    shape("rect", { class: "trunk", x: TRUNK, y: top, width: SPREAD - TRUNK, height: WHOLE }),
     ...side("in", sources),
     ...side("out", sinks),
   );

@@ -82,7 +82,7 @@ export function show(swept, answer) {
   const torque = answer.results.screw_torque;
   const x = text("stribeck.film");
   const y = parts.titled("screw_torque", text("chart.torque"));
-  const regime = REGIMES.find(([, , to]) => (now ?? 0) < to)?.[0] ?? "";
+  const regime = (now && REGIMES.find(([, , to]) => now < to)?.[0]) || "";
   const description = { film: units.digits(now), torque: units.formatted("screw_torque", torque), regime };
   return draw(ID, {
     name: "stribeck_curve",

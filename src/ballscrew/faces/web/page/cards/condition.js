@@ -10,7 +10,7 @@ import * as units from "../units.js";
 import { vocabulary } from "../vocabulary.js";
 import { caseFile, commandLine, dropZone, exampleButton, faultLines } from "./log_parts.js";
 import { flags, optionFields } from "./option_fields.js";
-import { data, quantity, TEMPERATURE, TORQUE } from "./quantities.js";
+import { data, HOURS, TEMPERATURE, TORQUE } from "./quantities.js";
 import { question } from "./question.js";
 import { lines } from "./records.js";
 
@@ -22,7 +22,6 @@ const SUMS = "condition-sums-chart";
 /** Seconds of a day, and from which a time is in days, and not in hours. */
 const DAY = 86400;
 const LONG = 90 * DAY;
-const HOURS = quantity("s", "h");
 /** Logs at most: more tests stand in a table. */
 const MOST = 100;
 const GREEN = "#009E73";

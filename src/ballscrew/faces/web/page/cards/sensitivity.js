@@ -2,6 +2,7 @@
 // that matters most first, and what to find out to halve the band.
 
 import { jump } from "../cards.js";
+import { menu } from "../controls.js";
 import { element, scrolling, table } from "../dom.js";
 import { documented } from "../help.js";
 import { labelOf } from "../messages.js";
@@ -39,8 +40,8 @@ export function setUp(holder) {
       element(
         "p",
         { class: "card-start" },
-        ...menu("output", OUTPUTS, (name) => textOr(`results.${name}`, name), given, change),
-        ...menu("method", METHODS, (name) => textOr(`sensitivity.method.${name}`, name), given, change),
+        ...optionMenu("output", OUTPUTS, (name) => textOr(`results.${name}`, name), given, change),
+        ...optionMenu("method", METHODS, (name) => textOr(`sensitivity.method.${name}`, name), given, change),
       ),
     ],
   });
@@ -55,15 +56,16 @@ export function setUp(holder) {
  * @param {import("./option_fields.js").Given} given
  * @param {() => void} change
  */
-function menu(name, values, words, given, change) {
+function optionMenu(name, values, words, given, change) {
   const id = `sensitivity-${name}`;
-  const select = element("select", { id }, ...values.map((value) => element("option", { value }, words(value))));
-  select.addEventListener("change", () => {
-    if (select.value === values[0]) delete given[name];
-    else given[name] = select.value;
+  /** @type {[string, string][]} */
+  const options = values.map((value) => [value, words(value)]);
+  const take = (/** @type {string} */ value) => {
+    if (value === values[0]) delete given[name];
+    else given[name] = value;
     change();
-  });
-  return [element("label", { for: id }, text(`sensitivity.${name}`)), select];
+  };
+  return [element("label", { for: id }, text(`sensitivity.${name}`)), menu(options, values[0], take, { id })];
 }
 
 /** @param {SensitivityAnswer} found */
