@@ -204,6 +204,7 @@ export function sketch(tables, inputs) {
       {
         type: "button",
         class: isGiven ? "part-of-axis" : "part-of-axis absent",
+        id: `axis-part-${part.name}`,
         "data-part": part.name,
         "data-to": found.path,
         title: labelIn(found.path),

@@ -1,7 +1,7 @@
 // Views: the tasks of the page, each with its panes, of which one is seen. Which section stands where says the page
 // itself: ``data-pane="torque.map"``, or several of them.
 
-import { byId, element } from "./dom.js";
+import { byId, element, keepFocus } from "./dom.js";
 import { store } from "./store.js";
 import { textOr } from "./texts.js";
 
@@ -99,7 +99,8 @@ function showTabs() {
   );
   const beside = all.filter((one) => viewOf(one) === viewOf(pane));
   byId("panes").hidden = beside.length < 2;
-  byId("panes").replaceChildren(...beside.map((one) => tab(one, one === pane, textOr(`view.${one}`, one))));
+  const tabs = beside.map((one) => tab(one, one === pane, textOr(`view.${one}`, one)));
+  byId("panes").replaceChildren(...(beside.length < 2 ? [] : tabs));
 }
 
 /**
@@ -109,18 +110,17 @@ function showTabs() {
  */
 function tab(address, isCurrent, words) {
   const chosen = isCurrent ? "page" : undefined;
-  return element("button", { type: "button", "data-to": address, "aria-current": chosen }, words);
+  return element("button", { type: "button", id: `to-${address}`, "data-to": address, "aria-current": chosen }, words);
 }
 
 /** Show the pane of the state, and hide the others; the tab that has the focus keeps it. */
 export function show() {
   const pane = current();
-  const focused = document.activeElement?.getAttribute("data-to");
-  showTabs();
+  if (document.body.dataset.seenPane === pane) return; // every key comes here
+  keepFocus(showTabs);
   for (const one of places()) one.classList.toggle("elsewhere", !panesOf(one).includes(pane));
   document.body.dataset.seenView = viewOf(pane);
   document.body.dataset.seenPane = pane;
-  if (focused) /** @type {HTMLElement | null} */ (document.querySelector(`[data-to="${focused}"]`))?.focus();
 }
 
 export function setUp() {

@@ -2,7 +2,7 @@
 
 import { sketch } from "../axis_sketch.js";
 import * as designs from "../designs.js";
-import { element, scrolling, table } from "../dom.js";
+import { element, redraw, scrolling, table } from "../dom.js";
 import { documented } from "../help.js";
 import { said } from "../messages.js";
 import { draw, hide, layout, watch } from "../plot.js";
@@ -109,12 +109,7 @@ export function setUp(holder) {
 
   /** The sketch; the focus stays at the part where it is. */
   function drawSketch() {
-    const { activeElement } = document;
-    const part =
-      picture.contains(activeElement) && activeElement instanceof HTMLElement ? activeElement.dataset.part : "";
-    picture.replaceChildren(sketch(tables, /** @type {Tables} */ (answer?.inputs ?? {})));
-    const button = part ? picture.querySelector(`button[data-part="${part}"]`) : null;
-    if (button instanceof HTMLElement) button.focus({ preventScroll: true });
+    redraw(picture, sketch(tables, /** @type {Tables} */ (answer?.inputs ?? {})));
   }
 
   /** The fields of bearings and guides that the case has. */
