@@ -88,7 +88,7 @@ def test_everything_is_reached_by_tab_and_is_seen_to_be(visit):
         "u-operation-axial_load",
         "system",
         "share",
-        "Checks",
+        "to-checks",
         "band",
     ):
         assert name in reached

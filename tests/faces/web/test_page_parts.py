@@ -33,9 +33,10 @@ def go(opened):
     def to(fragment=PAPER):
         if not opened.page.url.endswith(fragment):
             before, after = (VIEW.sub("", one) for one in ("#" + opened.page.url.partition("#")[2], fragment))
-            busy = BUSY if before != after else ""  # another view of the same case asks for nothing
-            opened.page.evaluate(f"{busy}; location.hash = {json.dumps(fragment)}")
-            opened.page.wait_for_function("(fragment) => location.hash === fragment", arg=fragment)
+            is_look = before == after  # another view of the same case asks for nothing
+            opened.page.evaluate(f"{'' if is_look else BUSY}; location.hash = {json.dumps(fragment)}")
+            if is_look:
+                opened.page.wait_for_function("(fragment) => location.hash === fragment", arg=fragment)
         return opened.settle()
 
     return to

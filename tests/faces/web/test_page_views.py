@@ -60,7 +60,7 @@ def test_back_returns_to_the_view_and_undo_takes_back_an_edit(visit):
 def test_a_link_within_the_page_takes_the_place_of_views_that_were_left(visit):
     """Its entry has the number of a view that one had gone back from, and is no view itself."""
     here = visit().open("#A=paper&band=0")
-    here.go("nut.film").page.go_back()
+    here.go("checks").page.go_back()
     here.page.wait_for_function(f"() => {PANE} === 'torque.speed'")
     here.page.evaluate("location.hash = '#A=paper&A.operation.axial_load=3000+N&band=0'")
     here.page.wait_for_function("() => document.querySelector('#f-operation-axial_load').value === '3000'")

@@ -159,7 +159,7 @@ function picture({ sources, sinks, sum }, words, colour, label) {
           x: isIn ? LEFT - BAR : RIGHT,
           y: outer,
           width: BAR,
-          height: own,
+          height: String(own), // as it is: a loss may be a hundredth of a pixel
         }),
         line("name", centre - LINE / 4, words(flow)),
         line("amount", centre + (3 * LINE) / 4, `${amount} · ${shareOf(flow.power, sum)}`),
