@@ -1,6 +1,6 @@
 # make demo: set up and reproduce the paper.  make test: set up and run the tests (make test-all: the long ones too).
 # make app: the page in the browser.
-.PHONY: app demo test test-all lint types layers js docs bench hostile mutate mutate-check constraints floors readme rooms interpreter interpreter-check \
+.PHONY: app demo test test-all lint types layers js docs pages bench hostile mutate mutate-check constraints floors readme rooms interpreter interpreter-check \
 	screenshots dist release trials workflows clean
 
 .DEFAULT_GOAL := demo
@@ -79,15 +79,18 @@ js: $(READY) $(NODE_READY)
 	$(BIN)/python tools/page/openapi.py tools/page/api.json
 	cd tools/page && npm run --silent check
 
-# into out/docs; one page alone, with its commands and its parts only, into out/page: make docs PAGE=howto/duty
+# what programs make for the pages, written into them: outputs of commands, tables, figures, numbers, formulas. One page
+# by PAGE=howto/duty; CHECK=1 only compares
+pages: $(READY)
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python docs/writer/write.py $(if $(CHECK),--check) $(PAGE)
+
+# into out/docs: seconds, as nothing is computed
 # What is written while a build goes on is not whole: out/docs/.built stands from its end to the next
 docs: $(READY)
-	@$(if $(PAGE),,rm -f out/docs/.built)
-	OPENBLAS_NUM_THREADS=1 $(BIN)/sphinx-build -W --keep-going -q -b html $(if $(PAGE),$(ALONE),docs out/docs)
-	@$(if $(PAGE),,touch out/docs/.built)
-	$(if $(PAGE),,$(BIN)/python -m pytest -q -n 0 -k built tests/docs/test_links.py)
-
-ALONE = -t alone -D root_doc=$(PAGE) -D include_patterns=$(PAGE).md -d out/page/.doctrees/$(PAGE) docs out/page
+	@rm -f out/docs/.built
+	$(BIN)/sphinx-build -W --keep-going -q -b html docs out/docs
+	@touch out/docs/.built
+	$(BIN)/python -m pytest -q -n 0 -k built tests/docs/test_links.py
 
 readme: $(READY)
 	$(BIN)/python docs/make_readme.py

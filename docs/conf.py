@@ -1,4 +1,4 @@
-"""Sphinx configuration: builds offline; the program computes every figure, table and claim."""
+"""Sphinx configuration: builds offline, from pages that have all they show (``make pages`` writes it into them)."""
 
 import sys
 from pathlib import Path
@@ -19,35 +19,18 @@ extensions = [
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
     "sphinx.ext.viewcode",
-    "sphinxcontrib.bibtex",
     "mathml",
-    "command",
-    "equation",
+    "code_links",
     "navigation",
-    "parts",
     "static_page",
 ]
-myst_enable_extensions = ["dollarmath", "colon_fence", "deflist", "substitution"]
+myst_enable_extensions = ["dollarmath", "colon_fence", "deflist"]
 myst_heading_anchors = 3
 html_math_renderer = "mathml"
 html_theme = "furo"
 html_title = "ballscrew"
 html_static_path = ["_static"]
 html_css_files = ["tables.css", "theory.css"]
-exclude_patterns = ["generated/**"]
-bibtex_bibfiles = [str(ROOT / "src/ballscrew/data/references.bib")]
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"
-suppress_warnings = ["myst.header"]  # the included claims start with a heading of their own
-if tags.has("alone"):  # noqa: F821  (Sphinx has it)
-    # the other pages, which it refers to, are not there
-    extensions.remove("sphinx.ext.viewcode")
-    extensions.remove("static_page")
-    suppress_warnings += [
-        "myst.xref_missing",
-        "ref.doc",
-        "ref.ref",
-        "toc.excluded",
-        "toc.not_readable",
-        "bibtex.key_not_found",
-    ]
+suppress_warnings = ["myst.header"]  # the claims, written into their page, start with a heading of their own

@@ -292,7 +292,7 @@ def _place(equation: PaperEquation) -> str:
 
 
 def _formulas(names: tuple[str, ...]) -> list[str]:
-    return [line for name in names for line in (f"```{{equation}} {name}", "```", "")]
+    return [line for name in names for line in (f"<!-- equation: {name} -->", "<!-- end -->", "")]
 
 
 @functools.cache

@@ -5,16 +5,29 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from ballscrew.faces.site import site
+import ballscrew
 
 #: The models and the kinds of nut of that page: ``ballscrew site`` writes all of them.
 MODELS, NUTS = ("reference",), ("row", "single", "double", "oversize-balls", "double+elastic")
 
 
+SOURCES = Path(ballscrew.__file__).parent
+
+
 def written(app: Any, error: Exception | None) -> None:
-    """Write the page where the others are, once they are there."""
-    if error is None and app.builder.format == "html":
-        site.write(Path(app.outdir) / "page", site.site(MODELS, NUTS))
+    """Write the page where the others are, once they are there; not again before a source is newer than it."""
+    folder = Path(app.outdir) / "page"
+    if error is None and app.builder.format == "html" and not _is_newer_than_sources(folder / "index.html"):
+        from ballscrew.faces.site import site  # loads all of the program
+
+        site.write(folder, site.site(MODELS, NUTS))
+
+
+def _is_newer_than_sources(page: Path) -> bool:
+    if not page.is_file():
+        return False
+    sources = (path for path in SOURCES.rglob("*") if path.is_file() and path.suffix != ".pyc")
+    return page.stat().st_mtime > max(path.stat().st_mtime for path in sources)
 
 
 def setup(app: Any) -> dict[str, Any]:

@@ -9,25 +9,28 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
+WRITER = DOCS / "writer"
 
 _FENCE = re.compile(r"^(?P<indent>\s*)(?P<ticks>`{3,})(?P<info>.*)$")
+_WRITTEN, _END = re.compile(r"^<!-- (?:command|include|file|equation): "), "<!-- end -->"
 _NOT_RUN = re.compile(r"^<!-- not run: (?P<reason>.+) -->$")
 
 
 @dataclasses.dataclass(frozen=True)
 class Block:
-    """One fenced block: what stands behind its ticks, its text, its line, and why it is not run (or nothing)."""
+    """One fenced block: what stands behind its ticks, its text, its line, why it is not run (or nothing), who wrote it."""
 
     info: str
     text: str
     line: int
     not_run: str
+    #: Whether ``docs/writer`` wrote it: what it shows was run, and is compared there.
+    written: bool
 
 
 def pages() -> list[Path]:
-    """Every page that is written by hand."""
-    written = (path for path in DOCS.rglob("*.md") if DOCS / "generated" not in path.parents)
-    return [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(written)]
+    """Every page."""
+    return [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(DOCS.rglob("*.md"))]
 
 
 def name(page: Path) -> str:
@@ -39,8 +42,10 @@ def blocks(page: Path) -> list[Block]:
     """The fenced blocks of a page, in their order."""
     found: list[Block] = []
     lines = page.read_text(encoding="utf-8").splitlines()
-    number = 0
+    number, written = 0, False
     while number < len(lines):
+        if _WRITTEN.match(lines[number]) or lines[number] == _END:
+            written = lines[number] != _END
         fence = _FENCE.match(lines[number])
         if fence is None:
             number += 1
@@ -58,6 +63,7 @@ def blocks(page: Path) -> list[Block]:
                 "".join(f"{line}\n" for line in lines[first + 1 : number]),
                 first + 1,
                 marker["reason"] if marker else "",
+                written,
             )
         )
         number += 1
@@ -69,15 +75,13 @@ def markers(page: Path) -> int:
     return sum(bool(_NOT_RUN.match(line.strip())) for line in page.read_text(encoding="utf-8").splitlines())
 
 
-def commands(page: Path) -> list[tuple[int, str]]:
-    """What a page tells people to type, as they type it, and the line it stands in."""
-    return [found for block in blocks(page) for found in _commands_of(block)]
+def commands(page: Path, written: bool = False) -> list[tuple[int, str]]:
+    """What a page tells people to type, as they type it, and the line it stands in; or only that whose output it shows."""
+    return [found for block in blocks(page) if block.written or not written for found in _commands_of(block)]
 
 
 def _commands_of(block: Block) -> Iterator[tuple[int, str]]:
-    if block.info.startswith("{command}"):
-        yield block.line, block.info.removeprefix("{command}").strip()
-    elif block.info == "console":
+    if block.info == "console":
         typed = ""
         for number, line in enumerate(block.text.splitlines(), start=block.line + 1):
             if typed.endswith("\\"):
@@ -87,7 +91,7 @@ def _commands_of(block: Block) -> Iterator[tuple[int, str]]:
             else:
                 continue
             if not typed.endswith("\\"):
-                yield number, without_comment(typed)
+                yield number, re.sub(r" *\\\n *", " ", typed) if block.written else without_comment(typed)
 
 
 def without_comment(command: str) -> str:

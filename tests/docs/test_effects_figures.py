@@ -141,7 +141,8 @@ def test_all_the_page_shows_is_written(page, tmp_path, monkeypatch):
     monkeypatch.setattr(page.charts, "save_as", lambda figure, path, kind: path.touch())
     page.write(tmp_path)
     text = (ROOT / "docs" / "effects.md").read_text(encoding="utf-8")
-    shown = set(re.findall(r"generated/effects/([\w.]+)", text))
+    shown = set(re.findall(r"figures/effects/([\w.]+)|include: effects/([\w.]+)", text))
+    shown = {figure or table for figure, table in shown}
     assert {f"{name}.svg" for name in PLOTS} <= shown
     assert all((tmp_path / name).is_file() for name in shown)
 
@@ -151,5 +152,5 @@ def test_all_numbers_of_the_pages_are_known(page, monkeypatch):
     validation_tables = importlib.import_module("validation_tables")
     numbers = {**page.numbers(), **validation_tables.numbers()}
     for path in (ROOT / "docs").glob("*.md"):
-        for name in re.findall(r"\{\{ (\w+) \}\}", path.read_text(encoding="utf-8")):
+        for name in re.findall(r"<!--= (\w+)-->", path.read_text(encoding="utf-8")):
             assert name in numbers, (path, name)

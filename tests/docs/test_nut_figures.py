@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[2]
 
 def test_the_page_shows_all():
     text = (ROOT / "docs" / "nuts.md").read_text(encoding="utf-8")
-    assert set(re.findall(r"generated/nuts/(\w+)\.svg", text)) == set(nut_figures.DRAWN)
+    assert set(re.findall(r"figures/nuts/(\w+)\.svg", text)) == set(nut_figures.DRAWN)
 
 
 @pytest.mark.parametrize("name", nut_figures.DRAWN)

@@ -4,13 +4,14 @@ import dataclasses
 import importlib
 import importlib.util
 import inspect
+import re
 import sys
 
 import pytest
 
 from ballscrew.basis.quantities import unit_of
 
-from .pages import DOCS, blocks, name, pages
+from .pages import DOCS, name, pages
 
 
 def loaded(path):
@@ -22,8 +23,8 @@ def loaded(path):
 
 
 @pytest.fixture(scope="module")
-def equation():
-    return loaded(DOCS / "_ext" / "equation.py")
+def equation(writer):
+    return writer.equation
 
 
 @pytest.fixture(scope="module")
@@ -35,23 +36,24 @@ def errata():
         sys.path.remove(str(DOCS))
 
 
+MARK = re.compile(r"^<!-- equation: (\S+) -->$", re.MULTILINE)
+
+
 def shown():
     """The functions whose formulas the pages show, by page."""
     for page in pages():
-        for block in blocks(page):
-            if block.info.startswith("{equation}"):
-                yield pytest.param(block.info.removeprefix("{equation}").strip(), id=f"{name(page)}:{block.line}")
+        for number, function in enumerate(MARK.findall(page.read_text(encoding="utf-8"))):
+            yield pytest.param(function, id=f"{name(page)}:{number}")
 
 
 @pytest.mark.parametrize("function", [*shown()])
 def test_formulas_have_their_letters_and_units(equation, function):
     module, _, called = function.rpartition(".")
     found = getattr(importlib.import_module(module), called)
-    # what the directive writes, without a page around it
-    text = equation._as_rst(function, found, "source.html")
-    assert ".. math::" in text
+    text = equation.as_markdown(function, "../")
+    assert text.count("\n$$\n") == 2
     for parameter in inspect.signature(found).parameters:
-        assert f"` {parameter.replace('_', ' ')}" in text, parameter
+        assert f"$ {parameter.replace('_', ' ')}" in text, parameter
     unit = unit_of(inspect.get_annotations(found, eval_str=True)["return"])
     assert unit == "1" or "the result (" in text
 
@@ -65,10 +67,8 @@ def test_letters_are_written_as_in_the_formula(equation):
 
 
 def test_a_function_without_a_formula_is_refused(equation):
-    hertz = importlib.import_module("ballscrew.physics.equations.hertz")
     with pytest.raises(ValueError, match="no formula"):
-        # likewise
-        equation._as_rst("ballscrew.physics.equations.hertz.ellipticity", hertz.ellipticity, "source.html")
+        equation.as_markdown("ballscrew.physics.equations.hertz.ellipticity", "")
 
 
 def test_every_erratum_has_a_section_and_a_test(errata):
@@ -77,7 +77,7 @@ def test_every_erratum_has_a_section_and_a_test(errata):
     assert page.count("**Held by** `test_") == len(errata.ERRATA) == page.count("**What it does.**")
     for erratum in errata.ERRATA:
         for function in (*erratum.printed, *erratum.right):
-            assert f"```{{equation}} {function}\n" in page
+            assert f"<!-- equation: {function} -->\n" in page
         assert erratum.right
 
 

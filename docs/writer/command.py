@@ -1,13 +1,9 @@
-"""Directive ``{command} .venv/bin/ballscrew run case.toml``: a command and its output, run while the page is built.
+"""The commands of a page, and what they print.
 
 The commands of a page run in one folder, one after the other, with the examples in it: a later one finds what an
-earlier one wrote. What they print is kept under ``generated/commands`` with the files of the program and of the
+earlier one wrote. What they print is kept under ``out/pages/commands`` with the files of the program and of the
 examples that the command, and all commands before it on the page, have read (``kept.py``). So only what may have
 changed is run again.
-
-``:show: Torque .. at rest | Contacts ..`` shows parts of the output, by words in their first and last lines, and says
-with a ``…`` where others are left out. ``:keep: out/map.png`` puts a file that the command wrote where the page finds
-it: ``generated/commands/PAGE/map.png``.
 """
 
 from __future__ import annotations
@@ -23,47 +19,22 @@ import sys
 import tempfile
 import threading
 import weakref
-from concurrent.futures import Future, ThreadPoolExecutor, wait
 from pathlib import Path
 from typing import Any
 
 import kept
 import reads
-from docutils import nodes
-from docutils.parsers.rst import directives
 from kept import ROOT, Kept
-from sphinx.util.docutils import SphinxDirective
 
+HERE = Path(__file__).parent
 DOCS = ROOT / "docs"
-KEPT = DOCS / "generated" / "commands"
+#: Where what programs made for the pages is kept.
+MADE = ROOT / "out" / "pages"
+KEPT = MADE / "commands"
 #: A command of the program itself, which a fork of a process that has loaded it runs; what a shell is needed for.
 PROGRAM, MODULE, _SHELL = ".venv/bin/ballscrew", "ballscrew.faces.cli", re.compile(r"[|&;<>$`*?~\n]")
 #: Columns of the terminal, and of a command.
 WIDTH, WIDEST = "100", 98
-
-
-class Command(SphinxDirective):
-    """A command with its output."""
-
-    required_arguments = 1
-    final_argument_whitespace = True
-    option_spec = {"show": directives.unchanged, "keep": directives.unchanged}  # noqa: RUF012  (docutils' own way)
-
-    def run(self) -> list[nodes.Node]:
-        typed = " ".join(self.arguments[0].split())
-        if self.env.docname in _begun:
-            wait([_begun.pop(self.env.docname)])  # an error there occurs again here, and is reported here
-        page = self.env.temp_data.setdefault("commands", Page(self.env.docname, kept.files()))
-        keep = _words(self.options.get("keep", ""))
-        try:
-            said = _chosen(page.said(typed, keep), self.options.get("show", ".."))
-        except RuntimeError as error:
-            raise self.error(str(error)) from error
-        _versions(self.env)[self.env.docname] = page.version
-        text = f"$ {_displayed(typed)}\n{said}"
-        block = nodes.literal_block(text, text, language="console")
-        self.set_source_info(block)
-        return [block]
 
 
 class Page:
@@ -76,7 +47,6 @@ class Page:
         #: All commands so far, what they have read, and the digest of what they made.
         self.typed: list[str] = []
         self.read: set[str] = set()
-        self.version = ""
         #: Commands whose output was kept; they run only if a later command needs their files.
         self.waiting: list[str] = []
 
@@ -107,7 +77,6 @@ class Page:
 
     def _note(self, record: kept.Record) -> None:
         self.read |= set(record.read)
-        self.version = f"{self.version} {record.version}".strip()
 
     def _cause(self, keep: list[str]) -> str:
         return self._kept.cause(WIDTH, *self.typed, "kept:", *keep)
@@ -174,12 +143,12 @@ def _server() -> Any:
     sys.path.append(str(tests))
     from support.commands import Commands
 
-    found = Commands(DOCS / "_ext" / "libraries.py", [DOCS / "_ext", DOCS, tests])
+    found = Commands(HERE / "libraries.py", [HERE, DOCS, tests])
     atexit.register(found.close)
     return found
 
 
-def _chosen(said: str, show: str) -> str:
+def chosen(said: str, show: str) -> str:
     """Select parts of an output: ``FROM .. TO | FROM .. TO``, from one line to another.
 
     Each part starts at the first line with FROM and ends at the next line with TO.
@@ -207,7 +176,7 @@ def _line_with(words: str, lines: list[str], first: int) -> int:
     raise RuntimeError(f"the command does not say: {words}")
 
 
-def _displayed(typed: str) -> str:
+def displayed(typed: str) -> str:
     """A long command with its options on lines of their own."""
     lines = [""]
     for word in re.split(r" (?=-)", typed):
@@ -217,64 +186,3 @@ def _displayed(typed: str) -> str:
         else:
             lines[-1] = f"{lines[-1]} {word}".strip() if len(lines) == 1 else f"{lines[-1]} {word}"
     return "\n".join(lines)
-
-
-#: Pages whose commands run in the background, while other parts of the documentation are made.
-_begun: dict[str, Future[None]] = {}
-_FENCE = re.compile(r"^```\{command\} (?P<typed>.+)\n(?P<options>(?::\w+:.*\n)*)", re.MULTILINE)
-
-
-def begin(pool: ThreadPoolExecutor, pages: dict[str, str]) -> None:
-    """Start the commands of pages in the background; ``pages``: their texts by name."""
-    for name, text in pages.items():
-        if _FENCE.search(text) and _version_at_hand(name, text) is None:
-            _begun[name] = pool.submit(_all_of, name, text)
-
-
-def _commands_of(text: str) -> list[tuple[str, list[str]]]:
-    """The commands in the text of a page, each with the files to keep."""
-    found = []
-    for fence in _FENCE.finditer(text):
-        keep = re.search(r"^:keep:(.*)$", fence["options"], re.MULTILINE)
-        found.append((" ".join(fence["typed"].split()), _words(keep[1] if keep else "")))
-    return found
-
-
-def _all_of(name: str, text: str) -> None:
-    page = Page(name, kept.files())
-    for typed, keep in _commands_of(text):
-        page.said(typed, keep)
-
-
-def _version_at_hand(name: str, text: str) -> str | None:
-    """The digest of what the commands of a page made, if nothing need run."""
-    page = Page(name, kept.files())
-    return page.version if all(page.at_hand(typed, keep) for typed, keep in _commands_of(text)) else None
-
-
-def _words(listed: str) -> list[str]:
-    return [word.strip() for word in listed.split(",") if word.strip()]
-
-
-def _versions(env: Any) -> dict[str, str]:
-    """Digest of what the commands of a page made when it was read, by page."""
-    if not hasattr(env, "ballscrew_commands"):
-        env.ballscrew_commands = {}
-    return env.ballscrew_commands
-
-
-def _outdated(_app: Any, env: Any, _added: Any, _changed: Any, _removed: Any) -> list[str]:
-    """Pages that show another output than is kept, or one that is being made."""
-    return [
-        page
-        for page, version in _versions(env).items()
-        if page in env.found_docs
-        and (page in _begun or _version_at_hand(page, (DOCS / f"{page}.md").read_text(encoding="utf-8")) != version)
-    ]
-
-
-def setup(app: Any) -> dict[str, bool]:
-    KEPT.mkdir(parents=True, exist_ok=True)
-    app.add_directive("command", Command)
-    app.connect("env-get-outdated", _outdated)
-    return {"parallel_read_safe": False, "parallel_write_safe": True}

@@ -9,14 +9,14 @@ import json
 import sys
 from pathlib import Path
 
-GENERATED = Path(__file__).parents[1] / "generated"
+MADE = Path(__file__).parents[2] / "out" / "pages"
 
 
 def make(name: str, maker: str) -> None:
     """Call the function, and write what it returns."""
     module, _, function = maker.partition(":")
     make = getattr(importlib.import_module(module), function)
-    target = GENERATED / name
+    target = MADE / name
     target.parent.mkdir(parents=True, exist_ok=True)
     if not target.suffix:
         make(target)

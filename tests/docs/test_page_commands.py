@@ -1,14 +1,11 @@
-"""The directive that shows commands with their output: what it runs, what it keeps, what it shows."""
-
-import sys
+"""Commands of pages and their output: what is run, what is kept, what is shown."""
 
 import pytest
 
 from support.commands import Commands
 
-from .pages import DOCS, ROOT
+from .pages import ROOT, WRITER
 
-EXTENSIONS = DOCS / "_ext"
 #: A program that stands in for the one of the pages: two rooms, of which it loads one, and a table that it reads.
 PROGRAM = {
     "src/screw/__init__.py": "",
@@ -26,7 +23,7 @@ PROGRAM = {
 #: What forks in place of the libraries: a process that has loaded nothing.
 SERVER = f"""
 import sys
-sys.path[:0] = [{str(EXTENSIONS)!r}, {str(ROOT / "tests")!r}]
+sys.path[:0] = [{str(WRITER)!r}, {str(ROOT / "tests")!r}]
 import reads
 reads.listen()
 from support import fork_server
@@ -34,23 +31,9 @@ fork_server.serve(sys.argv[1])
 """
 
 
-@pytest.fixture(scope="module")
-def extensions():
-    """The modules of the extension, found for these tests alone."""
-    sys.path.insert(0, str(EXTENSIONS))
-    import command
-    import kept
-    import reads
-
-    yield command, kept, reads
-    sys.path.remove(str(EXTENSIONS))
-    for name in ("command", "kept", "reads"):
-        del sys.modules[name]
-
-
 @pytest.fixture
-def command(extensions, tmp_path, monkeypatch):
-    module, kept, _ = extensions
+def command(writer, tmp_path, monkeypatch):
+    module, kept = writer.command, writer.kept
     monkeypatch.setattr(module, "KEPT", tmp_path / "kept")
     module.KEPT.mkdir()
     of_program = kept.Files(ROOT / "examples")  # no sources there: what a shell runs depends on none of them
@@ -60,9 +43,9 @@ def command(extensions, tmp_path, monkeypatch):
 
 
 @pytest.fixture
-def program(extensions, tmp_path, monkeypatch):
+def program(writer, tmp_path, monkeypatch):
     """A repository with a program in it, and the function that runs it on a page and says whether it ran."""
-    module, kept, _ = extensions
+    module, kept = writer.command, writer.kept
     root = tmp_path / "repository"
     for name, text in PROGRAM.items():
         (root / name).parent.mkdir(parents=True, exist_ok=True)
@@ -188,19 +171,16 @@ def test_a_file_that_changes_while_the_command_runs_is_another_to_the_next_build
     ],
 )
 def test_parts_are_shown_and_gaps_are_said(command, show, expected):
-    # without a page around it
-    assert command._chosen("one\ntwo\nthree\nfour\n", show) == expected
+    assert command.chosen("one\ntwo\nthree\nfour\n", show) == expected
 
 
 def test_words_that_are_not_there_are_an_error(command):
     with pytest.raises(RuntimeError, match="does not say: five"):
-        # likewise
-        command._chosen("one\n", "five ..")
+        command.chosen("one\n", "five ..")
 
 
 def test_long_commands_stand_on_several_lines(command):
     typed = ".venv/bin/ballscrew sweep case.toml " + " ".join(f'--vary number_{i}="1, 2, 3"' for i in range(5))
-    # likewise
-    shown = command._displayed(typed)
+    shown = command.displayed(typed)
     assert all(len(line) <= 100 for line in shown.splitlines())
     assert " ".join(shown.replace("\\\n", " ").split()) == typed

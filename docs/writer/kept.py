@@ -24,10 +24,10 @@ import reads
 ROOT = Path(__file__).parents[2]
 #: Folders whose files are read before anything runs, and what in the repository is made, not read.
 SOURCES = "src", "examples", "docs", "benchmarks", "tests"
-MADE = ".git", ".venv", "out", "docs/generated"
+MADE = ".git", ".venv", "out", "docs/figures"
 #: What runs programs and keeps their output.
 HERE = (
-    *(f"docs/_ext/{name}.py" for name in ("command", "kept", "libraries", "reads", "recorded")),
+    *(f"docs/writer/{name}.py" for name in ("command", "kept", "libraries", "reads", "recorded")),
     "tests/support/commands.py",
     "tests/support/fork_server.py",
 )
@@ -49,6 +49,8 @@ class Files:
         for path in sorted(folder.iterdir()):
             if path.name == "__pycache__" or path.relative_to(self.root).as_posix() in MADE:
                 continue
+            if path.suffix == ".md" and self.root / "docs" in path.parents:
+                continue  # what commands and parts are written into
             if path.is_dir():
                 yield from self._below(path)
             yield path
@@ -119,11 +121,6 @@ class Record:
     said: str
     made: Mapping[str, str]
     read: Mapping[str, str]
-
-    @property
-    def version(self) -> str:
-        """Digest of what was made."""
-        return _hash(json.dumps([self.said, sorted(self.made.items())]).encode())
 
 
 class Kept:

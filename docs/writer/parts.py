@@ -1,0 +1,88 @@
+"""Generated parts of pages: tables, figures and numbers, made again if a file that they depend on has changed."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import command
+import kept
+from command import MADE
+from kept import ROOT, Kept, Record
+
+#: What makes each part. A name with a suffix is a file, else it is a folder.
+PARTS = {
+    "validation": "validation_tables:write",
+    "calibration": "calibration_pages:write",
+    "nuts": "nut_tables:write",
+    "accuracy.md": "accuracy_table:page",
+    "olaru2005": "ballscrew.faces.cli.reproduction:reproduce_olaru2005",
+    "effects": "effect_tables:write",
+    "theory": "theory_figures:write",
+    "uncertainty": "uncertainty_tables:write",
+    "warm_up": "warm_up_tables:write",
+    "starvation": "starvation_tables:write",
+    "sensitivity": "sensitivity_figures:write",
+    "errata.md": "errata_page:page",
+    "bearings": "bearing_comparison:write",
+    "api": "api_tables:write",
+    "cards.md": "card_table:tables",
+    "columns.md": "column_table:column_table",
+    "fields.md": "field_table:field_table",
+    "slots.md": "law_tables:slots_table",
+    "laws.md": "law_tables:laws_table",
+    "duty_examples.md": "duty_examples:table",
+    "bibliography.md": "sources:listed",
+}
+#: Numbers by what their names begin with; the last has all others.
+NUMBERS = {
+    "validation_": ("numbers/validation.json", "validation_tables:numbers"),
+    "t_": ("numbers/theory.json", "theory_numbers:numbers"),
+    "": ("numbers/effects.json", "effect_tables:numbers"),
+}
+MAKERS = {**dict(NUMBERS.values()), **PARTS}
+
+
+def part_of(name: str) -> str:
+    """The part that a file belongs to: ``warm_up/effects.md`` to ``warm_up``."""
+    whole = [part for part in PARTS if name == part or name.startswith(f"{part}/")]
+    if not whole:
+        raise LookupError(f"nothing makes {name}")
+    return max(whole, key=len)
+
+
+def numbers_of(name: str) -> str:
+    """The part that has a number."""
+    return next(part for begin, (part, _) in NUMBERS.items() if name.startswith(begin))
+
+
+class Part:
+    """A part, and the record of what it was made from."""
+
+    def __init__(self, name: str, files: kept.Files) -> None:
+        self.name, self._kept = name, Kept(MADE / "kept", files)
+        self._cause = self._kept.cause("part", name, MAKERS[name])
+
+    def at_hand(self) -> Record | None:
+        """The record, if it holds and all files are as they were made."""
+        record = self._kept.found(self._cause)
+        return record if record and all(kept.digest_of(MADE / n) == d for n, d in record.made.items()) else None
+
+    def make(self) -> Record:
+        """Make it, and write down from what."""
+        arguments = [self.name, MAKERS[self.name]]
+        before = {path: path.stat().st_mtime_ns for path in self._there()}
+        code, said, heard = kept.run(command.program_at_hand(), "make_part", arguments, ROOT, {"COLUMNS": "100"})
+        if code:
+            raise RuntimeError(f"{self.name}: {MAKERS[self.name]} ended with {code}\n{said}")
+        made = {
+            path.relative_to(MADE).as_posix(): kept.digest_of(path)
+            for path in self._there()
+            if path.stat().st_mtime_ns != before.get(path)
+        }
+        return self._kept.keep(self._cause, "", made, self._kept.files.of_repository(heard, {}))
+
+    def _there(self) -> list[Path]:
+        target = MADE / self.name
+        if target.suffix:
+            return [target] if target.is_file() else []
+        return sorted(path for path in target.rglob("*") if path.is_file())

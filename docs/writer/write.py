@@ -1,0 +1,274 @@
+"""Write into the pages what programs make for them: outputs of commands, tables, figures, numbers, formulas, files.
+
+So a page reads where it lies, without a build. What is written stands between marks, which no reader sees::
+
+    <!-- command: .venv/bin/ballscrew run examples/feed_drive.toml
+    show: Torque .. at rest
+    keep: out/map.png -->
+    <!-- end -->
+
+- ``command``: the command and what it prints. ``show`` chooses parts, by words in their first and last lines, and says
+  with a ``…`` where others are left out. ``keep`` puts files that the command wrote into ``figures/PAGE``;
+- ``include``: a table or a text that a program makes (``parts.py`` lists them), or one of ``docs/*.inc``;
+- ``file``: a file of the repository as code, whole, ``from`` a line, ``to`` before another, or its first ``lines``;
+- ``equation``: the formula of a function, with its symbols, units and source;
+- ``<!--= NAME-->0.87<!--/-->``: a number.
+
+A figure is in ``figures/PART`` where a page shows it. ``python docs/writer/write.py`` writes; ``--check`` only
+compares, and fails where a page or a figure is not what its program makes; names of pages choose some of them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import json
+import os
+import re
+import shutil
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Future, ThreadPoolExecutor
+from pathlib import Path
+
+import figures
+import kept
+import sources
+from command import DOCS, MADE, Page, chosen, displayed
+from equation import as_markdown
+from kept import ROOT
+from parts import PARTS, Part, numbers_of, part_of
+
+FIGURES = DOCS / "figures"
+_BLOCK = re.compile(
+    r"^(?P<mark><!-- (?P<kind>command|include|file|equation): (?P<what>[^\n]+?)(?P<options>(?:\n[a-z]+: [^\n]+?)*) -->\n)"
+    r"(?P<written>.*?)^<!-- end -->$",
+    re.MULTILINE | re.DOTALL,
+)
+_NUMBER = re.compile(r"(?P<mark><!--= (?P<name>\w+)-->)(?P<written>[^<]*)<!--/-->")
+_FIGURE = re.compile(r"\((?:\.\./)*figures/(?P<name>[\w./-]+)\)")
+#: A figure that stands beside the text that shows it, where a program made both.
+_IMAGE = re.compile(r"(?P<before>!\[[^\]]*\]\()(?P<name>[\w.-]+)\)")
+
+
+class Failed(Exception):
+    """What programs make is not what the pages have, or cannot be made."""
+
+
+def pages() -> list[str]:
+    """The names of all pages."""
+    return sorted(path.relative_to(DOCS).with_suffix("").as_posix() for path in DOCS.rglob("*.md"))
+
+
+class Written:
+    """A page, and what programs make for it."""
+
+    def __init__(self, name: str, text: str | None = None) -> None:
+        self.name, self.path = name, DOCS / f"{name}.md"
+        self.text = self.path.read_text(encoding="utf-8") if text is None else text
+        self.blocks = [*_BLOCK.finditer(self.text)]
+        if self.text.count("\n<!-- end -->") != len(self.blocks):
+            raise Failed(f"{name}: a mark has no end, or an end no mark")
+        #: The way from the page to the folder of all pages.
+        self.up = "../" * name.count("/")
+
+    @property
+    def commands(self) -> list[tuple[str, list[str]]]:
+        """The commands, each with the files to keep."""
+        return [
+            (block["what"], _listed(_options(block).get("keep", "")))
+            for block in self.blocks
+            if block["kind"] == "command"
+        ]
+
+    @property
+    def numbers(self) -> set[str]:
+        """The names of the numbers in the text."""
+        return {number["name"] for number in _NUMBER.finditer(self.text)}
+
+    @property
+    def kept(self) -> set[str]:
+        """The files that its commands write, below the folder of figures."""
+        folder = self.name.replace("/", "-")
+        return {f"{folder}/{Path(name).name}" for _, keep in self.commands for name in keep}
+
+    @property
+    def figures(self) -> set[str]:
+        """The figures that it shows, below their folder."""
+        return figures_of(self.text)
+
+    @property
+    def parts(self) -> set[str]:
+        """The parts whose tables, numbers or figures it has."""
+        included = {block["what"] for block in self.blocks if block["kind"] in ("include", "file")}
+        return {
+            *(part_of(name) for name in included if not name.endswith(".inc") and not (ROOT / name).is_file()),
+            *map(part_of, self.figures - self.kept),
+            *map(numbers_of, self.numbers),
+        }
+
+    def outputs(self, files: kept.Files) -> list[str]:
+        """What its commands print."""
+        page = Page(self.name, files)
+        return [page.said(typed, keep) for typed, keep in self.commands]
+
+    def with_all(self, outputs: list[str], numbers: Mapping[str, str]) -> str:
+        """The text with everything in its place."""
+        said = iter(outputs)
+        text = _BLOCK.sub(lambda block: f"{block['mark']}{self._written(block, said)}<!-- end -->", self.text)
+        return _NUMBER.sub(lambda number: f"{number['mark']}{numbers[number['name']]}<!--/-->", text)
+
+    def _written(self, block: re.Match[str], said: Iterator[str]) -> str:
+        what, options = block["what"], _options(block)
+        if block["kind"] == "command":
+            return _fenced("console", f"$ {displayed(what)}\n{chosen(next(said), options.get('show', '..'))}")
+        if block["kind"] == "equation":
+            return as_markdown(what, self.up)
+        if block["kind"] == "file":
+            return self._file(what, options)
+        text = ((DOCS if what.endswith(".inc") else MADE) / what).read_text(encoding="utf-8")
+        folder = f"{self.up}figures/{what.rpartition('/')[0]}/"
+        return _apart(_IMAGE.sub(lambda image: f"{image['before']}{folder}{image['name']})", self._expanded(text)))
+
+    def _file(self, what: str, options: Mapping[str, str]) -> str:
+        found = ROOT / what if (ROOT / what).is_file() else MADE / what
+        lines = found.read_text(encoding="utf-8").splitlines()
+        first = _line(what, lines, options["from"], 0) if "from" in options else 0
+        last = _line(what, lines, options["to"], first) if "to" in options else int(options.get("lines", len(lines)))
+        language = {".toml": "toml", ".py": "python"}.get(found.suffix, "text")
+        return _fenced(language, "\n".join(lines[first:last]).strip("\n") + "\n")
+
+    def _expanded(self, text: str) -> str:
+        """A text that a program made, with the formulas and the sources that it names."""
+        whole = _BLOCK.sub(lambda block: as_markdown(block["what"], self.up), text)
+        return sources.cited(whole, self.up)
+
+
+def figures_of(text: str) -> set[str]:
+    """The figures that a text shows, below their folder."""
+    return {figure["name"] for figure in _FIGURE.finditer(text)}
+
+
+def _line(what: str, lines: list[str], words: str, first: int) -> int:
+    for number in range(first, len(lines)):
+        if words in lines[number]:
+            return number
+    raise Failed(f"{what} has no line with: {words}")
+
+
+def _options(block: re.Match[str]) -> dict[str, str]:
+    pairs = (line.partition(": ") for line in block["options"].strip("\n").splitlines())
+    return {name: value for name, _, value in pairs}
+
+
+def _listed(words: str) -> list[str]:
+    return [word.strip() for word in words.split(",") if word.strip()]
+
+
+def _fenced(language: str, text: str) -> str:
+    return f"```{language}\n{text}```\n"
+
+
+def _apart(text: str) -> str:
+    """A text with an empty line around it: else a table belongs to the mark before it."""
+    return "\n" + text.strip("\n") + "\n\n"
+
+
+class Made:
+    """All that is made for some pages: in the background, each thing once."""
+
+    def __init__(self, pages: list[Written]) -> None:
+        self._files = kept.files()
+        self._pool = ThreadPoolExecutor(max(2, (os.cpu_count() or 2) - 1))
+        wanted = {part for page in pages for part in page.parts}
+        order = [*(part for part in wanted if part not in PARTS), *(part for part in PARTS if part in wanted)]
+        self._parts = {name: self._pool.submit(self._part, name) for name in order}
+        self._outputs: dict[str, Future[list[str]]] = {
+            page.name: self._pool.submit(page.outputs, self._files) for page in pages if page.commands
+        }
+
+    def _part(self, name: str) -> None:
+        part = Part(name, self._files)
+        if part.at_hand() is None:
+            part.make()
+            print(f"made {name}", file=sys.stderr, flush=True)
+
+    def text(self, page: Written) -> str:
+        """The text of a page, once all of it is there."""
+        for name in page.parts:
+            self._parts[name].result()
+        numbers: dict[str, str] = {}
+        for name in {numbers_of(number) for number in page.numbers}:
+            numbers |= json.loads((MADE / name).read_text(encoding="utf-8"))
+        outputs = self._outputs[page.name].result() if page.name in self._outputs else []
+        return page.with_all(outputs, numbers)
+
+    def figure(self, name: str, page: Written) -> Path:
+        """The file of a figure as its program made it."""
+        return MADE / "commands" / name if name in page.kept else MADE / name
+
+    def close(self) -> None:
+        """Give up what is not made yet."""
+        self._pool.shutdown(wait=True, cancel_futures=True)
+
+
+def put(names: list[str], write: bool) -> list[str]:
+    """What differs between pages and programs; written, or only said."""
+    found = [Written(name) for name in names]
+    made = Made(found)
+    differ: list[str] = []
+    try:
+        for page in found:
+            text = made.text(page)
+            if text != page.text:
+                differ.append(_difference(page, text))
+                if write:
+                    page.path.write_text(text, encoding="utf-8")
+            for name in sorted(figures_of(text)):
+                before, now = FIGURES / name, made.figure(name, page)
+                if not figures.same(before, now):
+                    differ.append(f"figures/{name} of {page.name} is another figure\n")
+                    if write:
+                        before.parent.mkdir(parents=True, exist_ok=True)
+                        shutil.copy(now, before)
+    finally:
+        made.close()
+    return differ
+
+
+def _difference(page: Written, text: str) -> str:
+    lines = difflib.unified_diff(page.text.splitlines(True), text.splitlines(True), page.name, "what programs make", n=1)
+    return "".join(lines)
+
+
+def left_over(names: list[str]) -> list[str]:
+    """Figures that no page shows."""
+    shown = {name for page in names for name in Written(page).figures}
+    return sorted(path.as_posix() for path in FIGURES.rglob("*.*") if path.relative_to(FIGURES).as_posix() not in shown)
+
+
+def main(arguments: list[str]) -> int:
+    """Write, or compare."""
+    parser = argparse.ArgumentParser(description="write into the pages what programs make for them")
+    parser.add_argument("pages", nargs="*", help="such as howto/duty; all, if none is named")
+    parser.add_argument("--check", action="store_true", help="only compare; 1 if something differs")
+    chosen_by = parser.parse_args(arguments)
+    try:
+        differ = put(chosen_by.pages or pages(), write=not chosen_by.check)
+    except (Failed, LookupError, RuntimeError, ValueError) as error:
+        print(error, file=sys.stderr)
+        return 1
+    unused = [] if chosen_by.pages else left_over(pages())
+    say: Callable[[str], object] = sys.stdout.write
+    for difference in differ:
+        say(difference)
+    for name in unused:
+        say(f"no page shows {name}\n")
+    if chosen_by.check and (differ or unused):
+        say("make pages writes what programs make now\n")
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

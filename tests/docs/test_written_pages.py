@@ -1,0 +1,110 @@
+"""Pages have what programs make for them: each mark its text, and a change of either is found.
+
+``make pages CHECK=1``, which CI runs, compares all pages with all programs. Here is what takes no minutes.
+"""
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from .pages import DOCS, name, pages
+
+#: A page of commands alone, and one of tables.
+OF_COMMANDS, OF_TABLES = "howto/back_driving", "cases"
+PAGE = """# A page
+
+<!-- command: .venv/bin/ballscrew run case.toml
+show: two .. -->
+<!-- end -->
+
+It takes <!--= t_torque--><!--/--> N m.
+"""
+WRITTEN = """# A page
+
+<!-- command: .venv/bin/ballscrew run case.toml
+show: two .. -->
+```console
+$ .venv/bin/ballscrew run case.toml
+…
+two
+```
+<!-- end -->
+
+It takes <!--= t_torque-->0.29<!--/--> N m.
+"""
+
+
+@pytest.fixture
+def apart(writer, tmp_path, monkeypatch):
+    """The writer with a folder of its own for what programs make: another run may use the usual one."""
+    for module in (writer.command, writer.parts, writer.write):
+        monkeypatch.setattr(module, "MADE", tmp_path)
+    monkeypatch.setattr(writer.command, "KEPT", tmp_path / "commands")
+    return writer.write
+
+
+def of_docs():
+    return [page.relative_to(DOCS).with_suffix("").as_posix() for page in pages() if DOCS in page.parents]
+
+
+def test_what_is_made_comes_between_its_marks(writer):
+    page = writer.write.Written("start", PAGE)
+    assert page.with_all(["one\ntwo\n"], {"t_torque": "0.29"}) == WRITTEN
+    again = writer.write.Written("start", WRITTEN)
+    assert again.with_all(["one\ntwo\n"], {"t_torque": "0.29"}) == WRITTEN
+    assert again.with_all(["one\ntwo\n"], {"t_torque": "0.30"}) != WRITTEN
+
+
+@pytest.mark.parametrize("fault", [PAGE.replace("<!-- end -->", ""), PAGE + "\n<!-- end -->\n"])
+def test_a_mark_without_an_end_is_refused(writer, fault):
+    with pytest.raises(writer.write.Failed, match="start: a mark has no end, or an end no mark"):
+        writer.write.Written("start", fault)
+
+
+@pytest.mark.parametrize("page", of_docs())
+def test_formulas_and_files_are_as_in_the_source(writer, page):
+    whole = writer.write.Written(page)
+    for block in whole.blocks:
+        if block["kind"] == "equation" or (block["kind"] == "file" and (writer.kept.ROOT / block["what"]).is_file()):
+            # what stands between the marks, without the commands of the page
+            assert block["written"] == whole._written(block, iter(())), f"{block['what']}: make pages"
+
+
+@pytest.mark.parametrize("page", of_docs())
+def test_nothing_is_left_to_a_build(page):
+    text = (DOCS / f"{page}.md").read_text(encoding="utf-8")
+    assert "--><!--/-->" not in text, "a number is missing: make pages"
+    assert "-->\n<!-- end -->" not in text, "a text is missing: make pages"
+
+
+def test_commands_print_what_their_page_says(apart):
+    assert apart.put([OF_COMMANDS], write=False) == []
+
+
+def test_tables_are_what_their_programs_make(apart):
+    assert apart.put([OF_TABLES], write=False) == []
+
+
+def test_every_figure_is_there_and_shown(writer):
+    names = of_docs()
+    assert writer.write.left_over(names) == []
+    for page in names:
+        for figure in writer.write.Written(page).figures:
+            assert (writer.write.FIGURES / figure).is_file(), f"{name(DOCS / page)}: figures/{figure}: make pages"
+
+
+def drawn(path, height):
+    figure = Figure(figsize=(2, 2))
+    figure.add_subplot().plot(np.linspace(0, 1, 50), height * np.linspace(0, 1, 50) ** 2)
+    figure.gca().set_ylim(0, 2)
+    figure.savefig(path, metadata={"Date": None} if path.suffix == ".svg" else None)
+    return path
+
+
+@pytest.mark.parametrize("suffix", [".svg", ".png"])
+def test_figures_may_differ_by_what_nobody_sees(writer, tmp_path, suffix, monkeypatch):
+    monkeypatch.setitem(__import__("matplotlib").rcParams, "svg.hashsalt", "the same")
+    one = drawn(tmp_path / f"one{suffix}", 1.0)
+    assert writer.figures.same(one, drawn(tmp_path / f"nearly{suffix}", 1.0 + 1e-7))
+    assert not writer.figures.same(one, drawn(tmp_path / f"other{suffix}", 1.1))
+    assert not writer.figures.same(tmp_path / f"none{suffix}", one)
