@@ -24,6 +24,7 @@ extensions = [
     "command",
     "equation",
     "navigation",
+    "parameters",
     "parts",
     "static_page",
 ]
