@@ -18,7 +18,7 @@ from typing import Any, get_type_hints
 
 import ballscrew
 from ballscrew.basis import quantities
-from ballscrew.basis.field_docs import comments_of
+from ballscrew.basis.field_docs import comments_of, words_of
 from ballscrew.basis.quantities import info_of, unit_of
 
 MEANINGS = Path(__file__).with_name("parameter_meanings.toml")
@@ -102,7 +102,7 @@ def _row(
     stars = {parameter.VAR_POSITIONAL: "*", parameter.VAR_KEYWORD: "**"}.get(parameter.kind, "")
     own = meanings().get(of, {}).get(name)
     common = None if isinstance(value, type) else meanings()["common"].get(name)
-    meaning = own or (info and info.meaning) or comments.get(name) or common or ""
+    meaning = own or (info and words_of(info)) or comments.get(name) or common or ""
     return Row(
         stars + name,
         "" if unit in (None, "1") else str(unit),
