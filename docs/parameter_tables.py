@@ -102,14 +102,19 @@ def _row(
     stars = {parameter.VAR_POSITIONAL: "*", parameter.VAR_KEYWORD: "**"}.get(parameter.kind, "")
     own = meanings().get(of, {}).get(name)
     common = None if isinstance(value, type) else meanings()["common"].get(name)
-    meaning = own or (info and words_of(info)) or comments.get(name) or common or ""
+    meaning = own or (info and words_of(info)) or _begun_small(comments.get(name, "")) or common or ""
     return Row(
         stars + name,
         "" if unit in (None, "1") else str(unit),
         _kind(of, value, parameter, hint),
-        "" if stars else _default(value, parameter),
+        "" if stars else _default(parameter),
         meaning,
     )
+
+
+def _begun_small(sentence: str) -> str:
+    """A sentence of a comment as the other meanings are written."""
+    return sentence[:1].lower() + sentence[1:] if sentence[1:2].islower() or sentence[1:2] == " " else sentence
 
 
 def _info(hint: Any) -> quantities.Info | None:
@@ -128,6 +133,9 @@ def _kind(of: str, value: Any, parameter: inspect.Parameter, hint: Any) -> str:
         number = "whole number" if info is not None and info.whole else "number"
         many = of in ELEMENTWISE or of == "Deviations" or module.startswith(_ELEMENTWISE_PARTS)
         return f"{number} or array" if many else number
+    literals = [one for one in (hint, *typing.get_args(hint)) if typing.get_origin(one) is typing.Literal]
+    if literals:
+        return ", ".join(f'``"{value}"``' for value in typing.get_args(literals[0]))
     text = parameter.annotation
     text = text if isinstance(text, str) else inspect.formatannotation(text)
     inner = _ANNOTATED.match(text)
@@ -135,7 +143,7 @@ def _kind(of: str, value: Any, parameter: inspect.Parameter, hint: Any) -> str:
     return f"``{_OPTIONAL.sub('', text)}``"
 
 
-def _default(value: Any, parameter: inspect.Parameter) -> str:
+def _default(parameter: inspect.Parameter) -> str:
     default = parameter.default
     if default is inspect.Parameter.empty:
         return "needed"
