@@ -21,12 +21,18 @@ from ballscrew.basis import quantities
 from ballscrew.basis.field_docs import comments_of, words_of
 from ballscrew.basis.quantities import info_of, unit_of
 
+PAGE = Path(__file__).with_name("reference.md")
 MEANINGS = Path(__file__).with_name("parameter_meanings.toml")
 #: Functions that compute element by element; parts of a screw and its operating point do so, too.
-ELEMENTWISE = ("band", "breakaway", "nut_friction", "off_line_balls")
+ELEMENTWISE = (
+    *("band", "breakaway", "nut_friction", "off_line_balls", "CalibratedModel.predict", "CalibratedModel.band"),
+    *("Axis.carriage_loads", "Axis.guide_friction", "ContactGuide.under", "LinearGuide.under"),
+)
 _ELEMENTWISE_PARTS = ("ballscrew.physics.components.", "ballscrew.physics.friction.")
 #: Logs, whose fields have one number for each row.
 _LOGS = ("ballscrew.files.torque_logs.", "ballscrew.evidence.moving_logs.moving_log")
+#: A public class of the page, and the members that it lists; none where it lists all.
+_LISTED = re.compile(r"^\.\. autoclass:: ballscrew\.(\w+)\n   :members:(.*)$", re.MULTILINE)
 _ANNOTATED = re.compile(r"^Annotated\[(.*)\]$", re.DOTALL)
 _OPTIONAL = re.compile(r" \| None$")
 #: The module before the name of a class.
@@ -50,10 +56,25 @@ def meanings() -> Mapping[str, Mapping[str, str]]:
     return tomllib.loads(MEANINGS.read_text(encoding="utf-8"))
 
 
+@functools.cache
 def public() -> dict[str, Any]:
     """The functions and classes that the package offers, by name."""
     found = {name: getattr(ballscrew, name) for name in ballscrew.__all__}
     return {name: value for name, value in found.items() if callable(value)}
+
+
+@functools.cache
+def methods() -> dict[str, Any]:
+    """The methods of public classes that stand on the page of the Python reference and take something, by name."""
+    found: dict[str, Any] = {}
+    for name, listed in _LISTED.findall(PAGE.read_text(encoding="utf-8")):
+        cls = public().get(name)
+        every = [one for one in vars(cls or object) if not one.startswith("_")]
+        for method in listed.replace(",", " ").split() or every:
+            function = getattr(cls, method, None)
+            if (inspect.isfunction(function) or inspect.ismethod(function)) and [*_parameters(function)]:
+                found[f"{name}.{method}"] = function
+    return found
 
 
 def takes_nothing_of_its_own(value: Any) -> bool:
@@ -62,8 +83,8 @@ def takes_nothing_of_its_own(value: Any) -> bool:
 
 
 def rows_of(name: str) -> list[Row]:
-    """The parameters of a public function, or of the constructor of a public class, in their order."""
-    value = public()[name]
+    """The parameters of a public function or method, or of the constructor of a public class, in their order."""
+    value = public()[name] if name in public() else methods()[name]
     if takes_nothing_of_its_own(value):
         return []
     hints = _hints(value)
@@ -73,7 +94,7 @@ def rows_of(name: str) -> list[Row]:
 
 def _parameters(value: Any) -> Iterator[inspect.Parameter]:
     for parameter in inspect.signature(value).parameters.values():
-        if parameter.name != "self":
+        if parameter.name not in ("self", "cls"):
             yield parameter
 
 
@@ -127,11 +148,12 @@ def _kind(of: str, value: Any, parameter: inspect.Parameter, hint: Any) -> str:
     """The type in words for a quantity, else as it is annotated."""
     info = _info(hint)
     if unit_of(hint) is not None:
-        module = value.__module__ if isinstance(value, type) else ""
+        owner = value if isinstance(value, type) else public().get(of.rpartition(".")[0])
+        module = owner.__module__ if owner else ""
         if module.startswith(_LOGS):
             return "array"
         number = "whole number" if info is not None and info.whole else "number"
-        many = of in ELEMENTWISE or of == "Deviations" or module.startswith(_ELEMENTWISE_PARTS)
+        many = of in ELEMENTWISE or module.startswith(_ELEMENTWISE_PARTS)
         return f"{number} or array" if many else number
     literals = [one for one in (hint, *typing.get_args(hint)) if typing.get_origin(one) is typing.Literal]
     if literals:

@@ -1,13 +1,16 @@
-"""The table of parameters of each public function and class, in place of the list of fields that ``help`` shows."""
+"""Tables of parameters of public functions, classes and methods, in place of the list of fields of ``help``."""
 
 import ballscrew
 import parameter_tables
 
 
-def _append(_app, what, name, _value, _options, lines):
+def _append(app, what, name, _value, _options, lines):
     package, _, short = name.partition(".")
-    if what not in ("function", "class", "exception") or package != "ballscrew" or short not in ballscrew.__all__:
+    known = short in ballscrew.__all__ or short in parameter_tables.methods()
+    if what not in ("function", "class", "exception", "method") or package != "ballscrew" or not known:
         return
+    for read in (parameter_tables.MEANINGS, parameter_tables.__file__):
+        app.env.note_dependency(str(read))
     if "Fields:" in lines:
         first = lines.index("Fields:")
         last = lines.index("Computed:", first) if "Computed:" in lines[first:] else len(lines)

@@ -1,4 +1,4 @@
-"""Every public function and class has a table of its parameters on the page of the Python reference."""
+"""Every public function, class and method has a table of its parameters on the page of the Python reference."""
 
 import inspect
 import re
@@ -12,6 +12,7 @@ from ballscrew.basis.quantities import fields_of
 from .pages import DOCS
 
 PUBLIC = tables.public()
+ALL = {**PUBLIC, **tables.methods()}
 
 
 def test_all_that_is_public_stands_on_the_page():
@@ -20,13 +21,15 @@ def test_all_that_is_public_stands_on_the_page():
     assert set(ballscrew.__all__) - documented == {"__version__"}
 
 
-@pytest.mark.parametrize("name", PUBLIC)
+def test_methods_of_the_page_are_found():
+    assert {"FrictionModel.__call__", "Lubricant.from_grade", "FrictionResult.shaft_torque"} <= set(tables.methods())
+
+
+@pytest.mark.parametrize("name", ALL)
 def test_the_table_has_every_parameter_with_its_meaning(name):
     rows = tables.rows_of(name)
-    if tables.takes_nothing_of_its_own(PUBLIC[name]):
-        assert rows == []
-        return
-    assert [row.name.strip("*") for row in rows] == list(inspect.signature(PUBLIC[name]).parameters)
+    taken = [] if tables.takes_nothing_of_its_own(ALL[name]) else list(inspect.signature(ALL[name]).parameters)
+    assert [row.name.strip("*") for row in rows] == [one for one in taken if one != "self"]
     assert [row.name for row in rows if not row.meaning] == []
     assert [row.name for row in rows if not row.kind.strip("`")] == []
     assert sum(line.startswith("   * -") for line in tables.lines_of(name)) == (len(rows) + 1 if rows else 0)
@@ -34,7 +37,7 @@ def test_the_table_has_every_parameter_with_its_meaning(name):
 
 def test_none_lacks_a_table():
     """All but what takes nothing: a function without parameters, and a warning."""
-    assert {name for name in PUBLIC if not tables.lines_of(name)} == {"catalogue", "ImplausibleInput"}
+    assert {name for name in ALL if not tables.lines_of(name)} == {"catalogue", "ImplausibleInput"}
 
 
 def test_units_are_those_of_the_annotations():
@@ -45,8 +48,8 @@ def test_units_are_those_of_the_annotations():
 
 
 def test_no_meaning_is_left_over():
-    names = {name: {row.name.strip("*") for row in tables.rows_of(name)} for name in PUBLIC}
-    functions = [names[name] for name, value in PUBLIC.items() if not isinstance(value, type)]
+    names = {name: {row.name.strip("*") for row in tables.rows_of(name)} for name in ALL}
+    functions = [names[name] for name, value in ALL.items() if not isinstance(value, type)]
     for of, stated in tables.meanings().items():
         known = set().union(*functions) if of == "common" else names[of]
         assert set(stated) <= known, f"parameter_meanings.toml: [{of}]"
