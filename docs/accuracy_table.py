@@ -28,7 +28,7 @@ def page() -> str:
 
 
 def short_table() -> str:
-    """One line for each comparison of the reference model, for the README."""
+    """One line for each comparison of the reference model, for the page on agreement."""
     tables = json.loads(printed("reference", "--json", "--no-speed"))["tables"]
     lines = [["reference model against the integral", "screws", "median", "95 % within", "largest"], ["---"] * 5]
     for table in tables:

@@ -22,6 +22,7 @@ extensions = [
     "mathml",
     "code_links",
     "navigation",
+    "parameters",
     "static_page",
 ]
 myst_enable_extensions = ["dollarmath", "colon_fence", "deflist"]

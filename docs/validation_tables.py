@@ -188,7 +188,7 @@ SHORT = {
 
 
 def vendors_table() -> str:
-    """Comparison with vendors and a laboratory, one row for each set, for the README."""
+    """Comparison with vendors and a laboratory, one row for each set, for the page on agreement."""
     lines = [
         ["stated value", "number", "uncalibrated", "calibrated", "within the vendor's band, before and after"],
         ["---"] * 5,
@@ -209,6 +209,27 @@ def vendors_table() -> str:
     return _table(lines)
 
 
+def agreement_table() -> str:
+    """The comparison in five rows, without calibration, for the README."""
+    of = {entries[0].data.name: entries[0] for entries in found()[1]}
+    stock, screws = of["hiwin-stock"].groups, of["xjtu"]
+    rows = {
+        "Rexroth's tables: no-load torque of double nuts": [of["rexroth-double-nut"]],
+        "HIWIN's stock list: drag torque of double nuts; of nuts with an offset (preload assumed as 7 %)": [
+            stock["double"],
+            stock["offset"],
+        ],
+        "THK's worked example: no-load torque of a double nut": [of["thk-jis"]],
+        "measured: rolling torque of balls between rings; torque of two new screws (XJTU), against "
+        f"{len(screws.counted)} sizes that could be theirs": [of["balan-2015"], screws],
+        "Rexroth's tables: rigidity of preloaded double nuts": [of["rexroth-rigidity"]],
+    }
+    lines = [["compared with", "values", "model / stated value"], ["---"] * 3]
+    for words, entries in rows.items():
+        lines.append([words, "; ".join(str(len(one.counted)) for one in entries), "; ".join(map(_spread, entries))])
+    return _table(lines)
+
+
 def _lines_of_vendors():
     """The sets with their names; the kinds of nut of one that has several one by one, as a mean of all says nothing."""
     for entries in found()[1]:
@@ -220,7 +241,7 @@ def _lines_of_vendors():
             yield SHORT[data.name], entries
 
 
-#: What stands out in the table of the README, a line for each point.
+#: What stands out in that table, a line for each point.
 VENDORS_IN_WORDS = """
 Uncalibrated, the no-load torque of preloaded nuts is {double_below} (double nuts) and {single_below} (oversize balls)
 below the middle of Rexroth's tables.

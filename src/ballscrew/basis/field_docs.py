@@ -15,7 +15,7 @@ import textwrap
 from collections.abc import Iterator, Mapping
 from typing import Any, cast, get_type_hints
 
-from ballscrew.basis.quantities import Info, Quantity, quantities_of, unit_of
+from ballscrew.basis.quantities import Info, quantities_of, unit_of
 
 #: The comment above a field, and the name of the field.
 _COMMENTED = re.compile(r"((?:^    #:.*\n)+)    (\w+) *:", re.MULTILINE)
@@ -76,7 +76,7 @@ def _described(cls: type) -> dict[str, str]:
     for name in dict.fromkeys([*_fields(cls), *quantities]):
         quantity, unit = quantities.get(name), unit_of(hints.get(name))
         if quantity is not None:
-            found[name] = _of_quantity(quantity)
+            found[name] = words_of(quantity.info, quantity.unit)
         elif name in comments:
             found[name] = comments[name]
         elif unit is not None:
@@ -84,11 +84,9 @@ def _described(cls: type) -> dict[str, str]:
     return found
 
 
-def _of_quantity(quantity: Quantity) -> str:
+def words_of(info: Info, unit: str = "1") -> str:
     """Meaning, symbol, unit and bounds."""
-    info = quantity.info
-    unit = [] if quantity.unit == "1" else [quantity.unit]
-    limits = ", ".join([*unit, *_bounds(info)])
+    limits = ", ".join([*([] if unit == "1" else [unit]), *_bounds(info)])
     symbol = "" if _WORD.fullmatch(info.symbol) else f", :math:`{info.symbol}`"
     return f"{info.meaning}{symbol}" + (f"; {limits}" if limits else "")
 

@@ -1,4 +1,4 @@
-"""The README shows what the program gives today."""
+"""The README and the pages that ``make readme`` writes show what the program gives today."""
 
 import importlib.util
 import re
@@ -23,17 +23,22 @@ def make_readme():
 
 
 @pytest.fixture(scope="module")
-def text():
+def readme():
     return (ROOT / "README.md").read_text(encoding="utf-8")
 
 
-def test_the_table_of_claims_is_up_to_date(make_readme, text):
+@pytest.fixture(scope="module")
+def agreement():
+    return (ROOT / "docs" / "agreement.md").read_text(encoding="utf-8")
+
+
+def test_the_table_of_claims_is_up_to_date(make_readme, agreement):
     """If this fails, run ``make readme``."""
-    assert make_readme.with_claims(text) == text
+    assert make_readme.with_claims(agreement) == agreement
 
 
 @pytest.mark.long
-def test_the_table_of_accuracy_is_up_to_date(make_readme, text):
+def test_the_table_of_accuracy_is_up_to_date(make_readme, agreement):
     """If this fails, run ``make readme``; the bounds of accuracy are in
     ``tests/physics/solvers/test_against_the_integral.py``.
 
@@ -41,44 +46,77 @@ def test_the_table_of_accuracy_is_up_to_date(make_readme, text):
     """
     number = re.compile(r"\d+(?:\.\d+)? %|(?<=\| )\d+(?= \|)")
 
-    def figures(readme):
-        table = readme.split("<!-- accuracy: begin -->")[1].split("<!-- accuracy: end -->")[0]
+    def figures(page):
+        table = page.split("<!-- accuracy: begin -->")[1].split("<!-- accuracy: end -->")[0]
         return number.sub("#", table), [found.removesuffix(" %") for found in number.findall(table)]
 
-    (words, stands), (expected_words, expected) = figures(text), figures(make_readme.with_accuracy(text))
+    (words, stands), (expected_words, expected) = figures(agreement), figures(make_readme.with_accuracy(agreement))
     assert words == expected_words
     for shown, computed in zip(stands, expected, strict=True):
         last_digit = 10.0 ** -len(computed.partition(".")[2])
         assert abs(float(shown) - float(computed)) <= 1.01 * last_digit
 
 
-def test_the_picture_is_a_figure_of_the_program(make_readme, text):
+def test_the_picture_is_a_figure_of_the_program(make_readme, readme):
     assert make_readme.PICTURE in {plot.name for plot in make_readme.figures.PLOTS}
-    assert "docs/images/parts_over_speed.png" in text
+    assert "docs/images/parts_over_speed.png" in readme
     assert (make_readme.IMAGES / "parts_over_speed.png").is_file()
 
 
-def test_the_largest_sensitivities_are_up_to_date(make_readme, text):
+def test_the_largest_sensitivities_are_up_to_date(make_readme, agreement):
     """If this fails, run ``make readme``."""
-    assert make_readme.with_sensitivities(text) == text
+    assert make_readme.with_sensitivities(agreement) == agreement
 
 
-def test_the_loads_of_skidding_are_up_to_date(make_readme, text):
+def test_the_loads_of_skidding_are_up_to_date(make_readme, agreement):
     """If this fails, run ``make readme``."""
-    assert make_readme.with_light_load(text) == text
+    assert make_readme.with_light_load(agreement) == agreement
 
 
-def test_the_python_examples_print_what_stands_below_them(make_readme, text):
+@pytest.mark.parametrize("page", ["README.md", "docs/start.md"])
+def test_the_python_examples_print_what_stands_below_them(make_readme, page):
     """If this fails, run ``make readme``."""
+    text = (ROOT / page).read_text(encoding="utf-8")
     assert make_readme.with_examples(text) == text
+    assert "```text" in text
 
 
-def test_the_comparison_with_vendors_is_up_to_date(make_readme, text):
+def test_the_five_rows_are_up_to_date(make_readme, readme):
     """If this fails, run ``make readme``."""
-    assert make_readme.with_vendors(text) == text
+    assert make_readme.with_agreement(readme) == readme
 
 
-def test_the_inputs_said_to_move_the_torque_most_are_those_of_the_command(text):
+def test_two_of_three_makers_state_twice_our_torque(readme):
+    """The sentence below the table, by its rows."""
+    rows = readme.split("<!-- agreement: begin -->")[1].split("<!-- agreement: end -->")[0].splitlines()[3:]
+    assert len(rows) == 5
+    of = {row.split("'")[0].strip("| "): re.findall(r"\d\.\d+", row.split("|")[3]) for row in rows[:3]}
+    assert list(of) == ["Rexroth", "HIWIN", "THK"]
+    assert 0.45 < float(of["HIWIN"][0]) < 0.6
+    assert 0.45 < float(of["THK"][0]) < 0.6
+    assert float(of["Rexroth"][0]) > 0.8
+    assert "Two of three makers, THK and HIWIN, state about twice our torque" in " ".join(readme.split())
+
+
+def test_every_part_of_a_page_is_written(make_readme):
+    """No table that the program made stands in a page without a function that writes it."""
+    source = (ROOT / "docs" / "make_readme.py").read_text(encoding="utf-8")
+    for page in make_readme.WRITTEN:
+        names = re.findall(r"<!-- ([\w ]+): begin -->", page.read_text(encoding="utf-8"))
+        assert names
+        assert [name for name in names if f'"{name}"' not in source and not name.startswith("example")] == []
+
+
+def test_the_readme_is_short(readme):
+    assert len(readme.splitlines()) < 130
+
+
+def test_the_comparison_with_vendors_is_up_to_date(make_readme, agreement):
+    """If this fails, run ``make readme``."""
+    assert make_readme.with_vendors(agreement) == agreement
+
+
+def test_the_inputs_said_to_move_the_torque_most_are_those_of_the_command(agreement):
     """In the order of ``ballscrew sensitivity examples/feed_drive.toml``."""
     case = case_file.load(ROOT / "examples" / "feed_drive.toml")
     total = sensitivity(case, SensitivityOptions(samples=256)).result.total
@@ -89,11 +127,11 @@ def test_the_inputs_said_to_move_the_torque_most_are_those_of_the_command(text):
     assert (second, third) == ("ball_friction_coefficient", TEMPERATURE.name)
     assert max(shares["boundary_friction_coefficient"], shares["full_film_friction_coefficient"]) < 0.05
     said = "force between balls, far ahead; friction between balls; temperature of the oil."
-    assert said in " ".join(text.split())
+    assert said in " ".join(agreement.split())
 
 
-def test_the_python_example_is_ten_lines_and_readable(make_readme, text):
-    assert len([line for line in make_readme.examples(text)[0].splitlines() if line]) == 10
-    shown = text.split("<!-- example: begin -->")[1].split("<!-- example: end -->")[0]
+def test_the_python_example_is_ten_lines_and_readable(make_readme, readme):
+    assert len([line for line in make_readme.examples(readme)[0].splitlines() if line]) == 10
+    shown = readme.split("<!-- example: begin -->")[1].split("<!-- example: end -->")[0]
     assert "helix" in shown
     assert "np." not in shown
