@@ -1,4 +1,4 @@
-"""The worked example of the page on calibration, from Python: run while the documentation is built."""
+"""The worked example of the page on calibration, from Python, run for its output."""
 
 from pathlib import Path
 

@@ -73,7 +73,7 @@ def _plain(text: str) -> str:
 def _cited(text: str, up: str) -> str:
     """Keys of the bibliography as citations, addresses in the paper as links to the table of equations."""
     text = _ADDRESS.sub(lambda found: f"Olaru2005 [{' '.join(found[1].split())}]({up}equations.md)", text)
-    for key in sources.keys():
+    for key in sources.known():
         text = re.sub(rf"\b{re.escape(key)}\b", sources.link(key, up), text)
     return text
 

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from command import DOCS
-from pybtex.database import parse_file
 from pybtex.backends.markdown import Backend
+from pybtex.database import parse_file
 from pybtex.richtext import Text
 from pybtex.style.formatting.plain import Style
 from pybtex.style.template import field, sentence
@@ -38,7 +38,7 @@ def _entries() -> Mapping[str, Any]:
     return parse_file(DOCS.parent / BIBLIOGRAPHY).entries
 
 
-def keys() -> tuple[str, ...]:
+def known() -> tuple[str, ...]:
     """The keys of all sources."""
     return tuple(_entries())
 

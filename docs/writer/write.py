@@ -41,7 +41,8 @@ from parts import PARTS, Part, numbers_of, part_of
 
 FIGURES = DOCS / "figures"
 _BLOCK = re.compile(
-    r"^(?P<mark><!-- (?P<kind>command|include|file|equation): (?P<what>[^\n]+?)(?P<options>(?:\n[a-z]+: [^\n]+?)*) -->\n)"
+    r"^(?P<mark><!-- (?P<kind>command|include|file|equation): (?P<what>[^\n]+?)"
+    r"(?P<options>(?:\n[a-z]+: [^\n]+?)*) -->\n)"
     r"(?P<written>.*?)^<!-- end -->$",
     re.MULTILINE | re.DOTALL,
 )
@@ -237,7 +238,9 @@ def put(names: list[str], write: bool) -> list[str]:
 
 
 def _difference(page: Written, text: str) -> str:
-    lines = difflib.unified_diff(page.text.splitlines(True), text.splitlines(True), page.name, "what programs make", n=1)
+    lines = difflib.unified_diff(
+        page.text.splitlines(True), text.splitlines(True), page.name, "what programs make", n=1
+    )
     return "".join(lines)
 
 

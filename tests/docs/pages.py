@@ -18,7 +18,7 @@ _NOT_RUN = re.compile(r"^<!-- not run: (?P<reason>.+) -->$")
 
 @dataclasses.dataclass(frozen=True)
 class Block:
-    """One fenced block: what stands behind its ticks, its text, its line, why it is not run (or nothing), who wrote it."""
+    """One fenced block: what stands behind its ticks, its text, its line, and why it is not run (or nothing)."""
 
     info: str
     text: str
@@ -76,7 +76,7 @@ def markers(page: Path) -> int:
 
 
 def commands(page: Path, written: bool = False) -> list[tuple[int, str]]:
-    """What a page tells people to type, as they type it, and the line it stands in; or only that whose output it shows."""
+    """What a page tells people to type, and the line it stands in; or only that whose output it shows."""
     return [found for block in blocks(page) if block.written or not written for found in _commands_of(block)]
 
 
