@@ -373,7 +373,7 @@ def test_the_torque_without_load_is_starved_by_itself():
     assert next(check for check in mine.checks if check.name == "preload_torque").holds is False
     assert [record.id for record in mine.starved] == ["lubricant.starved"]
     assert mine.starved[0].value == pytest.approx(1.164, rel=2e-3)
-    assert "torque of the nut without load" in mine.starved[0].text
+    assert "drag torque of the nut" in mine.starved[0].text
     answer = document(found)["candidates"][0]
     assert answer["starved"]
     assert [one["id"] for one in answer["warnings"]].count("lubricant.starved") == 1

@@ -1,4 +1,4 @@
-"""``ballscrew axis``: what gives way between motor and table, over the stroke."""
+"""``ballscrew axis``: rigidity between motor and table, over the stroke."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def axis(
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
     to: Annotated[
         list[Path] | None,
-        typer.Option(_TO, "-o", metavar="FILE", help="Also write a table (.csv, .xlsx) or a picture; repeat."),
+        typer.Option(_TO, "-o", metavar="FILE", help="Also write a table (.csv, .xlsx) or a picture; may be repeated."),
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:

@@ -27,7 +27,7 @@ def report(
     *,
     written: Mapping[str, Any],
     beside: Annotated[
-        list[Path] | None, typer.Option("--beside", metavar="CASE", help="Another design, up to three; repeatable.")
+        list[Path] | None, typer.Option("--beside", metavar="CASE", help="Another design beside the first; may be repeated, up to three.")
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:

@@ -380,7 +380,7 @@ class Starved(NamedTuple):
         """The record under load; where there is none that of the torque without load."""
         if self.under_load or self.without_load is None:
             return [*self.under_load]
-        remark = Message("torque of the nut without load")
+        remark = Message("drag torque of the nut")
         return units.in_display_units_of(starvation.records([self.without_load], remark))
 
 

@@ -22,7 +22,7 @@ USUAL_LINES = 20
 #: Objectives in the headings of tables.
 LABELS = {
     "loss": "loss", "inertia": "inertia", "reflected_mass": "adds mass", "life": "life", "rigidity": "rigidity",
-    "drive_torque": "torque", "preload_torque": "without load", "price_index": "price",
+    "drive_torque": "torque", "preload_torque": "drag torque", "price_index": "price",
 }  # fmt: skip
 
 #: Torques of a need with a motion, by their headings.
