@@ -179,7 +179,7 @@ def _quadrants(quadrants: Mapping[str, Quadrant], loaded: bool) -> Table:
 
 
 def _loads(nut: NutState) -> Table:
-    table = table_of("\nLoads of the balls, and how the nut gives way", "", "least", "mean", "greatest")
+    table = table_of("\nLoads of the balls, and stiffness of the nut", "", "least", "mean", "greatest")
     for flank, label in ((nut.loaded, "the flank that carries the load"), (nut.relieved, "the other flank")):
         if flank is not None:
             for values, name, what in ((flank.load, "forward_load", "load"), (flank.angle, "forward_angle", "angle")):
