@@ -347,7 +347,7 @@ def _price(need: Need, variant: Variant) -> float:
 
 
 def _life_of(checks: Sequence[Check]) -> Duration:
-    """The time that nine of ten outlive, by the check of it; NaN where it is not known."""
+    """The basic rating life L10h, by the check of it; NaN where it is not known."""
     value = next(check for check in checks if check.name == "running_time").value
     return math.nan if value is None else float(value)
 
