@@ -20,7 +20,7 @@ _MOST_BESIDE = 3
 @flags_of(ReportOptions)
 def report(
     case: CaseFile,
-    to: Annotated[Path, typer.Option("--to", "-o", metavar="FILE", help="What to write: .pdf or .html.")],
+    to: Annotated[Path, typer.Option("--to", "-o", metavar="FILE", help="File to write: .pdf or .html.")],
     model: ModelName = None,
     calibration: CalibrationName = None,
     settings: Settings = None,

@@ -282,12 +282,13 @@ def _meaning(found: Sequence[paper.Claim]) -> str:
         shown[key] for key in ("minimum", "efficiency", "threshold")
     )
     return (
-        "How the torque goes with speed and load follows from the paper's equations, and its numbers do so in part only: "
-        f"the least torque lies at {minimum} as printed and {corrected_minimum} corrected (paper: {stated['minimum']}), "
-        f"the efficiency is {efficiency} and {corrected} (paper: {stated['efficiency']}), and the film takes over at "
-        f"{film} (paper: {stated['threshold']}). Whether it agrees with measurements cannot be checked, as none of their "
-        "values is printed: a claim that holds follows from the equations, and is not thereby true of a screw. To compute "
-        f"a machine take the model `reference`; `{nut_words.PAGE_FILE}` beside this file has it on a preloaded nut.\n"
+        "The equations of the paper give the course of the torque that it describes over speed and load, and only some of "
+        f"its numbers: the least torque lies at {minimum} as printed and {corrected_minimum} corrected (paper: "
+        f"{stated['minimum']}), the efficiency is {efficiency} and {corrected} (paper: {stated['efficiency']}), and the "
+        f"film takes over at {film} (paper: {stated['threshold']}). Whether they agree with measurements cannot be checked, "
+        "as the paper prints no measured value: a claim that holds follows from the equations, which does not make it "
+        "true of a screw. To compute a machine take the model `reference`; "
+        f"`{nut_words.PAGE_FILE}` beside this file has it on a preloaded nut.\n"
     )
 
 

@@ -33,8 +33,9 @@ DRAG = "drag torque without load and seals"
 _PAGE = """\
 # The reference model on a preloaded nut
 
-The model to use is `reference`, which is neither of those that the claims of the paper are held against; and a machine has a preloaded nut,
-which the paper has not. Here is that model on one: row `{row}` of the catalogue, {title}. The case is in `{file}`.
+The claims of the paper are checked with its own equations, as printed and corrected. The model to use is another one,
+`reference`, and most machines have a preloaded nut, which the paper has not. Here is that model on one: row `{row}`
+of the catalogue, {title}. The case is in `{file}`.
 
 ## Without load
 
