@@ -26,6 +26,7 @@ from ballscrew.basis.version import __version__
 from ballscrew.evidence.papers import olaru2005 as paper
 from ballscrew.questions.reproduce import preloaded_nut as nuts
 from ballscrew.questions.reproduce import preloaded_nut_text as nut_words
+from ballscrew.questions.shared.report_blocks import sentence
 
 Report = Callable[[str, int, int], None]
 
@@ -223,7 +224,7 @@ def claims_document(
         "square root of (22) in §4.\n",
         "No value can be read off the paper's figures, so curves are compared with its text only.\n",
         "## What holds, and what it means\n",
-        f"{_sentence(counts(found))}.\n",
+        f"{sentence(counts(found))}.\n",
         _meaning(found),
         "## Claims\n",
         claims_table(found, None),
@@ -270,10 +271,6 @@ def counts(found: Sequence[paper.Claim]) -> str:
     )
 
 
-def _sentence(words: str) -> str:
-    return words[:1].upper() + words[1:]
-
-
 def _meaning(found: Sequence[paper.Claim]) -> str:
     """What the verdicts mean to a reader who wants to use the paper."""
     shown = {claim.key: [claim.findings[name].short for name in _MODELS] for claim in found}
@@ -282,12 +279,12 @@ def _meaning(found: Sequence[paper.Claim]) -> str:
         shown[key] for key in ("minimum", "efficiency", "threshold")
     )
     return (
-        "The equations of the paper give the course of the torque that it describes over speed and load, and only some of "
-        f"its numbers: the least torque lies at {minimum} as printed and {corrected_minimum} corrected (paper: "
+        "The equations of the paper give the course of the torque that it describes over speed and load, and "
+        f"only some of its numbers: the least torque lies at {minimum} as printed and {corrected_minimum} corrected (paper: "
         f"{stated['minimum']}), the efficiency is {efficiency} and {corrected} (paper: {stated['efficiency']}), and the "
-        f"film takes over at {film} (paper: {stated['threshold']}). Whether they agree with measurements cannot be checked, "
-        "as the paper prints no measured value: a claim that holds follows from the equations, which does not make it "
-        "true of a screw. To compute a machine take the model `reference`; "
+        f"film takes over at {film} (paper: {stated['threshold']}). Whether they agree with measurements cannot be "
+        "checked, as the paper prints no measured value: a claim that holds follows from the equations, which does not "
+        "make it true of a screw. To compute a machine take the model `reference`; "
         f"`{nut_words.PAGE_FILE}` beside this file has it on a preloaded nut.\n"
     )
 

@@ -29,7 +29,8 @@ def band_and_rules(found: PreloadedNut) -> Figure:
     labels = ["reference model"]
     rules = found.rules
     for place, one in enumerate(rules, start=1):
-        panel.plot(float(one.beside.by_rule.torque), place, "o", color=charts.RED if one.beside.by_rule.is_own else charts.ORANGE)
+        colour = charts.RED if one.beside.by_rule.is_own else charts.ORANGE
+        panel.plot(float(one.beside.by_rule.torque), place, "o", color=colour)
         labels.append(words.label_of(one))
     panel.axvspan(*torque.both, color=charts.LIGHT_SHADE, zorder=0)
     panel.set_yticks(range(len(labels)), labels)

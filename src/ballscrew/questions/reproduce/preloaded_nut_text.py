@@ -8,7 +8,7 @@ from typing import Any
 from ballscrew.basis import units
 from ballscrew.basis.output.wrapping import aligned
 from ballscrew.basis.quantities import Quantity
-from ballscrew.cases.case_files.descriptions import nut_text, operating_point, title
+from ballscrew.cases.case_files.descriptions import nut_text, operating_point
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.questions.band.text import input_counts
 from ballscrew.questions.reproduce.preloaded_nut import (
@@ -29,13 +29,13 @@ PAGE_FILE, PICTURE = "preloaded_nut.md", "preloaded_nut"
 #: What is shown under load.
 _SHOWN = (_TORQUE, "drive_torque", "efficiency")
 #: The torque that rules of makers are of.
-DRAG = "drag torque without load and seals"
+DRAG = "drag torque without seals"
 _PAGE = """\
 # The reference model on a preloaded nut
 
 The claims of the paper are checked with its own equations, as printed and corrected. The model to use is another one,
 `reference`, and most machines have a preloaded nut, which the paper has not. Here is that model on one: row `{row}`
-of the catalogue, {title}. The case is in `{file}`.
+of the catalogue, {nut}. The case is in `{file}`.
 
 ## Without load
 
@@ -84,15 +84,21 @@ def page(found: PreloadedNut) -> str:
     here, loaded = found.unloaded, found.loaded
     drag = [
         ("**reference model**", *value_and_band(here, _TORQUE), "", ""),
-        *((label_of(one), torque_of(one, here), _is_held(one), f"{one.beside.ratio:.2f}", one.beside.by_rule.rule.range) for one in found.rules),
-    ]
+        *(
+            (
+                label_of(one), torque_of(one, here), _is_held(one), f"{one.beside.ratio:.2f}",
+                one.beside.by_rule.rule.range,
+            )
+            for one in found.rules
+        ),
+    ]  # fmt: skip
     of_load = [(_quantity(loaded, name).info.meaning, *value_and_band(loaded, name)) for name in _SHOWN]
     return _PAGE.format(
         row=_row(found),
-        title=title(loaded.case),
+        nut=nut_text(loaded.case.screw.nut),
         file=CASE_FILE,
         picture=PICTURE,
-        drag=_table((DRAG, "value", f"{level(here)} band", "model / rule", "what its maker states it for"), drag),
+        drag=_table((DRAG, "value", f"{level(here)} band", "model / rule", "range or tolerance, as stated"), drag),
         point=operating_point(here.case),
         contradiction=sentence(contradiction_of(found)),
         loaded=_table(("", "value", f"{level(loaded)} band"), of_load),
