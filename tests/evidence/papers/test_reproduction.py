@@ -239,7 +239,7 @@ def test_words(written):
     assert text.count("| Olaru2005 §") == 41
     assert "consistent with the text" in text
     assert "verified by" in text
-    assert "As printed, 13 of 22 hold, 5 do not hold and 4 cannot be checked" in text
+    assert "As printed, 13 of 22 claims hold, 5 do not hold and 4 cannot be checked" in text
     assert "| λ | film parameter" in text
     assert "281 rpm as printed and 168 rpm corrected (paper: 200 to 300 rpm)" in text
     for name in NAMES:
@@ -363,7 +363,7 @@ def test_summary_for_the_terminal(written, claims):
     summary = "\n".join(written[1].summary)
     assert len(summary.splitlines()) <= 12
     assert max(map(len, summary.splitlines())) <= 120
-    assert summary.startswith(f"Claims of the paper: {reproduction.counts(list(claims.values()))}.")
+    assert summary.startswith(f"The paper: {reproduction.counts(list(claims.values()))}.")
     for words in ("reference model", "95 % band", "rule of Rexroth, its maker", "efficiency"):
         assert words in summary
 
@@ -371,7 +371,7 @@ def test_summary_for_the_terminal(written, claims):
 def test_counts_are_those_of_the_verdicts(claims):
     """Counted by hand from the table of verdicts above."""
     assert reproduction.counts(list(claims.values())) == (
-        "as printed, 13 of 22 hold, 5 do not hold and 4 cannot be checked; corrected, 11, 7 and 4"
+        "as printed, 13 of 22 claims hold, 5 do not hold and 4 cannot be checked; corrected, 11, 7 and 4"
     )
 
 

@@ -31,7 +31,8 @@ def compare(
     ] = None,
     self_heating: SelfHeatingOption = False,
     own: Annotated[
-        bool, typer.Option("--own", help="Of several designs: each at its own load and speed, not at those of the first.")
+        bool,
+        typer.Option("--own", help="Of several designs: each at its own load and speed, not at those of the first."),
     ] = False,
     allow_code: AllowCode = False,
 ) -> None:

@@ -33,7 +33,10 @@ def duty(
     to: Annotated[
         list[Path] | None,
         typer.Option(
-            _TO, "-o", metavar="FILE", help="Also write tables (.xlsx, .csv) or a picture (.pdf, .png, .svg); may be repeated."
+            _TO,
+            "-o",
+            metavar="FILE",
+            help="Also write tables (.xlsx, .csv) or a picture (.pdf, .png, .svg); may be repeated.",
         ),
     ] = None,
     trace: Annotated[

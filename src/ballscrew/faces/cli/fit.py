@@ -27,7 +27,11 @@ def fit(
     *,
     written: Mapping[str, Any],
     moving: Annotated[
-        bool, typer.Option("--moving", help="The log is of a moving axis: time, position, force (recognised by its columns if left out).")
+        bool,
+        typer.Option(
+            "--moving",
+            help="The log is of a moving axis: time, position, force (recognised by its columns if left out).",
+        ),
     ] = False,
     test: Annotated[
         Path | None,

@@ -16,7 +16,9 @@ from ballscrew.questions.hand_over.options import HandOverOptions
 @flags_of(HandOverOptions)
 def hand_over(
     case: CaseFile,
-    to: Annotated[str, typer.Option("--to", metavar="TARGET", help="Target: c, fmu, table, …; an unknown name lists all.")],
+    to: Annotated[
+        str, typer.Option("--to", metavar="TARGET", help="Target: c, fmu, table, …; an unknown name lists all.")
+    ],
     out: Annotated[Path, typer.Option("--out", "-o", metavar="DIR", help="Folder to write into.")],
     model: ModelName = None,
     calibration: CalibrationName = None,

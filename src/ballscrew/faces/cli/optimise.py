@@ -30,7 +30,12 @@ def optimise(
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object with the members, SI units.")] = False,
     to: Annotated[
         list[Path] | None,
-        typer.Option(_TO, "-o", metavar="FILE", help="Also write a table (.csv, .xlsx) or a picture (.png, .svg, .pdf); may be repeated."),
+        typer.Option(
+            _TO,
+            "-o",
+            metavar="FILE",
+            help="Also write a table (.csv, .xlsx) or a picture (.png, .svg, .pdf); may be repeated.",
+        ),
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:

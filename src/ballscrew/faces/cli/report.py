@@ -27,7 +27,8 @@ def report(
     *,
     written: Mapping[str, Any],
     beside: Annotated[
-        list[Path] | None, typer.Option("--beside", metavar="CASE", help="Another design beside the first; may be repeated, up to three.")
+        list[Path] | None,
+        typer.Option("--beside", metavar="CASE", help="Another design beside the first; may be repeated, up to three."),
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:

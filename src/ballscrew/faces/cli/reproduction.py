@@ -75,7 +75,7 @@ class Reproduced(NamedTuple):
 
 
 def reproduce_olaru2005(out: Path, report: Report | None = None) -> Reproduced:
-    """Write the figures, the data and the claims of Olaru2005 into a folder, and a preloaded nut by the reference model.
+    """Write figures, data and claims of Olaru2005 into a folder, and a preloaded nut by the reference model.
 
     ``report(what, done, total)`` is told each step. Raises
     :class:`~ballscrew.basis.errors.InputError` before any work if the folder cannot be written or the
@@ -165,7 +165,7 @@ def _write(folder: _Folder, report: Report) -> list[str]:
     _write_text(folder.path / nut_words.PAGE_FILE, nut_words.page(nut))
     _write_text(folder.path / "claims.md", claims_document(found, checks, names))
     step("claims.md")
-    return [f"Claims of the paper: {counts(found)}.", *nut_words.lines(nut)]
+    return [f"The paper: {counts(found)}.", *nut_words.lines(nut)]
 
 
 def _write_text(path: Path, text: str) -> None:
@@ -262,11 +262,12 @@ def claims_document(
 
 
 def counts(found: Sequence[paper.Claim]) -> str:
-    """``as printed, 13 of 22 hold, 5 do not hold and 4 cannot be checked; corrected, 11, 7 and 4``."""
+    """``as printed, 13 of 22 claims hold, 5 do not hold and 4 cannot be checked; corrected, 11, 7 and 4``."""
     tallies = [collections.Counter(claim.findings[name].verdict for claim in found) for name in _MODELS]
     printed, corrected = ([tally[verdict] for verdict in _COUNTED] for tally in tallies)
     return (
-        f"{_LABELS[0]}, {printed[0]} of {len(found)} hold, {printed[1]} do not hold and {printed[2]} cannot be checked; "
+        f"{_LABELS[0]}, {printed[0]} of {len(found)} claims hold, {printed[1]} do not hold and {printed[2]} cannot be "
+        "checked; "
         f"{_LABELS[1]}, {corrected[0]}, {corrected[1]} and {corrected[2]}"
     )
 
@@ -279,13 +280,13 @@ def _meaning(found: Sequence[paper.Claim]) -> str:
         shown[key] for key in ("minimum", "efficiency", "threshold")
     )
     return (
-        "The equations of the paper give the course of the torque that it describes over speed and load, and "
-        f"only some of its numbers: the least torque lies at {minimum} as printed and {corrected_minimum} corrected (paper: "
-        f"{stated['minimum']}), the efficiency is {efficiency} and {corrected} (paper: {stated['efficiency']}), and the "
-        f"film takes over at {film} (paper: {stated['threshold']}). Whether they agree with measurements cannot be "
-        "checked, as the paper prints no measured value: a claim that holds follows from the equations, which does not "
-        "make it true of a screw. To compute a machine take the model `reference`; "
-        f"`{nut_words.PAGE_FILE}` beside this file has it on a preloaded nut.\n"
+        "The equations of the paper give the course of the torque that it describes over speed and load, and only some "
+        f"of its numbers: the least torque lies at {minimum} as printed and {corrected_minimum} corrected "
+        f"(paper: {stated['minimum']}), the efficiency is {efficiency} and {corrected} "
+        f"(paper: {stated['efficiency']}), and the film takes over at {film} (paper: {stated['threshold']}). "
+        "Whether they agree with measurements cannot be checked, as the paper prints no measured value: a claim that "
+        "holds follows from the equations, which does not make it true of a screw. To compute a machine take the model "
+        f"`reference`; `{nut_words.PAGE_FILE}` beside this file has it on a preloaded nut.\n"
     )
 
 

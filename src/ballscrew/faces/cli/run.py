@@ -39,7 +39,8 @@ def run(
     settings: Settings = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
     band: Annotated[
-        bool, typer.Option("--band", help="Band of the results by uncertain inputs and other laws, 95 % of the samples.")
+        bool,
+        typer.Option("--band", help="Band of the results by uncertain inputs and other laws, 95 % of the samples."),
     ] = False,
     *,
     written: Mapping[str, Any],

@@ -20,7 +20,12 @@ _ANY = ("0.0.0.0", "::")
 def serve(
     port: Annotated[int, typer.Option("--port", metavar="N", help="Port to listen on, 0 for any free one.")] = 8017,
     host: Annotated[
-        str, typer.Option("--host", metavar="NAME", help="Address to listen on; with another than 127.0.0.1 other machines can reach it.")
+        str,
+        typer.Option(
+            "--host",
+            metavar="NAME",
+            help="Address to listen on; with another than 127.0.0.1 other machines can reach it.",
+        ),
     ] = "127.0.0.1",
     open_browser: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
     time_limit: Annotated[

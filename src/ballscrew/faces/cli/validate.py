@@ -36,10 +36,14 @@ def validate(
     ] = False,
     model: Annotated[str, typer.Option("--model", metavar="NAME", help="{models}.")] = "reference",
     calibration: Annotated[
-        str | None, typer.Option("--calibration", metavar="NAME", help="Calibration to show beside the model as it is: rexroth-2006.")
+        str | None,
+        typer.Option(
+            "--calibration", metavar="NAME", help="Calibration to show beside the model as it is: rexroth-2006."
+        ),
     ] = None,
     temperature: Annotated[
-        str | None, typer.Option("--temperature", metavar="VALUE", help='Temperature of the oil where a row has none: "25 degC".')
+        str | None,
+        typer.Option("--temperature", metavar="VALUE", help='Temperature of the oil where a row has none: "25 degC".'),
     ] = None,
     grade: Annotated[
         str | None, typer.Option("--grade", metavar="NAME", help='Grade of the oil where a row has none: "ISO VG 100".')

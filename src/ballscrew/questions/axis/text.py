@@ -51,7 +51,10 @@ def _places(report: ChainReport) -> list[str]:
     lines = aligned(rows)
     if len(names) < len(_SHORT):
         return lines
-    return [*lines, f"lost motion from the {units.shown(report.guide_friction, FRICTION)} of the guides; backlash comes on top"]
+    return [
+        *lines,
+        f"lost motion from the {units.shown(report.guide_friction, FRICTION)} of the guides; backlash comes on top",
+    ]
 
 
 def _springs(report: ChainReport) -> list[str]:

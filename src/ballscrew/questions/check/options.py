@@ -18,10 +18,12 @@ class CheckOptions:
         Option('Axial load, "5 kN"; a tenth of C_a if left out.', metavar="FORCE", sets="operation.axial_load"),
     ] = None
     speed: Annotated[
-        str | None, Option('Screw speed, "1500 rpm"; 600 rpm if left out.', metavar="SPEED", sets="operation.screw_speed")
+        str | None,
+        Option('Screw speed, "1500 rpm"; 600 rpm if left out.', metavar="SPEED", sets="operation.screw_speed"),
     ] = None
     nut: Annotated[
-        str | None, Option("Kind of nut: single, oversize-balls, double or offset-lead.", metavar="TYPE", sets="nut.type")
+        str | None,
+        Option("Kind of nut: single, oversize-balls, double or offset-lead.", metavar="TYPE", sets="nut.type"),
     ] = None
     preload: Annotated[
         str | None,
@@ -38,7 +40,9 @@ class CheckOptions:
     ends: Annotated[
         str | None,
         Option(
-            "Ends of the shaft: fixed-fixed, fixed-supported, supported-supported or fixed-free.", metavar="ENDS", sets="installation.ends"
+            "Ends of the shaft: fixed-fixed, fixed-supported, supported-supported or fixed-free.",
+            metavar="ENDS",
+            sets="installation.ends",
         ),
     ] = None
     grade: Annotated[

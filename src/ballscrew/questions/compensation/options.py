@@ -30,7 +30,9 @@ class CompensationOptions:
             metavar="away|towards",
         ),
     ] = None
-    step: Annotated[float, Option("Distance of the points; 20 mm if left out.", metavar="LENGTH", unit="m", shown_in="mm")] = STEP
+    step: Annotated[
+        float, Option("Distance of the points; 20 mm if left out.", metavar="LENGTH", unit="m", shown_in="mm")
+    ] = STEP
     reference: Annotated[
         float | None,
         Option("Position of the axis where nothing is compensated.", metavar="LENGTH", unit="m", shown_in="mm"),

@@ -25,7 +25,8 @@ class FitOptions:
         ),
     ] = (DEFAULT_FREE,)
     bounds: Annotated[
-        Mapping[str, Range], Option('Bounds of a fitted number: boundary_friction_coefficient="0.05:0.2".', metavar="NAME=LOW:HIGH")
+        Mapping[str, Range],
+        Option('Bounds of a fitted number: boundary_friction_coefficient="0.05:0.2".', metavar="NAME=LOW:HIGH"),
     ] = dataclasses.field(default_factory=dict[str, Range])
     kind: TorqueKind = "unknown"
     columns: Columns = dataclasses.field(default_factory=dict[str, str])
@@ -34,11 +35,14 @@ class FitOptions:
     limits: Annotated[
         Mapping[str, Range], Option('Range of the next test: screw_speed="10:3000 rpm".', metavar="NAME=LOW:HIGH")
     ] = dataclasses.field(default_factory=dict[str, Range])
-    holdout: Annotated[float, Option("Share of the operating points that is predicted and not fitted.", metavar="SHARE")] = 0.2
+    holdout: Annotated[
+        float, Option("Share of the operating points that is predicted and not fitted.", metavar="SHARE")
+    ] = 0.2
     temperature_error: Annotated[
         float | None,
         Option(
-            'Uncertainty of the oil temperature of the whole log, half of 95 %: "2 K" (default where logged, else 10 K).',
+            'Uncertainty of the oil temperature of the whole log, half of 95 %: "2 K" where logged, '
+            "or else 10 K.",
             metavar="VALUE", unit="K", at_least=0, is_difference=True,
         ),
     ] = None  # fmt: skip

@@ -134,7 +134,8 @@ def trade_off(model: CalibratedModel) -> Message:
     message = Message("Trade-off: {one} with {others} fits the rows nearly as well (one standard error)")
     if not least.identified:
         message = Message(
-            "Trade-off: {one} with {others} makes no difference in this log, which determines only their combined effect"
+            "Trade-off: {one} with {others} makes no difference in this log, which determines only their combined "
+            "effect"
         )
     return message.of(one=one, others=both(more))
 

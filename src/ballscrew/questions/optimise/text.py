@@ -39,7 +39,11 @@ def cost(plan: Plan) -> str:
 def text(found: Optimisation) -> str:
     """The front, by its first objective, and what is to be known of it."""
     if not found.members:
-        lines = [title(found), "", "no design within the bounds passes all checks: relax the need, or widen [optimise.bounds]"]
+        lines = [
+            title(found),
+            "",
+            "no design within the bounds passes all checks: relax the need, or widen [optimise.bounds]",
+        ]
     else:
         lines = [title(found), "", *table(found.members, found.space)]
     quantile = found.space.options.quantile

@@ -83,9 +83,7 @@ class PreloadedNut:
         """The rules of makers, that of the maker of the nut first."""
         case, report = self.unloaded.case, self.unloaded.band
         held = {record.id: bool(record.holds) for record in verdicts(case, report)}
-        return [
-            RuleBesideBand(one, held[f"band.rule_{one.by_rule.rule.name}"]) for one in beside_rules(case, self.nut)
-        ]
+        return [RuleBesideBand(one, held[f"band.rule_{one.by_rule.rule.name}"]) for one in beside_rules(case, self.nut)]
 
 
 def preloaded_nut() -> PreloadedNut:

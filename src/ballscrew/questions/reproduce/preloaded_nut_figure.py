@@ -39,7 +39,7 @@ def band_and_rules(found: PreloadedNut) -> Figure:
     panel.set_xlabel(f"{words.DRAG} (N m)")
     panel.grid(visible=False, axis="y")
     panel.tick_params(axis="y", length=0)
-    panel.legend(loc="lower right")
+    figure.legend(loc="outside upper right", ncols=2)
     return figure
 
 

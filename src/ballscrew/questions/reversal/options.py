@@ -23,7 +23,8 @@ class ReversalOptions:
     inertia: Annotated[
         float | None,
         Option(
-            'Inertia of all that turns with the screw: "2e-3 kg m^2"; LuGre has no damping without it.', metavar="VALUE",
+            'Inertia of all that turns with the screw: "2e-3 kg m^2"; LuGre has no damping without it.',
+            metavar="VALUE",
             unit="kg m^2", above=0,
         ),
     ] = None  # fmt: skip

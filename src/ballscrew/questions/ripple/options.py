@@ -24,20 +24,26 @@ class RippleOptions:
             metavar="FAULT",
         ),
     ] = ()
-    gap: Annotated[float | None, Option("Free room in each circuit, in balls; 0.55 if left out, an assumption.", metavar="BALLS")] = None
+    gap: Annotated[
+        float | None, Option("Free room in each circuit, in balls; 0.55 if left out, an assumption.", metavar="BALLS")
+    ] = None
     groove_deviation: Annotated[
         float | None,
         Option(
-            'Deviation of nut groove against screw groove, root mean square; "1 um" if left out, an assumption.', metavar="LENGTH", unit="m",
+            'Deviation of nut groove against screw groove, root mean square; "1 um" if left out, an assumption.',
+            metavar="LENGTH", unit="m",
             shown_in="um", at_least=0, hint="grooves have 0.5 um to 2 um",
         ),
     ] = None  # fmt: skip
-    circuits: Annotated[int | None, Option("Circuits of each half; one if left out, an assumption.", metavar="NUMBER")] = None
+    circuits: Annotated[
+        int | None, Option("Circuits of each half; one if left out, an assumption.", metavar="NUMBER")
+    ] = None
     return_balls: Annotated[
         int | None, Option("Balls in the return of each circuit; half a turn of them if left out.", metavar="NUMBER")
     ] = None
     wall_factor: Annotated[
-        float | None, Option("Drag of the oil in the return over that far from walls; 10 if left out.", metavar="FACTOR")
+        float | None,
+        Option("Drag of the oil in the return over that far from walls; 10 if left out.", metavar="FACTOR"),
     ] = None
     relief: Annotated[
         float, Option("Length at the ends over which balls take their load, in balls.", metavar="BALLS")

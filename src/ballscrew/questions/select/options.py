@@ -11,7 +11,8 @@ from ballscrew.questions.shared.options import Option
 Objectives = Annotated[
     Sequence[str],
     Option(
-        "Objectives to compare; the first ranks: loss, inertia, reflected_mass, life, rigidity, drive_torque, …", metavar="NAMES"
+        "Objectives to compare; the first ranks: loss, inertia, reflected_mass, life, rigidity, drive_torque, …",
+        metavar="NAMES",
     ),
 ]
 

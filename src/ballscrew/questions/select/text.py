@@ -54,7 +54,8 @@ def not_judged(found: Selection) -> str:
     missing = _missing([each.candidate for each in found.ranked])
     if found.holding or not fitting or not missing:
         return ""
-    return f"{len(fitting)} of them fail no check, but a candidate holds only once all are judged: give {', '.join(missing)}"
+    needed = ", ".join(missing)
+    return f"{len(fitting)} of them fail no check, but a candidate holds only once all are judged: give {needed}"
 
 
 def _missing(candidates: Sequence[Candidate]) -> list[str]:
@@ -110,7 +111,10 @@ def text(found: Selection, ranked: Sequence[Ranked], most: int = USUAL_LINES) ->
         lines.append("none is left of these")
     lines += beside_rules(found)
     named = " and ".join(LABELS[name] for name in found.objectives)
-    lines += ["", wrapped(f"*  Pareto front: of the candidates that fail no check, none is better in {named} taken together")]
+    lines += [
+        "",
+        wrapped(f"*  Pareto front: of the candidates that fail no check, none is better in {named} taken together"),
+    ]
     lines += ["", "assumed", *(wrapped(f"  {note}") for note in found.need.notes)] if found.need.notes else []
     missing = _missing([each.candidate for each in found.ranked])
     if missing and not reason:

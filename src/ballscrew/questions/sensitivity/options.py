@@ -19,4 +19,6 @@ class SensitivityOptions:
     ] = "sobol"
     samples: Annotated[int | None, Option("A power of two (sobol), or trajectories (morris).", metavar="N")] = None
     seed: Annotated[int, Option("Seed: the same one gives the same numbers.", metavar="N")] = 0
-    only_given: Annotated[bool, Option("Only inputs that the case file gives a distribution, and none of the usual ones.")] = False
+    only_given: Annotated[
+        bool, Option("Only inputs that the case file gives a distribution, and none of the usual ones.")
+    ] = False

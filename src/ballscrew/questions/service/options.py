@@ -19,8 +19,8 @@ class ServiceOptions:
         Sequence[str], Option("What to fit beside the preload, with commas: constant_torque.", metavar="NAMES")
     ] = ()
     kind: TorqueKind = "unknown"
-    columns: Annotated[Mapping[str, str], headings('Heading of a column, in both logs: load="0 N".')] = dataclasses.field(
-        default_factory=dict[str, str]
+    columns: Annotated[Mapping[str, str], headings('Heading of a column, in both logs: load="0 N".')] = (
+        dataclasses.field(default_factory=dict[str, str])
     )
     torque_constant: TorqueConstant = None
     inertia: Inertia = None
@@ -31,10 +31,14 @@ class ServiceOptions:
 class ReadingOptions:
     """A torque without load in place of logs: as text with its interval; speed and temperature in SI."""
 
-    torque: Annotated[str | None, Option('In place of logs: drag torque with seals, "0.40 ± 0.02 N m".', metavar="VALUE")] = None
+    torque: Annotated[
+        str | None, Option('In place of logs: drag torque with seals, "0.40 ± 0.02 N m".', metavar="VALUE")
+    ] = None
     speed: Annotated[
         float | None,
-        Option('Screw speed at which that torque was measured: "100 rpm".', metavar="VALUE", unit="rad/s", shown_in="rpm"),
+        Option(
+            'Screw speed at which that torque was measured: "100 rpm".', metavar="VALUE", unit="rad/s", shown_in="rpm"
+        ),
     ] = None
     temperature: Annotated[
         float | None, Option('Temperature of the nut meanwhile: "35 degC".', metavar="VALUE", unit="K", shown_in="degC")

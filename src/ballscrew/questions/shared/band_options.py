@@ -6,7 +6,9 @@ from typing import Annotated
 
 from ballscrew.questions.shared.options import Option
 
-Level = Annotated[float | None, Option("With --band: share of the samples in the band; 0.95 if left out.", metavar="SHARE")]
+Level = Annotated[
+    float | None, Option("With --band: share of the samples in the band; 0.95 if left out.", metavar="SHARE")
+]
 OnlyGiven = Annotated[bool, Option("With --band: only the uncertain inputs that the case file gives.")]
 
 

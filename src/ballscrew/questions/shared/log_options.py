@@ -17,13 +17,20 @@ def headings(meaning: str) -> Option:
 Columns = Annotated[Mapping[str, str], headings('Heading of a column: torque="M_ist [N m]".')]
 TorqueKind = Annotated[
     Literal["friction", "drive", "unknown"],
-    Option("Kind of the torque: friction or drive; if left out, found by comparison with the model.", metavar="KIND", noun="kind of torque"),
+    Option(
+        "Kind of the torque: friction or drive; if left out, found by comparison with the model.",
+        metavar="KIND",
+        noun="kind of torque",
+    ),
 ]
 TorqueConstant = Annotated[
-    float | None, Option('Torque for each ampere of a motor current: "0.5 N m/A".', metavar="VALUE", unit="N m/A", above=0)
+    float | None,
+    Option('Torque for each ampere of a motor current: "0.5 N m/A".', metavar="VALUE", unit="N m/A", above=0),
 ]
 Inertia = Annotated[
     float | None,
-    Option('Inertia that the torque accelerates, at the screw: "2e-3 kg m^2".', metavar="VALUE", unit="kg m^2", above=0),
+    Option(
+        'Inertia that the torque accelerates, at the screw: "2e-3 kg m^2".', metavar="VALUE", unit="kg m^2", above=0
+    ),
 ]
 KeepGoing = Annotated[bool, Option("Leave faulty rows out, and say how many.")]

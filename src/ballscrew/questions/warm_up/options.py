@@ -30,4 +30,6 @@ class DriftOptions:
     drift_cycle: Annotated[
         bool, Option("A cycle like that of ISO 230-3: full stroke at a share of rapid, an hour of rest.")
     ] = False
-    feed_share: Annotated[float | None, Option("With --drift-cycle: feed as a share of rapid; 0.5 if left out.", metavar="SHARE")] = None
+    feed_share: Annotated[
+        float | None, Option("With --drift-cycle: feed as a share of rapid; 0.5 if left out.", metavar="SHARE")
+    ] = None
