@@ -37,7 +37,7 @@ def axis(
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:
-    """Rigidity between motor and table over the stroke, lost motion, critical speed and buckling load.
+    """Rigidity, lost motion and critical speed of an axis. The output has the buckling load, too, at places over the stroke.
 
     Nut, shaft, bearings, mount and the twist of the shaft, one behind the other. The case has an [installation]; with
     [axis] and [motion] the travel, the largest load and the largest speed are theirs, or else of [operation].

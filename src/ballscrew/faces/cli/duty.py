@@ -49,7 +49,7 @@ def duty(
     written: Mapping[str, Any],
     allow_code: AllowCode = False,
 ) -> None:
-    """Torque of the motor over a cycle, and what follows: RMS and peak, energy, life, brake, motor.
+    """Motor torque, energy, brake and life over a cycle.
 
     The case has an [axis] and a [motion], and perhaps a [motor]; it needs no [operation]. The rule of catalogues
     stands beside the numbers; [model] name = "constant-efficiency" asks for it.

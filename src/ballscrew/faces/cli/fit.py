@@ -66,7 +66,7 @@ def fit(
     allow_code: AllowCode = False,
     verbose: Verbose = False,
 ) -> None:
-    """Fit numbers of a model to a log, and say which of them the log does not determine.
+    """Fit numbers of a model to a log. The output says which of them the log does not determine.
 
     A log of a moving axis (time, position, and a force, torque, current or control voltage) determines its mass, the
     gravity force, the dead time and the friction, by three models side by side.

@@ -39,7 +39,7 @@ def optimise(
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:
-    """Pareto front of screws for a need, with geometries that are free within what makers produce.
+    """Pareto front of screw geometries for a need. They are free within what makers produce.
 
     The need is that of ballscrew select; its table [optimise] has bounds and objectives. Each member is evaluated by
     the full model and all checks. Needs the extra optimise.

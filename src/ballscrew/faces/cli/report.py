@@ -32,7 +32,9 @@ def report(
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:
-    """A report to file: checks, results with their bands, drawing, curves, what makes the band, inputs, sources.
+    """Write a report of a case as PDF or HTML.
+
+    It has checks, results with their bands, drawing, curves, what makes the band, inputs and sources.
 
     With --beside other designs stand side by side with the first, checks and bands included, then each by itself. A
     report has up to five pages, two more of a case with a motion, and one more with [surroundings], for four hours of

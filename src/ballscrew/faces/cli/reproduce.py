@@ -12,7 +12,7 @@ def reproduce(
     paper: Annotated[str, typer.Argument(help="The paper: olaru2005.")],
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder for figures, data and claims.")],
 ) -> None:
-    """The figures, data and claims of a paper from its equations, and a preloaded nut by the reference model."""
+    """Figures, data and claims of a paper. Beside them the reference model on a preloaded nut."""
     from ballscrew.basis.errors import Fault, InputError, nearest
 
     if paper != "olaru2005":

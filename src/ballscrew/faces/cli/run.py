@@ -56,7 +56,7 @@ def run(
     self_heating: SelfHeatingOption = False,
     allow_code: AllowCode = False,
 ) -> None:
-    """Friction at the operating point of a case file; with --band also its uncertainty.
+    """Friction at the operating point of a case file. With --band its uncertainty.
 
     With --rows the same for each screw of a table, one line each; oil, operating point and model are those of the case.
     """

@@ -48,7 +48,7 @@ def select(
     keep_going: KeepGoing = False,
     allow_code: AllowCode = False,
 ) -> None:
-    """Rank the screws of the catalogue, with their nuts, preloads and oils, for a need.
+    """Rank the screws of the catalogue for a need. Each row counts with its nut, preloads and oils.
 
     Each candidate is judged by the full model and all checks, but for those that their loads alone rule out. The
     exit code is 0 where none holds, too: the list says what fails, and by how much.

@@ -32,7 +32,7 @@ def sensitivity(
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:
-    """Share of each uncertain input in the band of a result, and what to measure to halve the band.
+    """Share of each uncertain input in a band. The output also says what to measure to halve the band.
 
     Uncertain inputs are those that the case file gives a distribution, such as "0.54 ± 0.01", and those that are
     rarely known, with a usual one. Laws are not varied here.

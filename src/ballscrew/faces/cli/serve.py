@@ -38,7 +38,7 @@ def serve(
         ),
     ] = None,
 ) -> None:
-    """The application in the browser, and its JSON API, on this machine; Ctrl-C ends it.
+    """The application in the browser, and its JSON API. Both run on this machine; Ctrl-C ends them.
 
     The page is at the address it prints, the API under /api. Nothing is asked from outside and nothing is stored.
     """

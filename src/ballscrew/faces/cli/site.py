@@ -18,7 +18,7 @@ def site(
         list[str] | None, typer.Option("--nut", metavar="KIND", help="Only this kind of nut; may be repeated.")
     ] = None,
 ) -> None:
-    """Write the page that computes in the browser, without a server and without Python.
+    """Write a page that computes in the browser alone. It needs neither a server nor Python.
 
     The folder can be put on any web server; a single file opens by a double click. To write it takes the compiler
     of the extra "fast"; to use it takes nothing.

@@ -48,7 +48,7 @@ def warm_up(
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:
-    """Temperatures, growth, preload and torque over hours, and the steady state.
+    """Temperatures, growth and preload over hours. The output has the torque and the steady state, too.
 
     A case with an [axis] and a [motion] does its motion; one with an [operation] moves to and fro over half the shaft.
     [surroundings] has where the heat goes. Without a steady state the verdict says so: thermal runaway. With --band
