@@ -37,7 +37,9 @@ def axis(
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:
-    """Rigidity, lost motion and critical speed of an axis. The output has the buckling load, too, at places over the stroke.
+    """Rigidity, lost motion and critical speed of an axis.
+
+    The output has the buckling load, too, at places of the nut over the stroke.
 
     Nut, shaft, bearings, mount and the twist of the shaft, one behind the other. The case has an [installation]; with
     [axis] and [motion] the travel, the largest load and the largest speed are theirs, or else of [operation].
