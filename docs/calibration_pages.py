@@ -78,7 +78,7 @@ def _output(module: str, arguments: list[str], place: Path) -> str:
 
 
 def _shortened(output: str) -> str:
-    before, scores, _ = output.partition("How far off")
+    before, scores, _ = output.partition("Error, root mean square")
     _, next_test, after = output.partition("next test:")
     assert scores
     assert next_test

@@ -76,7 +76,7 @@ def test_the_rules_contradict_each_other_by_their_own_ends(case):
     torques = [one.torque for one in by_rules(case)]
     line, contradiction = map(units.filled, makers.messages(found.case, found.nut))
     assert f"by a factor of {max(torques) / min(torques):.2f}" in contradiction
-    assert line.startswith(f"without load and seals {found.nut.drag_of_balls:.4g} N m; by the rules of makers: ")
+    assert line.startswith(f"drag torque without seals {found.nut.drag_of_balls:.4g} N m; by the rules of makers: ")
     assert f": Rexroth, its maker, {torques[0]:.4g} N m (model / rule " in line
     for torque in torques:
         assert f"{torque:.4g} N m (model / rule {found.nut.drag_of_balls / torque:.2f})" in line

@@ -304,7 +304,8 @@ def test_run_for_people(ballscrew):
     text = " ".join(process.stdout.split())
     for words in (
         "7000 N, 600 rpm, double nut, preload 5047 N, model reference", "screw and nut elastic, of a usual size",
-        "preload 5.047 kN: 7 % of the dynamic load rating 72.1 kN, as listed", "torque without load", "seals 0.4 N m",
+        "preload 5.047 kN: 7 % of the dynamic load rating 72.1 kN, as listed", "drag torque with seals",
+        "seals 0.4 N m",
         "back-drives: the load turns the screw", "left out: churning, return path; not compared", "axial rigidity",
         "load on the flank that carries the load", "load on the other flank", "Contacts of the most loaded ball",
     ):  # fmt: skip

@@ -9,6 +9,7 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
+from ballscrew.cases.case_files import case_file
 from ballscrew.evidence.papers import olaru2005 as paper
 from ballscrew.evidence.papers.olaru2005 import case, verdicts
 from ballscrew.evidence.papers.olaru2005.claims import judged
@@ -16,6 +17,7 @@ from ballscrew.evidence.papers.olaru2005.observations import observe
 from ballscrew.faces.cli import reproduction
 from ballscrew.questions.reproduce import ball_figure as ball
 from ballscrew.questions.reproduce import figure as figures
+from ballscrew.questions.reproduce import preloaded_nut as nuts
 from ballscrew.questions.shared.charts import Plot
 from support.pictures import drawn, size
 
@@ -43,8 +45,8 @@ def written(tmp_path_factory):
     """The whole folder, and the steps that were reported."""
     out = tmp_path_factory.mktemp("reproduction") / "new" / "olaru2005"
     steps = []
-    files = reproduction.reproduce_olaru2005(out, lambda *step: steps.append(step))
-    return out, files, steps
+    made = reproduction.reproduce_olaru2005(out, lambda *step: steps.append(step))
+    return out, made, steps
 
 
 # -- claims ---------------------------------------------------------------------------------------
@@ -191,11 +193,12 @@ def test_curves_cover_the_ranges_of_the_paper():
 
 
 def test_folder_is_complete(written):
-    out, files, steps = written
-    expected = {f"{name}.{kind}" for name in NAMES for kind in ("svg", "png", "csv")} | {"data.nc", "claims.md"}
+    out, made, steps = written
+    expected = {f"{name}.{kind}" for name in (*NAMES, "preloaded_nut") for kind in ("svg", "png", "csv")}
+    expected |= {"data.nc", "claims.md", "preloaded_nut.md", "preloaded_nut.toml"}
     assert {path.name for path in out.iterdir()} == expected
-    assert {path.name for path in files} == expected
-    assert all(path.stat().st_size for path in files)
+    assert {path.name for path in made.files} == expected
+    assert all(path.stat().st_size for path in made.files)
     assert [step[1] for step in steps] == list(range(1, len(steps) + 1))
     assert steps[-1][1] == steps[-1][2]
     assert [path.name for path in out.parent.iterdir()] == ["olaru2005"]
@@ -207,7 +210,7 @@ DOTS = 150 / 72
 
 def test_pictures_are_pictures(written):
     out, _, _ = written
-    for name in NAMES:
+    for name in (*NAMES, "preloaded_nut"):
         page = drawn(out / f"{name}.svg").page
         assert size((out / f"{name}.png").read_bytes()) == pytest.approx((page.right * DOTS, page.bottom * DOTS), abs=2)
         assert b"dc:date" not in (out / f"{name}.svg").read_bytes()
@@ -236,6 +239,9 @@ def test_words(written):
     assert text.count("| Olaru2005 §") == 41
     assert "consistent with the text" in text
     assert "verified by" in text
+    assert "As printed, 13 of 22 claims hold, 5 do not hold and 4 cannot be checked" in text
+    assert "| λ | film parameter" in text
+    assert "281 rpm as printed and 168 rpm corrected (paper: 200 to 300 rpm)" in text
     for name in NAMES:
         assert f"{name}.svg" in text
 
@@ -244,8 +250,8 @@ def test_same_bytes_on_every_run(monkeypatch, written, tmp_path):
     """A second time, with one figure of each kind."""
     monkeypatch.setattr(ball, "PLOTS", ball.PLOTS[:1])
     monkeypatch.setattr(figures, "PLOTS", figures.PLOTS[4:6])
-    again = reproduction.reproduce_olaru2005(tmp_path)
-    assert len(again) == 3 * 3 + 2
+    again = reproduction.reproduce_olaru2005(tmp_path).files
+    assert len(again) == 4 * 3 + 4
     for path in again:
         here, there = path.read_bytes(), (written[0] / path.name).read_bytes()
         if path.name == "claims.md":  # ends with the list of figures
@@ -307,11 +313,66 @@ def test_netcdf_libraries_missing(monkeypatch, tmp_path):
 
 
 def test_a_folder_in_the_place_of_a_file(monkeypatch, tmp_path):
-    monkeypatch.setattr(reproduction, "_write", lambda folder, report: (folder.path / "data.nc").write_text("new"))
+    def write_data(folder, report):
+        (folder.path / "data.nc").write_text("new")
+        return []
+
+    monkeypatch.setattr(reproduction, "_write", write_data)
     (tmp_path / "out" / "data.nc").mkdir(parents=True)
     with pytest.raises(bs.InputError, match=r"data\.nc is a folder"):
         reproduction.reproduce_olaru2005(tmp_path / "out")
     assert [path.name for path in tmp_path.rglob("*")] == ["out", "data.nc"]
+
+
+# -- the reference model on a preloaded nut -------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def nut():
+    return nuts.preloaded_nut()
+
+
+def test_nut_of_the_case_file(written, nut):
+    """The file beside the page is the case of the page; its torque is what the model gives."""
+    found = case_file.load(written[0] / "preloaded_nut.toml")
+    run = bs.FrictionModel.reference()(found.screw, found.lubricant, axial_load=7000.0, screw_speed=600 * case.RPM)
+    torque = nut.loaded.band.band["screw_torque"]
+    assert torque.value == pytest.approx(run.screw_torque, rel=1e-6)
+    assert torque.both.low < torque.value < torque.both.high
+    assert nut.unloaded.band.losses == 0
+
+
+def test_each_rule_is_beside_the_band(nut):
+    """In it or outside it as the numbers are, and the rule of the maker of the nut is first."""
+    low, high = nut.unloaded.band.band["screw_torque"].both
+    assert nut.rules[0].beside.by_rule.rule.name == "rexroth"
+    assert {one.beside.by_rule.rule.name for one in nut.rules} == {"rexroth", "hiwin", "jis"}
+    for one in nut.rules:
+        assert one.is_in_band == (low <= one.beside.by_rule.torque <= high)
+
+
+def test_page_of_the_nut(written):
+    page = (written[0] / "preloaded_nut.md").read_text(encoding="utf-8")
+    assert "| **reference model** |" in page
+    assert "rule of Rexroth, its maker" in page
+    assert "contradict each other here by a factor of" in page
+    assert (written[0] / "preloaded_nut.toml").read_text(encoding="utf-8") in page
+
+
+def test_summary_for_the_terminal(written, claims):
+    summary = "\n".join(written[1].summary)
+    assert len(summary.splitlines()) <= 12
+    assert max(map(len, summary.splitlines())) <= 120
+    assert summary.startswith(f"The paper: {reproduction.counts(list(claims.values()))}.")
+    for words in ("reference model", "95 % band", "rule of Rexroth, its maker", "efficiency"):
+        assert words in summary
+
+
+def test_counts_are_those_of_the_verdicts(claims):
+    """Counted by hand from the table of verdicts above."""
+    assert reproduction.counts(list(claims.values())) == (
+        "as printed, 13 of 22 claims hold, 5 do not hold and 4 cannot be checked; corrected, 11, 7 and 4"
+    )
 
 
 # -- repairs --------------------------------------------------------------------------------------

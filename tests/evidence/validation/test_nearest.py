@@ -53,7 +53,7 @@ def test_it_is_said_beside_a_result(ballscrew, tmp_path):
     case = tmp_path / "nut.toml"
     case.write_text(drive_case(), encoding="utf-8")
     plain = " ".join(ballscrew("run", case).stdout.split())
-    assert "no-load torque at 100 rpm, ISO VG 100 at 25 degC, model / vendor: 0.8" in plain
+    assert "drag torque without seals at 100 rpm, ISO VG 100 at 25 degC, model / vendor: 0.8" in plain
     assert "for the 6 rows of rexroth-double-nut most like this nut, without calibration" in plain
     fitted = " ".join(ballscrew("run", case, "--calibration", "rexroth-2006-rubbing").stdout.split())
     assert "which rexroth-2006-rubbing was fitted to" in fitted

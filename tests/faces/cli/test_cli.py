@@ -373,7 +373,7 @@ def test_version_and_help(ballscrew):
         assert command in text
     for command in ("run", "compare", "sweep", "cite"):
         words = " ".join(ballscrew(command, "--help").stdout.split())
-        assert "olaru2005, olaru2005-literal, corrected, reference (default); wins over the file" in words
+        assert "in place of that of the file: olaru2005, olaru2005-literal, corrected, reference (default)" in words
 
 
 def test_help_loads_nothing():

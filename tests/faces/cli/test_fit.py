@@ -97,7 +97,7 @@ def test_words_of_what_cannot_be_told(fit, log):
     assert all("not identified" in row and "–" in row and "±" not in row for row in rows)
     assert "beware  " in done.stdout
     (line,) = [line for line in done.stdout.splitlines() if line.startswith("Trade-off: ")]
-    assert line.endswith("makes no difference in this log, which tells only what they make together")
+    assert line.endswith("makes no difference in this log, which determines only their combined effect")
 
 
 def test_names_may_come_with_commas_or_one_by_one(fit, log):

@@ -58,7 +58,7 @@ def test_words(ballscrew):
     assert text.startswith("nut_new.csv, nut_worn.csv: double nut, preload 4326 N, model olaru2005\n")
     assert "preload lost: " in text
     assert "less than 80% of it with a probability of " in text
-    assert "Had the preload stayed the new log's:" in text
+    assert "If the preload had stayed the new log's:" in text
     assert "boundary friction coefficient " in text
     assert "note  the worn log is 8 K hotter than the new one" in text
 
@@ -82,7 +82,7 @@ def test_a_torque_without_load(ballscrew):
     assert results["preload"]["temperature"] == pytest.approx(308.15)
     assert found["verdicts"][0]["id"] == "service.preload"
     done = ballscrew("service", *asked, *QUICK)
-    assert done.stdout.startswith("0.4 N m without load: double nut")
+    assert done.stdout.startswith("drag torque 0.4 N m: double nut")
     assert "\npreload " in done.stdout
 
 

@@ -52,8 +52,8 @@ def test_the_table_has_the_base_that_its_changes_are_relative_to(ballscrew):
     text = ballscrew("compare", AXIS).stdout
     own, base, first = text[text.index("\nthis case") + 1 :].splitlines()[:3]
     assert "case" not in own.split()[2:]
-    assert base.startswith("without seals, as all below")
-    torque, mark = base.split()[5:7]
+    assert base.startswith("this case, without seals, as all below")
+    torque, mark = base.split()[7:9]
     assert mark == "case"
     value, change = first.split()[3:5]
     assert float(change.rstrip("%")) == pytest.approx(100 * (float(value) / float(torque) - 1), abs=0.1)
@@ -141,8 +141,8 @@ def test_a_nut_without_preload_has_no_rules(ballscrew):
 @pytest.mark.parametrize("command", ["run", "check"])
 def test_what_of_it_are_seals_stands_below_it(ballscrew, command):
     lines = [" ".join(line.split()) for line in ballscrew(command, AXIS).stdout.splitlines()]
-    at = next(place for place, line in enumerate(lines) if line.startswith("torque without load"))
-    assert lines[at + 1] == "of it seals 0.3 N m"
+    at = next(place for place, line in enumerate(lines) if line.startswith("drag torque with seals"))
+    assert lines[at + 1] == "of which seals 0.3 N m"
 
 
 def test_seals_of_another_maker_are_called_so(tmp_path, ballscrew):
@@ -165,7 +165,7 @@ def test_seals_of_another_maker_are_called_so(tmp_path, ballscrew):
     assert "seals 0.4 N m: standard seals of Rexroth2006, not of THK; give the torque of your seals" in text
     assumed = json.loads(ballscrew("check", "A", "--rows", table, "--json").stdout)["assumed"]
     assert any("not of THK" in line for line in assumed)
-    assert "of it seals (standard seals of Rexroth2006, not of THK) 0.4 N m" in text
+    assert "of which seals (standard seals of Rexroth2006, not of THK) 0.4 N m" in text
 
 
 def test_the_source_of_seals_is_in_every_document(tmp_path, ballscrew):

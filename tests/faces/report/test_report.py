@@ -205,7 +205,7 @@ def test_the_numbers_are_those_of_the_program(pdf, page):
     said = [
         f"Friction torque on the screw {torque.value} ({torque.interval})",
         f"efficiency {share.value} ({share.interval})",
-        f"torque without load {value(found.nut.preload_drag, _TORQUE)}",
+        f"drag torque without seals {value(found.nut.preload_drag, _TORQUE)}",
         *(value(float(part), _TORQUE) for part in result.contributions.values() if part),
         *(record.text.capitalize()[:20] for record in found.verdicts),
     ]

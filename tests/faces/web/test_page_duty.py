@@ -145,7 +145,7 @@ def test_warming_up_with_a_band_that_is_cancelled(visit, server):
     page.route("**/api/v1/jobs/warm-up", lambda route: held.append(route))
     page.locator("#warm-band").check()
     page.locator("#warm-up .card-line button").click()
-    assert "Cancelled. What stands below is of the input before." in here.text("#warm-up .card-line")
+    assert "Cancelled. The results below are those of the previous input." in here.text("#warm-up .card-line")
     page.unroute("**/api/v1/jobs/warm-up")
     edited(here, "warm-up", lambda: page.locator("#warm-up .card-line button").click())
     assert " to " in here.text("#warm-up .interval >> nth=0")

@@ -55,7 +55,7 @@ def test_verdicts_by_their_limits(report):
     assert rigid.value == report.chain.total[at]
     springs = {name: 1 / spring[at] for name, spring in report.chain.parts.items()}
     most = max(springs, key=springs.get)
-    assert f"{100 * springs[most] / sum(springs.values()):.2g} % of what gives way is the {most}" in rigid.text
+    assert f"{100 * springs[most] / sum(springs.values()):.2g} % of the compliance is that of the {most}" in rigid.text
     critical = float(np.min(report.chain.critical_speed[report.lowest_critical_speed]))
     assert speed.limit == pytest.approx(report.case.limits.critical_speed_share * critical, rel=1e-12)
     assert speed.value == pytest.approx(2 * np.pi * 0.5 / 0.01, rel=1e-12)  # 30 m/min with a lead of 10 mm

@@ -66,7 +66,7 @@ def test_the_best_stands_beside_the_rules_of_makers():
     found = bs.select({**need, "nut": {"type": "double", "preload": "5 %"}})
     assert found.best is not None
     (line,) = text.beside_rules(found)
-    assert line.startswith("1: without load and seals ")
+    assert line.startswith("1: drag torque without seals ")
     assert "HIWIN, its maker, " in " ".join(line.split())
     of_best = found.best.checked.run
     sheet = table.of_selection(found.ranked[:1])

@@ -78,7 +78,7 @@ class CycleLife(ByValue):
 
     @lazy
     def lives(self) -> Mapping[str, Ratio]:
-        """Turns that nine of ten flanks, or halves, outlive; infinite for one that is never loaded."""
+        """Basic rating life L10 of each flank or half, revolutions; infinite for one that is never loaded."""
         if self.dynamic_load_rating is None:
             return {}
         rated = self.dynamic_load_rating
@@ -87,7 +87,7 @@ class CycleLife(ByValue):
 
     @property
     def revolutions(self) -> Ratio:
-        """Turns that nine of ten screws outlive, by both flanks or halves (ISO3408-5); NaN without a rating."""
+        """Basic rating life L10 by both flanks or halves, revolutions (ISO3408-5); NaN without a rating."""
         if not self.lives or any(math.isnan(found) for found in self.lives.values()):
             return math.nan
         worst = min(self.lives.values())
@@ -101,10 +101,10 @@ class CycleLife(ByValue):
 
     @property
     def cycles(self) -> Ratio:
-        """Cycles that nine of ten screws outlive."""
+        """Basic rating life L10 in cycles."""
         return self.revolutions / self.duty.revolutions if self.duty.revolutions else math.nan
 
     @property
     def time(self) -> Ratio:
-        """Time that nine of ten screws outlive with one cycle after the other, s."""
+        """Basic rating life L10h with one cycle after the other, s."""
         return self.cycles * self.duty.states.cycle_time

@@ -176,7 +176,7 @@ def guide_friction(load: Force, friction_coefficient: Ratio, seal_force: Force) 
 
 
 def guide_life(dynamic_load_rating: Force, equivalent_load: Force, service_factor: Ratio) -> Length:
-    r"""Distance that nine of ten carriages with balls outlive.
+    r"""Basic rating life of carriages with balls, as a distance.
 
     .. math:: L = 50000 \left(\frac{C}{f_w P}\right)^3
 

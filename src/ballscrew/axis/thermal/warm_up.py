@@ -333,16 +333,15 @@ def _records(found: WarmUp) -> list[Record]:
     end = found.equilibrium
     message = (
         Message(
-            "settles with the nut at {temperature}; gain of the thermal loop {gain}, thermal runaway at 1",
+            "settles with the nut at {temperature}; "
+            "stability margin of the thermal loop {margin}, thermal runaway at 0",
             {
                 "temperature": Measured(end.nut_temperature, _TEMPERATURE, 3),
-                "gain": Measured(1 - end.margin, digits=2),
+                "margin": Measured(end.margin, digits=3),
             },
         )
         if end.exists
-        else Message(
-            "no equilibrium within the range of oil and preload: it runs away, or it gets too hot for the model"
-        )
+        else Message("no equilibrium within the range of oil and preload: thermal runaway, or too hot for the model")
     )
     verdicts = [
         units.record(

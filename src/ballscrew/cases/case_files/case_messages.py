@@ -44,21 +44,21 @@ _WITHOUT_NUT = [Message("seals"), Message("preload"), Message("return path"), Me
 _LEFT_OUT, _NOT_COMPARED = Message("left out: {losses}"), Message("not compared with measurements")
 #: What ``ballscrew validate`` says of nuts like the one of a case.
 _WITHOUT_CALIBRATION = Message(
-    "no-load torque at 100 rpm, ISO VG 100 at 25 degC, model / vendor: {mean} ± {scatter} for the {rows} rows of "
-    "{data} most like this nut, without calibration (ballscrew validate)"
+    "drag torque without seals at 100 rpm, ISO VG 100 at 25 degC, model / vendor: {mean} ± {scatter} for the {rows} "
+    "rows of {data} most like this nut, without calibration (ballscrew validate)"
 )
 _CALIBRATED = Message(
-    "no-load torque at 100 rpm, ISO VG 100 at 25 degC, model / vendor: {mean} ± {scatter} for the {rows} rows of "
-    "{data} most like this nut, which {calibration} was fitted to (ballscrew validate)"
+    "drag torque without seals at 100 rpm, ISO VG 100 at 25 degC, model / vendor: {mean} ± {scatter} for the {rows} "
+    "rows of {data} most like this nut, which {calibration} was fitted to (ballscrew validate)"
 )
 #: Whose rows these are, beside a nut of another maker, or of none that is known.
 _OF_ANOTHER_MAKE = Message(
-    "these are rows of {maker}, and this nut is of {make}: without load and seals it has, by the rules of makers, "
-    "{rules}"
+    "these are rows of {maker}, and this nut is of {make}: its drag torque without seals is, by the rules of "
+    "makers, {rules}"
 )
 _OF_NO_MAKE = Message(
-    "these are rows of {maker}, and the make of this nut is not known: without load and seals it has, by the rules of "
-    "makers, {rules}"
+    "these are rows of {maker}, and the make of this nut is not known: its drag torque without seals is, "
+    "by the rules of makers, {rules}"
 )
 _OPERATION = fields_of(OperatingState)
 _BALL_FORCE = quantities_of(FrictionResult)["ball_to_ball_force"]

@@ -14,7 +14,7 @@ from ballscrew.physics.solvers.load_distribution import preload_of
 
 
 def _quantity(rule: Rule) -> Quantity:
-    meaning = f"torque of the nut without load and seals by the rule of {rule.label}: {rule.formula} ({rule.range})"
+    meaning = f"drag torque of the nut without seals by the rule of {rule.label}: {rule.formula} ({rule.range})"
     return Quantity(rule.name, "N m", Info("M_0", meaning))
 
 

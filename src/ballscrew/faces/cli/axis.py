@@ -1,4 +1,4 @@
-"""``ballscrew axis``: what gives way between motor and table, over the stroke."""
+"""``ballscrew axis``: rigidity between motor and table, over the stroke."""
 
 from __future__ import annotations
 
@@ -33,11 +33,13 @@ def axis(
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
     to: Annotated[
         list[Path] | None,
-        typer.Option(_TO, "-o", metavar="FILE", help="Also write a table (.csv, .xlsx) or a picture; repeat."),
+        typer.Option(_TO, "-o", metavar="FILE", help="Also write a table (.csv, .xlsx) or a picture; may be repeated."),
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:
-    """Rigidity between motor and table over the stroke, lost motion, critical speed and buckling load.
+    """Rigidity, lost motion and critical speed of an axis.
+
+    The output has the buckling load, too, at places of the nut over the stroke.
 
     Nut, shaft, bearings, mount and the twist of the shaft, one behind the other. The case has an [installation]; with
     [axis] and [motion] the travel, the largest load and the largest speed are theirs, or else of [operation].

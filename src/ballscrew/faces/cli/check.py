@@ -56,7 +56,7 @@ def check(
     self_heating: SelfHeatingOption = False,
     allow_code: AllowCode = False,
 ) -> None:
-    """From a catalogue row or a case to torque, efficiency, stiffness, life, and all checks.
+    """Torque, stiffness, life and all checks of one screw. The screw is a row of the catalogue or that of a case file.
 
     What is not given is assumed, and the output says what was. The exit code is 0 where a check fails, too: the
     verdict says so; it is 2 only for bad input.

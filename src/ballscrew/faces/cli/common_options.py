@@ -18,11 +18,15 @@ MODEL_NAMES, CALIBRATION_NAMES = "{models}", "{calibrations}"
 CaseFile = Annotated[Path, typer.Argument(help="Case file (TOML); ballscrew catalogue show NAME --case makes one.")]
 ModelName = Annotated[
     str | None,
-    typer.Option("--model", metavar="NAME", help=f"{MODEL_NAMES}; wins over the file."),
+    typer.Option("--model", metavar="NAME", help=f"Model, in place of that of the file: {MODEL_NAMES}."),
 ]
 CalibrationName = Annotated[
     str | None,
-    typer.Option("--calibration", metavar="NAME", help=f"{CALIBRATION_NAMES}, by-make or none; wins over the file."),
+    typer.Option(
+        "--calibration",
+        metavar="NAME",
+        help=f"Calibration, in place of that of the file: {CALIBRATION_NAMES}, by-make or none.",
+    ),
 ]
 Settings = Annotated[
     list[str] | None,

@@ -31,11 +31,12 @@ def compare(
     ] = None,
     self_heating: SelfHeatingOption = False,
     own: Annotated[
-        bool, typer.Option("--own", help="Several designs each at its own load and speed, not at those of the first.")
+        bool,
+        typer.Option("--own", help="Of several designs: each at its own load and speed, not at those of the first."),
     ] = False,
     allow_code: AllowCode = False,
 ) -> None:
-    """All models and all laws side by side at the operating point of a case file; or several designs side by side.
+    """Models and laws side by side, or several designs.
 
     Of several case files, or of a project file, each design is run and checked, and changes are against the first;
     project.toml#name is one design of it, as for all commands. Of one case it is as follows.

@@ -25,7 +25,9 @@ def compensation(
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
     allow_code: AllowCode = False,
 ) -> None:
-    """Write the growth of a shaft after hours of work as a compensation of positions, for an encoder at the motor.
+    """Growth of a warm shaft as a table for a control.
+
+    The shaft is that after hours of work; the table compensates positions of an axis with the encoder at the motor.
 
     Positions grow away from the fixed bearing; of an axis mounted the other way round, --direction towards turns the
     signs. It holds in that thermal state only; a warm-up that stops before the hours is refused.

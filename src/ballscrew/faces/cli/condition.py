@@ -40,7 +40,7 @@ def condition(
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:
-    """State of a nut over time: preload left, trend and alarm, from torques that were logged test by test.
+    """Preload of a nut over time, with trend and alarm. From torques that were logged test by test.
 
     All torques are reduced to one temperature by the model; without logged temperatures the intervals are wide, and the
     output says so first.

@@ -33,7 +33,10 @@ def duty(
     to: Annotated[
         list[Path] | None,
         typer.Option(
-            _TO, "-o", metavar="FILE", help="Also write tables (.xlsx, .csv) or a picture (.pdf, .png, .svg); repeat."
+            _TO,
+            "-o",
+            metavar="FILE",
+            help="Also write tables (.xlsx, .csv) or a picture (.pdf, .png, .svg); may be repeated.",
         ),
     ] = None,
     trace: Annotated[
@@ -46,7 +49,7 @@ def duty(
     written: Mapping[str, Any],
     allow_code: AllowCode = False,
 ) -> None:
-    """Torque of the motor over a cycle, and what follows: RMS and peak, energy, life, brake, motor.
+    """Motor torque, energy, brake and life over a cycle.
 
     The case has an [axis] and a [motion], and perhaps a [motor]; it needs no [operation]. The rule of catalogues
     stands beside the numbers; [model] name = "constant-efficiency" asks for it.

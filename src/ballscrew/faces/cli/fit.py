@@ -27,7 +27,11 @@ def fit(
     *,
     written: Mapping[str, Any],
     moving: Annotated[
-        bool, typer.Option("--moving", help="The log is of a moving axis: time, position, force (found out otherwise).")
+        bool,
+        typer.Option(
+            "--moving",
+            help="The log is of a moving axis: time, position, force (recognised by its columns if left out).",
+        ),
     ] = False,
     test: Annotated[
         Path | None,
@@ -62,10 +66,10 @@ def fit(
     allow_code: AllowCode = False,
     verbose: Verbose = False,
 ) -> None:
-    """Fit numbers of a model to a log, and say which of them the log cannot tell.
+    """Fit numbers of a model to a log. The output says which of them the log does not determine.
 
-    A log of a moving axis (time, position, and a force, torque, current or control voltage) tells its mass, the
-    gravity force, the dead time and the friction, by three models beside each other.
+    A log of a moving axis (time, position, and a force, torque, current or control voltage) determines its mass, the
+    gravity force, the dead time and the friction, by three models side by side.
 
     With --rows each screw of a table is fitted by itself, to the file in its column log.
 

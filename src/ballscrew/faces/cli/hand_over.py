@@ -16,7 +16,9 @@ from ballscrew.questions.hand_over.options import HandOverOptions
 @flags_of(HandOverOptions)
 def hand_over(
     case: CaseFile,
-    to: Annotated[str, typer.Option("--to", metavar="TARGET", help="What it is for; an unknown name lists them all.")],
+    to: Annotated[
+        str, typer.Option("--to", metavar="TARGET", help="Target: c, fmu, table, …; an unknown name lists all.")
+    ],
     out: Annotated[Path, typer.Option("--out", "-o", metavar="DIR", help="Folder to write into.")],
     model: ModelName = None,
     calibration: CalibrationName = None,
@@ -26,7 +28,7 @@ def hand_over(
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
     allow_code: AllowCode = False,
 ) -> None:
-    """Hand the model over to a simulator, a robot or a control, with its range and its worst error."""
+    """Write the model for a simulator, a robot or a control. Its range and its worst error come with it."""
     from ballscrew.basis.output.json_text import as_json as json_text
     from ballscrew.cases.case_files import case_file
     from ballscrew.exports import requests

@@ -18,7 +18,7 @@ def list_names(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
 ) -> None:
-    """List names: grades of oils, laws of friction, models, inputs to vary and outputs to ask for."""
+    """List grades, laws, models, inputs or outputs. Grades are those of oils; inputs are what can be varied."""
     from ballscrew.basis.output.json_text import as_json as json_text
     from ballscrew.cases.case_files import case_file
     from ballscrew.questions.names import compute, text

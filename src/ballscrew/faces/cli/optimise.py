@@ -30,11 +30,16 @@ def optimise(
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object with the members, SI units.")] = False,
     to: Annotated[
         list[Path] | None,
-        typer.Option(_TO, "-o", metavar="FILE", help="Also write .csv or .xlsx, .png, .svg or .pdf; repeat."),
+        typer.Option(
+            _TO,
+            "-o",
+            metavar="FILE",
+            help="Also write a table (.csv, .xlsx) or a picture (.png, .svg, .pdf); may be repeated.",
+        ),
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:
-    """What a screw for a need would look like: the Pareto front of free geometries within what is made.
+    """Pareto front of screw geometries for a need. They are free within what makers produce.
 
     The need is that of ballscrew select; its table [optimise] has bounds and objectives. Each member is evaluated by
     the full model and all checks. Needs the extra optimise.

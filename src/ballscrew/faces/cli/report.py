@@ -20,18 +20,21 @@ _MOST_BESIDE = 3
 @flags_of(ReportOptions)
 def report(
     case: CaseFile,
-    to: Annotated[Path, typer.Option("--to", "-o", metavar="FILE", help="What to write: .pdf or .html.")],
+    to: Annotated[Path, typer.Option("--to", "-o", metavar="FILE", help="File to write: .pdf or .html.")],
     model: ModelName = None,
     calibration: CalibrationName = None,
     settings: Settings = None,
     *,
     written: Mapping[str, Any],
     beside: Annotated[
-        list[Path] | None, typer.Option("--beside", metavar="CASE", help="Another design, up to three; repeatable.")
+        list[Path] | None,
+        typer.Option("--beside", metavar="CASE", help="Another design beside the first; may be repeated, up to three."),
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:
-    """A report to file: checks, results with their bands, drawing, curves, what makes the band, inputs, sources.
+    """Write a report of a case as PDF or HTML.
+
+    It has checks, results with their bands, drawing, curves, what makes the band, inputs and sources.
 
     With --beside other designs stand side by side with the first, checks and bands included, then each by itself. A
     report has up to five pages, two more of a case with a motion, and one more with [surroundings], for four hours of

@@ -1,4 +1,4 @@
-"""``ballscrew reproduce``: the figures, data and claims of a paper."""
+"""``ballscrew reproduce``: the figures, data and claims of a paper, and the reference model on a preloaded nut."""
 
 from __future__ import annotations
 
@@ -9,18 +9,20 @@ import typer
 
 
 def reproduce(
-    paper: Annotated[str, typer.Argument(help="Which paper: olaru2005.")],
+    paper: Annotated[str, typer.Argument(help="The paper: olaru2005.")],
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder for figures, data and claims.")],
 ) -> None:
-    """The figures, the data and the claims of a paper, from its equations."""
+    """Figures, data and claims of a paper. Beside them the reference model on a preloaded nut."""
     from ballscrew.basis.errors import Fault, InputError, nearest
 
     if paper != "olaru2005":
         raise InputError(Fault("reproduce", "unknown paper", paper, nearest(paper, ["olaru2005"])))
     from ballscrew.faces.cli.reproduction import reproduce_olaru2005
 
-    written = reproduce_olaru2005(out, _step)
-    typer.echo(f"{out}: {len(written)} files; read {out / 'claims.md'} first")
+    files, summary = reproduce_olaru2005(out, _step)
+    for line in summary:
+        typer.echo(line)
+    typer.echo(f"{out}: {len(files)} files; read claims.md and preloaded_nut.md first")
 
 
 def _step(what: str, done: int, total: int) -> None:

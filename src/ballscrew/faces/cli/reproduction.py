@@ -1,4 +1,4 @@
-"""Reproduce a paper into a folder: figures, their numbers, all data, and the claims with their verdicts.
+"""Reproduce a paper into a folder: figures, their numbers, all data, the claims with their verdicts, and a real nut.
 
 Everything is written beside its place first and moved there once complete, so that a failure or
 Ctrl-C leaves the folder as it was. The same bytes come out on every run.
@@ -6,6 +6,7 @@ Ctrl-C leaves the folder as it was. The same bytes come out on every run.
 
 from __future__ import annotations
 
+import collections
 import contextlib
 import csv
 import importlib.util
@@ -14,7 +15,7 @@ import shutil
 import tempfile
 from collections.abc import Callable, Generator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -23,6 +24,9 @@ from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.references import paper_equations
 from ballscrew.basis.version import __version__
 from ballscrew.evidence.papers import olaru2005 as paper
+from ballscrew.questions.reproduce import preloaded_nut as nuts
+from ballscrew.questions.reproduce import preloaded_nut_text as nut_words
+from ballscrew.questions.shared.report_blocks import sentence
 
 Report = Callable[[str, int, int], None]
 
@@ -46,11 +50,32 @@ _MODELS = ("olaru2005", "corrected")
 _LITERAL = "olaru2005-literal"
 _LABELS = ("as printed", "corrected", "to the letter")
 _FAILURES_FIRST = (paper.Verdict.FAILS, paper.Verdict.OPEN, paper.Verdict.HOLDS)
+_COUNTED = (paper.Verdict.HOLDS, paper.Verdict.FAILS, paper.Verdict.OPEN)
 _WORDS = {paper.Verdict.HOLDS: "yes", paper.Verdict.FAILS: "no", paper.Verdict.OPEN: "cannot be checked"}
+#: Symbols of the claims.
+_SYMBOLS = (
+    ("Y", "offset of the lines of pure rolling from the middle of the contact, as a share of its semi-axis"),
+    ("λ", "film parameter: film thickness over roughness"),
+    ("µ_a, µ_m, µ0", "coefficients of friction: of touching asperities, of the whole contact, at rest"),
+    ("F_S", "sliding force in a contact"),
+    ("F_B", "force between neighbouring balls"),
+    ("z", "number of loaded balls"),
+    ("Q", "contact load of one ball; the paper's 4000 N on the nut are 101 N a ball"),
+    ("M_S, M_N", "friction torque on the screw, on the nut"),
+    ("η", "efficiency, screw driving"),
+    ("d_m", "pitch circle diameter"),
+)
 
 
-def reproduce_olaru2005(out: Path, report: Report | None = None) -> list[Path]:
-    """Write the figures, the data and the claims of Olaru2005 into a folder; what was written is returned.
+class Reproduced(NamedTuple):
+    """The files that were written, and what is said of them on the terminal."""
+
+    files: list[Path]
+    summary: list[str]
+
+
+def reproduce_olaru2005(out: Path, report: Report | None = None) -> Reproduced:
+    """Write figures, data and claims of Olaru2005 into a folder, and a preloaded nut by the reference model.
 
     ``report(what, done, total)`` is told each step. Raises
     :class:`~ballscrew.basis.errors.InputError` before any work if the folder cannot be written or the
@@ -59,8 +84,8 @@ def reproduce_olaru2005(out: Path, report: Report | None = None) -> list[Path]:
     if importlib.util.find_spec("h5netcdf") is None or importlib.util.find_spec("h5py") is None:
         raise InputError(Fault("reproduce.data", "needs h5netcdf", "", 'pip install "ballscrew[data]"'))
     with _whole_folder(Path(out)) as folder:
-        _write(folder, report or _silent)
-    return sorted(Path(out) / name for name in folder.names)
+        summary = _write(folder, report or _silent)
+    return Reproduced(sorted(Path(out) / name for name in folder.names), summary)
 
 
 def _silent(what: str, done: int, total: int) -> None:
@@ -104,13 +129,14 @@ def _whole_folder(out: Path) -> Generator[_Folder]:
         shutil.rmtree(temporary, ignore_errors=True)
 
 
-def _write(folder: _Folder, report: Report) -> None:
+def _write(folder: _Folder, report: Report) -> list[str]:
     # matplotlib takes its time: only once the folder is known to be writable
     from ballscrew.questions.reproduce import ball_figure as ball
     from ballscrew.questions.reproduce import figure as figures
+    from ballscrew.questions.reproduce import preloaded_nut_figure as nut_figure
     from ballscrew.questions.shared import charts
 
-    total, done = len(ball.PLOTS) + len(figures.PLOTS) + 3, 0
+    total, done = len(ball.PLOTS) + len(figures.PLOTS) + 5, 0
 
     def step(what: str) -> None:
         nonlocal done
@@ -123,17 +149,23 @@ def _write(folder: _Folder, report: Report) -> None:
     step("curves of the figures")
     found, checks = paper.claims(), paper.closure_checks()
     step("claims of the paper")
+    nut = nuts.preloaded_nut()
+    step("a preloaded nut by the reference model")
     with charts.house_style():
         results = ball.drawn_results()
         drawings: list[tuple[charts.Plot, Any]] = [(plot, results) for plot in ball.PLOTS]
         drawings += [(plot, data) for plot in figures.PLOTS]
+        names = [plot.name for plot, _ in drawings]
+        drawings.append((nut_figure.PLOT, nut))
         for plot, source in drawings:
             charts.save(plot.draw(source), folder.path, plot.name)
             _write_text(folder.path / f"{plot.name}.csv", _csv(plot.table(source)))
             step(plot.name)
-    names = [plot.name for plot, _ in drawings]
+    _write_text(folder.path / nuts.CASE_FILE, nuts.CASE)
+    _write_text(folder.path / nut_words.PAGE_FILE, nut_words.page(nut))
     _write_text(folder.path / "claims.md", claims_document(found, checks, names))
     step("claims.md")
+    return [f"The paper: {counts(found)}.", *nut_words.lines(nut)]
 
 
 def _write_text(path: Path, text: str) -> None:
@@ -190,9 +222,14 @@ def claims_document(
         "models; the criterion of each verdict stands with the details. *As printed* is the model "
         "`olaru2005`, *corrected* is `corrected`, *to the letter* is `olaru2005-literal`, which also leaves out the "
         "square root of (22) in §4.\n",
-        "The paper's figures carry no values that could be read off, so curves are compared with its text only.\n",
+        "No value can be read off the paper's figures, so curves are compared with its text only.\n",
+        "## What holds, and what it means\n",
+        f"{sentence(counts(found))}.\n",
+        _meaning(found),
         "## Claims\n",
         claims_table(found, None),
+        "Numbers in brackets are equations of the paper.\n",
+        _table(("symbol", "meaning"), _SYMBOLS),
         "## Claims in detail\n",
         *(_detail(claim) for claim in found),
         "## What the paper leaves open, and what was taken\n",
@@ -222,6 +259,35 @@ def claims_document(
             ),
         ]
     return "\n".join(sections)
+
+
+def counts(found: Sequence[paper.Claim]) -> str:
+    """``as printed, 13 of 22 claims hold, 5 do not hold and 4 cannot be checked; corrected, 11, 7 and 4``."""
+    tallies = [collections.Counter(claim.findings[name].verdict for claim in found) for name in _MODELS]
+    printed, corrected = ([tally[verdict] for verdict in _COUNTED] for tally in tallies)
+    return (
+        f"{_LABELS[0]}, {printed[0]} of {len(found)} claims hold, {printed[1]} do not hold and {printed[2]} cannot be "
+        "checked; "
+        f"{_LABELS[1]}, {corrected[0]}, {corrected[1]} and {corrected[2]}"
+    )
+
+
+def _meaning(found: Sequence[paper.Claim]) -> str:
+    """What the verdicts mean to a reader who wants to use the paper."""
+    shown = {claim.key: [claim.findings[name].short for name in _MODELS] for claim in found}
+    stated = {claim.key: claim.paper for claim in found}
+    (minimum, corrected_minimum), (efficiency, corrected), (film, _) = (
+        shown[key] for key in ("minimum", "efficiency", "threshold")
+    )
+    return (
+        "The equations of the paper give the course of the torque that it describes over speed and load, and only some "
+        f"of its numbers: the least torque lies at {minimum} as printed and {corrected_minimum} corrected "
+        f"(paper: {stated['minimum']}), the efficiency is {efficiency} and {corrected} "
+        f"(paper: {stated['efficiency']}), and the film takes over at {film} (paper: {stated['threshold']}). "
+        "Whether they agree with measurements cannot be checked, as the paper prints no measured value: a claim that "
+        "holds follows from the equations, which does not make it true of a screw. To compute a machine take the model "
+        f"`reference`; `{nut_words.PAGE_FILE}` beside this file has it on a preloaded nut.\n"
+    )
 
 
 def _detail(claim: paper.Claim) -> str:

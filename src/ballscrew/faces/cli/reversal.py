@@ -27,7 +27,7 @@ def reversal(
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:
-    """Friction over the angle of the screw after it has turned round, by mechanism, and models for controllers.
+    """Friction after a reversal, and models for controllers. Over the angle of the screw, by mechanism.
 
     Dahl, LuGre and Maxwell-slip elements (GMS) are fitted, each with its error. That helix slip comes back over degrees
     of the screw is a hypothesis.

@@ -31,7 +31,9 @@ def ripple(
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:
-    """Friction torque over the angle of the screw: peak to peak, orders with their causes, and what faults change.
+    """Friction torque over the angle of the screw.
+
+    Peak to peak, orders with their causes, and what faults change.
 
     The balls of each circuit are followed through grooves that deviate. Torque is a poor sensor of spalls and a good
     one of lost preload and of circuits without room: --fault all has the figures for this nut.

@@ -39,7 +39,8 @@ def run(
     settings: Settings = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
     band: Annotated[
-        bool, typer.Option("--band", help="How far off the results may be: uncertain inputs, and other laws.")
+        bool,
+        typer.Option("--band", help="Band of the results by uncertain inputs and other laws, 95 % of the samples."),
     ] = False,
     *,
     written: Mapping[str, Any],
@@ -55,7 +56,7 @@ def run(
     self_heating: SelfHeatingOption = False,
     allow_code: AllowCode = False,
 ) -> None:
-    """Friction at the operating point of a case file; with --band how far off it may be.
+    """Friction at the operating point of a case file. With --band its uncertainty.
 
     With --rows the same for each screw of a table, one line each; oil, operating point and model are those of the case.
     """

@@ -23,7 +23,9 @@ def select(
     need: Need,
     rows: Annotated[
         Path | None,
-        typer.Option("--rows", metavar="FILE", help="A table of screws of your own, .csv or .xlsx, for the catalogue."),
+        typer.Option(
+            "--rows", metavar="FILE", help="A table of screws of your own, .csv or .xlsx, in place of the catalogue."
+        ),
     ] = None,
     *,
     written: Mapping[str, Any],
@@ -36,15 +38,20 @@ def select(
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object with all candidates, SI units.")] = False,
     to: Annotated[
         list[Path] | None,
-        typer.Option(_TO, "-o", metavar="FILE", help="Also write .csv or .xlsx, .png, .svg or .pdf; repeat."),
+        typer.Option(
+            _TO,
+            "-o",
+            metavar="FILE",
+            help="Also write a table (.csv, .xlsx) or a picture (.png, .svg, .pdf); may be repeated.",
+        ),
     ] = None,
     keep_going: KeepGoing = False,
     allow_code: AllowCode = False,
 ) -> None:
-    """Which screw: every row of the catalogue with its nut, preloads and oils against a need, ranked.
+    """Rank the screws of the catalogue for a need. Each row counts with its nut, preloads and oils.
 
-    Each is judged by the full model and all checks; those that their loads alone rule out, by these. The exit code is
-    0 where none holds, too: the list says what fails, and by how much.
+    Each candidate is judged by the full model and all checks, but for those that their loads alone rule out. The
+    exit code is 0 where none holds, too: the list says what fails, and by how much.
     """
     from ballscrew.basis.output.json_text import as_json as json_text
     from ballscrew.faces.cli.progress import progress

@@ -32,10 +32,10 @@ def sensitivity(
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:
-    """Which uncertain input the band of a result comes from, and what to find out to halve it.
+    """Share of each uncertain input in a band. The output also says what to measure to halve the band.
 
-    Uncertain is what the case file gives a distribution, such as "0.54 ± 0.01", and what people rarely know, as
-    much as is usual. Laws are not varied here.
+    Uncertain inputs are those that the case file gives a distribution, such as "0.54 ± 0.01", and those that are
+    rarely known, with a usual one. Laws are not varied here.
     """
     from ballscrew.basis.output.json_text import as_json as json_text
     from ballscrew.cases.case_files import case_file

@@ -20,7 +20,12 @@ _ANY = ("0.0.0.0", "::")
 def serve(
     port: Annotated[int, typer.Option("--port", metavar="N", help="Port to listen on, 0 for any free one.")] = 8017,
     host: Annotated[
-        str, typer.Option("--host", metavar="NAME", help="Address to listen on; other than 127.0.0.1, others see it.")
+        str,
+        typer.Option(
+            "--host",
+            metavar="NAME",
+            help="Address to listen on; with another than 127.0.0.1 other machines can reach it.",
+        ),
     ] = "127.0.0.1",
     open_browser: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
     time_limit: Annotated[
@@ -33,7 +38,7 @@ def serve(
         ),
     ] = None,
 ) -> None:
-    """The application in the browser, and its JSON API, on this machine; Ctrl-C ends it.
+    """The application in the browser, and its JSON API. Both run on this machine; Ctrl-C ends them.
 
     The page is at the address it prints, the API under /api. Nothing is asked from outside and nothing is stored.
     """

@@ -39,7 +39,9 @@ def service(
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:
-    """Preload left in a nut: from a log when new and one when worn, from one log, or from a torque without load.
+    """Preload left in a nut, by logs or a drag torque.
+
+    From a log when new and one when worn, from one log against the case, or from one drag torque.
 
     The answer has its interval and its probability. What else could have changed the torque is fitted, too: boundary
     friction, the oil, the seals.

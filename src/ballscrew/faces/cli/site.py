@@ -12,16 +12,16 @@ def site(
     out: Annotated[Path, typer.Argument(metavar="OUT", help="Folder to write into; with --single also a file .html.")],
     single: Annotated[bool, typer.Option("--single", help="One HTML file that holds all, to send or to open.")] = False,
     model: Annotated[
-        list[str] | None, typer.Option("--model", metavar="NAME", help="Only this model; may be given several times.")
+        list[str] | None, typer.Option("--model", metavar="NAME", help="Only this model; may be repeated.")
     ] = None,
     nut: Annotated[
-        list[str] | None, typer.Option("--nut", metavar="KIND", help="Only this kind of nut; several times, too.")
+        list[str] | None, typer.Option("--nut", metavar="KIND", help="Only this kind of nut; may be repeated.")
     ] = None,
 ) -> None:
-    """Write the page that computes in the browser, without a server and without Python.
+    """Write a page that computes in the browser alone. It needs neither a server nor Python.
 
-    The folder can be put on any web server; a single file opens by a double click. Needs the compiler of the extra
-    "fast" to be written, and nothing to be used.
+    The folder can be put on any web server; a single file opens by a double click. To write it takes the compiler
+    of the extra "fast"; to use it takes nothing.
     """
     from ballscrew.faces.cli.progress import progress
     from ballscrew.faces.site import site as pages

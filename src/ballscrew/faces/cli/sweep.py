@@ -80,9 +80,9 @@ def sweep(
 
     Without --vary, the axes come from the [sweep] table of the case file, or else are ten loads and
     ten speeds up to those of the case. One output over two axes comes as a table, load down and
-    speed across, ready to paste; otherwise one row a point. A .zarr is filled block by block: stopped
-    by whatever, the same command goes on where it was; blocks whose files are damaged are computed again.
-    With --self-heating each point goes to and fro until it is warm, and has its own temperature and preload.
+    speed across, ready to paste; otherwise one row a point. A .zarr is filled block by block: after an
+    interruption the same command continues where it was; blocks whose files are damaged are computed again.
+    With --self-heating each point has the temperature and the preload of its own steady state.
     With --band each output has the ends of its band beside it: at each point those of ballscrew run --band there.
     """
     from ballscrew.cases.case_files import case_file

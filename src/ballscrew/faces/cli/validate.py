@@ -21,7 +21,7 @@ def validate(
         typer.Option("--card", metavar="PATH", help="A torque card, or a folder of them, in place of the sets."),
     ] = None,
     summary: Annotated[
-        bool, typer.Option("--summary", help="No-load torques by maker and kind of nut in one table, and no rows.")
+        bool, typer.Option("--summary", help="Drag torques by maker and kind of nut in one table, without their rows.")
     ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON list, SI units; of --summary one object.")] = False,
     to: Annotated[
@@ -36,16 +36,20 @@ def validate(
     ] = False,
     model: Annotated[str, typer.Option("--model", metavar="NAME", help="{models}.")] = "reference",
     calibration: Annotated[
-        str | None, typer.Option("--calibration", metavar="NAME", help="Which calibration follows: rexroth-2006.")
+        str | None,
+        typer.Option(
+            "--calibration", metavar="NAME", help="Calibration to show beside the model as it is: rexroth-2006."
+        ),
     ] = None,
     temperature: Annotated[
-        str | None, typer.Option("--temperature", metavar="VALUE", help='Of the oil, where a row has none: "25 degC".')
+        str | None,
+        typer.Option("--temperature", metavar="VALUE", help='Temperature of the oil where a row has none: "25 degC".'),
     ] = None,
     grade: Annotated[
-        str | None, typer.Option("--grade", metavar="NAME", help='Oil, where a row has none: "ISO VG 100".')
+        str | None, typer.Option("--grade", metavar="NAME", help='Grade of the oil where a row has none: "ISO VG 100".')
     ] = None,
     speed: Annotated[
-        str | None, typer.Option("--speed", metavar="VALUE", help='Of the screw, where a row has none: "100 rpm".')
+        str | None, typer.Option("--speed", metavar="VALUE", help='Screw speed where a row has none: "100 rpm".')
     ] = None,
 ) -> None:
     """The model against what vendors and laboratories state.

@@ -43,15 +43,15 @@ def warm_up(
             _TO,
             "-o",
             metavar="PATH",
-            help="Write a folder of tables and a picture; or one .csv, .xlsx, .png, .svg or .pdf; repeat.",
+            help="Write a folder of tables and a picture; or one .csv, .xlsx, .png, .svg or .pdf; may be repeated.",
         ),
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:
-    """Temperatures, growth, preload and torque over hours, and the state in which they end.
+    """Temperatures, growth and preload over hours. The output has the torque and the steady state, too.
 
-    A case with an [axis] and a [motion] does its motion; one with an [operation] goes to and fro over half the shaft.
-    [surroundings] has where the heat goes. The verdict says if there is no end: it runs away. With --band
+    A case with an [axis] and a [motion] does its motion; one with an [operation] moves to and fro over half the shaft.
+    [surroundings] has where the heat goes. Without a steady state the verdict says so: thermal runaway. With --band
     transients are drawn with other surroundings, among them the conduction through the balls, the least known.
     """
     from ballscrew.basis.errors import Fault, InputError, raise_if_any

@@ -10,7 +10,7 @@ from ballscrew.basis.quantities import AngularSpeed, Duration, Force, Ratio
 
 
 def basic_life(dynamic_load_rating: Force, axial_load: Force) -> Ratio:
-    r"""Revolutions that nine of ten screws outlive.
+    r"""Basic rating life L10: revolutions that 90 % of screws reach.
 
     .. math:: L = 10^6 \left(\frac{C_a}{F}\right)^3
 
@@ -46,7 +46,7 @@ def relieved_half_load(preload: Force, preload_release: Ratio) -> Force:
 
 
 def combined_life(first_life: Ratio, second_life: Ratio) -> Ratio:
-    r"""Revolutions that nine of ten pairs outlive, when either of two may fail.
+    r"""Basic rating life L10 of a pair, in revolutions, when either of two may fail.
 
     .. math:: L = \left(L_1^{-10/9} + L_2^{-10/9}\right)^{-9/10}
 

@@ -88,7 +88,7 @@ def turn_rating(screw_turn_rating: Force, turn_rating_ratio: Ratio) -> Force:
 
 
 def dynamic_load_rating(turn_rating: Force, loaded_turns: Ratio) -> Force:
-    r"""Axial load at which nine of ten screws outlive a million revolutions.
+    r"""Axial load at which 90 % of screws reach a million revolutions.
 
     .. math:: C_a = C_i i^{0.86}
 

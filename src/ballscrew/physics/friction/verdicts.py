@@ -40,7 +40,7 @@ _LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
 _SPEED = fields_of(OperatingState)["screw_speed"]
 _PRELOAD = Quantity("preload", "N", PRELOAD)
 _RATING = Quantity("dynamic_load_rating", "N", Info("C_a", "dynamic axial load rating", "kN"))
-_OF_RULE = Quantity("rule_of_maker", "N m", Info("M_0", "torque of the nut without load and seals"))
+_OF_RULE = Quantity("rule_of_maker", "N m", Info("M_0", "drag torque of the nut without seals"))
 
 
 def preload_is_lost(preload: Force, remaining_preload: Force) -> Mask:
@@ -206,7 +206,7 @@ RULE_OF_MAKER = Judgement(
     sentences=(
         Sentence(
             Message(
-                "without load and seals the rule of its maker {rule} gives {drag}, the model {torque} at {speed}, "
+                "drag torque without seals: the rule of its maker {rule} gives {drag}, the model {torque} at {speed}, "
                 "{ratio} times that; range of the rule: {range}"
             ),
             places={

@@ -66,7 +66,7 @@ def _static_safety(of: Mapping[str, Any]) -> Mapping[str, Any]:
 
 
 def _lives(of: Mapping[str, Any]) -> dict[str, Any]:
-    """Turns and time that nine of ten nuts live, and what is to be said of them."""
+    """Basic rating life in revolutions and in time, and what is to be said of them."""
     rated, other, speed = of["dynamic_load_rating"], of["other_half_load"], abs(of["screw_speed"])
     alone = life.basic_life(rated, of["half_load"])
     turns = where(other > 0, life.combined_life(alone, life.basic_life(rated, other)), alone)

@@ -124,7 +124,7 @@ class Limits(ByValue):
         Ratio, Info("S_0", "least static rating against the largest load", above=0, hint="2, with shocks 5")
     ] = 2.0
     running_time: Annotated[
-        Array | None, Unit("s"), Info("t", "time that nine of ten have to run", "h", above=0, hint="20000 h is common")
+        Array | None, Unit("s"), Info("t", "required basic rating life L10h", "h", above=0, hint="20000 h is common")
     ] = None
     shaft_stress: Annotated[
         Pressure, Info(r"\sigma", "largest stress in the shaft", "MPa", above=0, hint="catalogues have 147 MPa")

@@ -19,7 +19,7 @@ class AtPlace(table_of(SERIES)):
 class ChainResults(table_of(SERIES, of=Sequence[float])):
     """Rigidity, lost motion, critical speed and buckling load over the place of the nut."""
 
-    shares: Annotated[Mapping[str, Sequence[float]], Unit("1"), Info("", "share of each spring in what gives way")]
+    shares: Annotated[Mapping[str, Sequence[float]], Unit("1"), Info("", "share of each spring in the compliance")]
     travel: Annotated[Sequence[float], Unit("m"), Info("", "places of the nut at the ends of its travel", "mm"), FINITE]
     #: False where the places are those of the whole shaft.
     travel_is_known: bool

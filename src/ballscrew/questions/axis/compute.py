@@ -108,7 +108,7 @@ class ChainReport:
         most = max(shares, key=lambda name: shares[name])
         total = float(self.chain.total[at])
         message = Message(
-            "softest with the nut at {place}: {rigidity}, {share} % of what gives way is the {part}",
+            "softest with the nut at {place}: {rigidity}, {share} % of the compliance is that of the {part}",
             {
                 "place": self._place(at),
                 "rigidity": Measured(total, SERIES["total"]),

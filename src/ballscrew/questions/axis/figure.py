@@ -34,7 +34,7 @@ def picture(report: ChainReport) -> Figure:
     _shares(panels[1], report)
     _line(panels[2], report, "critical_speed", "critical speed of the shaft")
     _limit(panels[2], report.largest_speed, SPEED, "largest speed")
-    _line(panels[3], report, "buckling_load", "load under which it buckles")
+    _line(panels[3], report, "buckling_load", "buckling load of the shaft")
     _limit(panels[3], report.largest_load, LOAD, "largest load")
     for panel in panels:
         low, high = (float(units.from_si(end, SERIES["position"])) for end in report.travel)
@@ -74,5 +74,5 @@ def _shares(panel: Axes, report: ChainReport) -> None:
     panel.stackplot(
         _places(report), [100 * shares[name] for name in known], labels=known, colors=[_COLOURS[name] for name in known]
     )
-    panel.set(ylabel="[%]", title="share of what gives way", ylim=(0, 100))
+    panel.set(ylabel="[%]", title="share of the compliance", ylim=(0, 100))
     panel.legend(fontsize="small", loc="upper left", bbox_to_anchor=(1.0, 1.0))

@@ -15,5 +15,10 @@ class AxisOptions:
 
     at: Annotated[
         Sequence[float],
-        Option('Place of the nut from the fixed bearing, "300 mm"; repeat.', metavar="PLACE", unit="m", shown_in="mm"),
+        Option(
+            'Place of the nut from the fixed bearing, "300 mm"; may be repeated.',
+            metavar="PLACE",
+            unit="m",
+            shown_in="mm",
+        ),
     ] = ()

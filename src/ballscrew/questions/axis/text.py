@@ -51,7 +51,10 @@ def _places(report: ChainReport) -> list[str]:
     lines = aligned(rows)
     if len(names) < len(_SHORT):
         return lines
-    return [*lines, f"lost by the {units.shown(report.guide_friction, FRICTION)} of the guides; play comes on top"]
+    return [
+        *lines,
+        f"lost motion from the {units.shown(report.guide_friction, FRICTION)} of the guides; backlash comes on top",
+    ]
 
 
 def _springs(report: ChainReport) -> list[str]:
@@ -59,7 +62,7 @@ def _springs(report: ChainReport) -> list[str]:
     shares = report.chain.shares
     known = [name for name in SPRINGS if shares[name].any()]
     places = (units.shown(float(report.chain.position[at]), SERIES["position"]) for at in report.shown)
-    rows = [["what gives way", *places]]
+    rows = [["rigidity, share of the compliance", *places]]
     for name in known:
         springs = ((float(report.series[name][at]), float(shares[name][at])) for at in report.shown)
         rows.append(

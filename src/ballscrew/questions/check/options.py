@@ -15,39 +15,43 @@ class CheckOptions:
 
     axial_load: Annotated[
         str | None,
-        Option('"5 kN"; a tenth of C_a if left out.', metavar="FORCE", sets="operation.axial_load"),
+        Option('Axial load, "5 kN"; a tenth of C_a if left out.', metavar="FORCE", sets="operation.axial_load"),
     ] = None
     speed: Annotated[
-        str | None, Option('"1500 rpm"; 600 rpm if left out.', metavar="SPEED", sets="operation.screw_speed")
+        str | None,
+        Option('Screw speed, "1500 rpm"; 600 rpm if left out.', metavar="SPEED", sets="operation.screw_speed"),
     ] = None
     nut: Annotated[
-        str | None, Option("single, oversize-balls, double, offset-lead.", metavar="TYPE", sets="nut.type")
+        str | None,
+        Option("Kind of nut: single, oversize-balls, double or offset-lead.", metavar="TYPE", sets="nut.type"),
     ] = None
     preload: Annotated[
         str | None,
         Option(
-            '"3 kN", or "7 %" of C_a; if left out, that of the row, or 7 % (oversize balls 5 %).',
+            'Preload, "3 kN", or "7 %" of C_a; if left out, that of the row, or 7 % (oversize balls 5 %).',
             metavar="FORCE",
             sets="nut.preload",
         ),
     ] = None
     length: Annotated[
         str | None,
-        Option('Longest stretch without support, "1.2 m".', metavar="LENGTH", sets="installation.unsupported_length"),
+        Option('Unsupported length of the shaft, "1.2 m".', metavar="LENGTH", sets="installation.unsupported_length"),
     ] = None
     ends: Annotated[
         str | None,
         Option(
-            "fixed-fixed, fixed-supported, supported-supported, fixed-free.", metavar="ENDS", sets="installation.ends"
+            "Ends of the shaft: fixed-fixed, fixed-supported, supported-supported or fixed-free.",
+            metavar="ENDS",
+            sets="installation.ends",
         ),
     ] = None
     grade: Annotated[
         str | None,
-        Option('Of the oil: "ISO VG 68"; ISO VG 100 if left out.', metavar="GRADE", sets="lubricant.grade"),
+        Option('Grade of the oil, "ISO VG 68"; ISO VG 100 if left out.', metavar="GRADE", sets="lubricant.grade"),
     ] = None
     temperature: Annotated[
         str | None,
-        Option('Of the oil: "50 degC"; 40 degC if left out.', metavar="T", sets="lubricant.temperature"),
+        Option('Temperature of the oil, "50 degC"; 40 degC if left out.', metavar="T", sets="lubricant.temperature"),
     ] = None
     keep_going: Annotated[bool, Option("Leave faulty rows out, and say which; fails if none is good.")] = False
 

@@ -102,7 +102,7 @@ class ByRules:
     #: What people use in place of a model; in no spread.
     rules: Sequence[ComparedRule]
     drag_torque: Annotated[
-        Torque, Info("M_d", "torque of the case's preloaded nut without load, seals and other losses included")
+        Torque, Info("M_d", "drag torque of the preloaded nut of the case, seals and other losses included")
     ]
     #: The case without its seals and other losses: what the rules are held against.
     of_balls: Annotated[OfBalls | None, LEFT_OUT]

@@ -165,7 +165,7 @@ class _Columns:
 
 
 def rules_table(found: Comparison) -> list[tuple[str, str | None]]:
-    """Rules of one line beside the case: friction torque, efficiency, and the torque of the nut without load."""
+    """Rules of one line beside the case: friction torque, efficiency, and drag torque."""
     unit, scale, decimals = _scale(found)
 
     def cells(torque: float, change: str, efficiency: float, drag: float, drag_change: str) -> list[str]:
@@ -174,15 +174,15 @@ def rules_table(found: Comparison) -> list[tuple[str, str | None]]:
         return [numbers[0], change, eta, numbers[1], drag_change]
 
     own, balls = found.case, found.of_balls
-    mark = "case" if balls is None else ""
+    losses = [] if balls is None else [MECHANISMS.get(name, name) for name in balls.losses]
+    mark, whose = ("case", "this case") if balls is None else ("", f"this case, with {' and '.join(losses)}")
     lines = [
-        ["in place of a model", f"torque, {unit}", "change", "η drive", "without load", "change"],
-        ["this case", *cells(own.torque, mark, float(own.result.efficiency), found.drag_torque, mark)],
+        ["in place of a model", f"torque, {unit}", "change", "η drive", "drag torque", "change"],
+        [whose, *cells(own.torque, mark, float(own.result.efficiency), found.drag_torque, mark)],
     ]
     if balls is not None:
-        names = " and ".join(MECHANISMS.get(name, name) for name in balls.losses)
         numbers = cells(balls.screw_torque, "case", balls.efficiency, balls.drag_torque, "case")
-        lines.append([f"without {names}, as all below", *numbers])
+        lines.append([f"this case, without {' and '.join(losses)}, as all below", *numbers])
     for rule in found.rules:
         changes = percent(rule.change), percent(rule.drag_change)
         numbers = cells(rule.screw_torque, changes[0], rule.efficiency, rule.drag_torque, changes[1])

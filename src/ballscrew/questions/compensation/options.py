@@ -16,11 +16,11 @@ class CompensationOptions:
     """What is asked of a compensation; lengths in m."""
 
     hours: Annotated[float, Option("Hours of work.", metavar="H")] = 4.0
-    axis: Annotated[str, Option("Name of the axis at the control.", metavar="NAME")] = "X1"
+    axis: Annotated[str, Option("Name of the axis in the control.", metavar="NAME")] = "X1"
     zero: Annotated[
         float,
         Option(
-            "Place from the fixed bearing where the axis is at zero, 0 mm.", metavar="LENGTH", unit="m", shown_in="mm"
+            "Zero of the axis, from the fixed bearing; 0 mm if left out.", metavar="LENGTH", unit="m", shown_in="mm"
         ),
     ] = 0.0
     direction: Annotated[
@@ -30,7 +30,9 @@ class CompensationOptions:
             metavar="away|towards",
         ),
     ] = None
-    step: Annotated[float, Option("Distance of the points, 20 mm.", metavar="LENGTH", unit="m", shown_in="mm")] = STEP
+    step: Annotated[
+        float, Option("Distance of the points; 20 mm if left out.", metavar="LENGTH", unit="m", shown_in="mm")
+    ] = STEP
     reference: Annotated[
         float | None,
         Option("Position of the axis where nothing is compensated.", metavar="LENGTH", unit="m", shown_in="mm"),

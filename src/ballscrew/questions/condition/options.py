@@ -18,7 +18,7 @@ class ConditionOptions:
     speed: Annotated[
         float | None,
         Option(
-            'Of the tests of a table without speeds: "100 rpm".', metavar="VALUE",
+            'Screw speed of the tests of a table without speeds: "100 rpm".', metavar="VALUE",
             unit="rad/s", shown_in="rpm", above=0, hint="check the number and its unit",
         ),
     ] = None  # fmt: skip
@@ -29,11 +29,11 @@ class ConditionOptions:
             flag="at", unit="K", shown_in="degC",
         ),
     ] = None  # fmt: skip
-    baseline: Annotated[int, Option("First tests, which count as healthy.", metavar="TESTS")] = 5
-    tolerance: Annotated[float, Option("Of the preload, that may be lost.", metavar="SHARE")] = 0.1
-    false_alarms: Annotated[float, Option("Of healthy tests, that may give an alarm.", metavar="SHARE")] = 0.002
+    baseline: Annotated[int, Option("Number of first tests that count as healthy.", metavar="TESTS")] = 5
+    tolerance: Annotated[float, Option("Share of the preload that may be lost.", metavar="SHARE")] = 0.1
+    false_alarms: Annotated[float, Option("Share of healthy tests that may give an alarm.", metavar="SHARE")] = 0.002
     kind: TorqueKind = "unknown"
-    columns: Annotated[Mapping[str, str], headings('A heading by hand: torque="M_R [N m]".')] = dataclasses.field(
+    columns: Annotated[Mapping[str, str], headings('Heading of a column: torque="M_R [N m]".')] = dataclasses.field(
         default_factory=dict[str, str]
     )
     torque_constant: TorqueConstant = None

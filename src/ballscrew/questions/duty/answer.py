@@ -83,12 +83,12 @@ class Life(Answer):
 
     @property
     def lives(self) -> Annotated[Mapping[str, float], Unit("1"), Info("L", "turns of each flank or half")]:
-        """Turns that nine of ten flanks or halves outlive."""
+        """Basic rating life L10 of each flank or half, revolutions."""
         return _with_keys(self._life.lives)
 
     @property
     def revolutions(self) -> Ratio:
-        """Turns that nine of ten screws outlive, by both flanks or halves."""
+        """Basic rating life L10 by both flanks or halves, revolutions."""
         return self._life.revolutions
 
     @property

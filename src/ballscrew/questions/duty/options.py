@@ -13,7 +13,7 @@ from ballscrew.questions.shared.options import Option
 class DutyOptions:
     """What is asked of a duty: a band of its torques and energies."""
 
-    band: Annotated[bool, Option("How far off torques and energies may be, by uncertain inputs.")] = False
+    band: Annotated[bool, Option("Band of torques and energies, by uncertain inputs.")] = False
     samples: Annotated[int | None, number_of_samples("samples, 1024")] = None
     only_given: OnlyGiven = False
 

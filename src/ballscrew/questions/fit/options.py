@@ -25,24 +25,28 @@ class FitOptions:
         ),
     ] = (DEFAULT_FREE,)
     bounds: Annotated[
-        Mapping[str, Range], Option('boundary_friction_coefficient="0.05:0.2".', metavar="NAME=LOW:HIGH")
+        Mapping[str, Range],
+        Option('Bounds of a fitted number: boundary_friction_coefficient="0.05:0.2".', metavar="NAME=LOW:HIGH"),
     ] = dataclasses.field(default_factory=dict[str, Range])
     kind: TorqueKind = "unknown"
     columns: Columns = dataclasses.field(default_factory=dict[str, str])
     torque_constant: TorqueConstant = None
     inertia: Inertia = None
     limits: Annotated[
-        Mapping[str, Range], Option('Of the next test: screw_speed="10:3000 rpm".', metavar="NAME=LOW:HIGH")
+        Mapping[str, Range], Option('Range of the next test: screw_speed="10:3000 rpm".', metavar="NAME=LOW:HIGH")
     ] = dataclasses.field(default_factory=dict[str, Range])
-    holdout: Annotated[float, Option("Of the operating points, predicted and not fitted.", metavar="SHARE")] = 0.2
+    holdout: Annotated[
+        float, Option("Share of the operating points that is predicted and not fitted.", metavar="SHARE")
+    ] = 0.2
     temperature_error: Annotated[
         float | None,
         Option(
-            'Of the oil in the whole log, half of 95 %: "2 K" (default where logged, else 10 K).',
+            'Uncertainty of the oil temperature of the whole log, half of 95 %: "2 K" where logged, '
+            "or else 10 K.",
             metavar="VALUE", unit="K", at_least=0, is_difference=True,
         ),
     ] = None  # fmt: skip
-    seed: Annotated[int, Option("Of what is held out.", metavar="N")] = 0
+    seed: Annotated[int, Option("Seed of the choice of held-out operating points.", metavar="N")] = 0
     keep_going: KeepGoing = False
     self_heating: Annotated[
         bool, Option("Take the oil as warm as friction makes it in the [surroundings] of the case.")

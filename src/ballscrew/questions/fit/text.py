@@ -47,7 +47,7 @@ def print_fit(case: Case, report: FitReport) -> None:
         say(line, "dim")
     say(f"torque read as: {model.rows.convention.description}", "dim")
     if model.rows.outlying.any():
-        say(f"outliers: {int(model.rows.outlying.sum())} rows, which count nothing", "dim")
+        say(f"outliers: {int(model.rows.outlying.sum())} rows, not counted", "dim")
     for line in report.assumed:
         say(f"assumed: {line}", "dim")
     console.print()
@@ -126,7 +126,7 @@ def trade_off(model: CalibratedModel) -> Message:
     largest = max(map(abs, shares.values()), default=0.0)
     kept = {name: share for name, share in shares.items() if abs(share) >= _LEAST_TRADED * largest}
     if len(kept) < 2:
-        return Message("Trade-offs: none; the log tells each number by itself")
+        return Message("Trade-offs: none; the log determines each number by itself")
     (first, change), *others = sorted(kept.items(), key=lambda item: -abs(item[1]))
     sign = 1.0 if change > 0 else -1.0
     error = least.relative_error if least.identified else _TRADED / abs(change)
@@ -134,7 +134,8 @@ def trade_off(model: CalibratedModel) -> Message:
     message = Message("Trade-off: {one} with {others} fits the rows nearly as well (one standard error)")
     if not least.identified:
         message = Message(
-            "Trade-off: {one} with {others} makes no difference in this log, which tells only what they make together"
+            "Trade-off: {one} with {others} makes no difference in this log, which determines only their combined "
+            "effect"
         )
     return message.of(one=one, others=both(more))
 
@@ -146,7 +147,7 @@ def _changed(name: str, share: float) -> Message:
 
 
 def _scores(model: CalibratedModel) -> Table:
-    table = table_of("\nHow far off, root mean square without outliers", "", "numbers", "rows fitted", "rows held out")
+    table = table_of("\nError, root mean square without outliers", "", "numbers", "rows fitted", "rows held out")
     for score in model.scores:
         held_out = "–" if math.isnan(score.held_out) else _shown(score.held_out, _TORQUE, 3)
         table.add_row(score.description, str(score.parameters), _shown(score.fitted, _TORQUE, 3), held_out)

@@ -19,10 +19,14 @@ class FitMotionOptions:
     columns: Columns = dataclasses.field(default_factory=dict[str, str])
     torque_constant: TorqueConstant = None
     gain: Annotated[
-        float | None, Option('Of a control voltage of a moving log: "35 N/V".', metavar="VALUE", unit="N/V", above=0)
+        float | None,
+        Option(
+            'Force for each volt of a control voltage, of a moving log: "35 N/V".', metavar="VALUE", unit="N/V", above=0
+        ),
     ] = None
     carried_mass: Annotated[
-        float | None, Option('That the nut of a moving log carries: "20 kg".', metavar="VALUE", unit="kg", at_least=0)
+        float | None,
+        Option('Mass that the nut of a moving log carries: "20 kg".', metavar="VALUE", unit="kg", at_least=0),
     ] = None
-    seed: Annotated[int, Option("Of what is held out.", metavar="N")] = 0
+    seed: Annotated[int, Option("Seed of the choice of held-out operating points.", metavar="N")] = 0
     keep_going: KeepGoing = False

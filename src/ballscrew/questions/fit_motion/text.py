@@ -102,7 +102,7 @@ def exponent_lines(found: MotionFit) -> list[str]:
 
 def _models(found: MotionFit) -> Table:
     other = ["other log"] if found.test is not None else []
-    table = table_of("\nHow far off, root mean square over that of the force", "", "this log", *other)
+    table = table_of("\nError, root mean square over that of the force", "", "this log", *other)
     for name, error in found.relative_errors.items():
         crossed = [f"{found.cross_errors[name]:.2%}"] if other else []
         table.add_row(SPOKEN[name], f"{error:.2%}", *crossed)

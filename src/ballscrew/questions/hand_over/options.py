@@ -16,7 +16,10 @@ class HandOverOptions:
     ranges: Annotated[
         Sequence[str],
         Option(
-            'Of tables and fits: axial_load="-5:5 kN".', metavar="INPUT=LEAST:GREATEST", flag="range", is_table=True
+            'Range of tables and fits: axial_load="-5:5 kN".',
+            metavar="INPUT=LEAST:GREATEST",
+            flag="range",
+            is_table=True,
         ),
     ] = ()
     parameters: Annotated[

@@ -205,7 +205,7 @@ class DesignModel:
         return self._at(designs, 0.0, speed)["screw_torque"]
 
     def _life(self, designs: Designs, speed: Numbers, at: Mapping[str, Numbers]) -> Numbers:
-        """Running time that nine of ten outlive."""
+        """Basic rating life L10h."""
         limits = dataclasses.replace(self.case.limits, running_time=1.0)
         used = designs.utilisations(
             axial_load=float(self.case.operation.axial_load), screw_speed=speed, left=at["remaining_preload"],

@@ -21,4 +21,4 @@ class OptimiseOptions:
     population: Annotated[int | None, Option("Designs of a generation; 200 if left out.", metavar="N")] = None
     generations: Annotated[int | None, Option("Generations with rigid bodies; 60 if left out.", metavar="N")] = None
     members: Annotated[int | None, Option("Members shown, in full; 24 if left out.", metavar="N")] = None
-    seed: Annotated[int | None, Option("Of the search; 0 if left out.", metavar="N")] = None
+    seed: Annotated[int | None, Option("Seed of the search; 0 if left out.", metavar="N")] = None

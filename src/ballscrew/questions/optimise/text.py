@@ -39,7 +39,11 @@ def cost(plan: Plan) -> str:
 def text(found: Optimisation) -> str:
     """The front, by its first objective, and what is to be known of it."""
     if not found.members:
-        lines = [title(found), "", "no design within the bounds holds: ask for less, or widen [optimise.bounds]"]
+        lines = [
+            title(found),
+            "",
+            "no design within the bounds passes all checks: relax the need, or widen [optimise.bounds]",
+        ]
     else:
         lines = [title(found), "", *table(found.members, found.space)]
     quantile = found.space.options.quantile
@@ -55,7 +59,7 @@ def text(found: Optimisation) -> str:
         for name, (low, high) in found.space.bounds.items()
     )
     said.append(f"within {', '.join(spans)}")
-    said.append("shapes nobody lists: ask a maker for the nearest, and run ballscrew check on that")
+    said.append("these sizes are in no catalogue: ask a maker for the nearest, and run ballscrew check on that")
     return "\n".join([*lines, "", "notes", *(wrapped(f"  {line}") for line in said)])
 
 

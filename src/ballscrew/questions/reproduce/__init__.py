@@ -1,1 +1,1 @@
-"""The figures of the paper, computed again."""
+"""The figures of the paper, computed again, and the reference model on a preloaded nut."""

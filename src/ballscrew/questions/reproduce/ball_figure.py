@@ -18,6 +18,7 @@ from matplotlib.ticker import MaxNLocator
 from ballscrew.evidence.papers.olaru2005 import case
 from ballscrew.physics.equations import kinematics
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.questions.reproduce.shown_models import LABELS, MEANING, TITLES
 from ballscrew.questions.shared import charts
 from ballscrew.questions.shared.charts import Columns, Plot
 
@@ -27,9 +28,9 @@ Results = Mapping[str, FrictionResult]
 _GREATEST_ARC, _GREATEST_ARROW = 150.0, 1.25
 _CASE = (
     "Screw d$_m$ 40 mm, lead 5 mm, d$_w$ 3.175 mm, 56 balls, 45°; F = 4000 N, n = 600 rpm, viscosity 0.1 Pa s, "
-    "F$_B$ = 1/z N. Assumed: E′ 226 GPa, α$_p$ 22 1/GPa."
+    "F$_B$ = 1/z N. Assumed: E′ 226 GPa, α$_p$ 22 1/GPa. "
+    f"{MEANING}"
 )
-_TITLES = {"olaru2005": "as printed", "corrected": "corrected"}
 
 
 class Arrow(NamedTuple):
@@ -46,7 +47,7 @@ def drawn_results() -> Results:
     known = case.models()
     return {
         name: known[name](case.SCREW, case.OIL, axial_load=case.AXIAL_LOAD, screw_speed=case.SCREW_SPEED)
-        for name in _TITLES
+        for name in TITLES
     }
 
 
@@ -172,7 +173,7 @@ def forces_on_ball(results: Results) -> Figure:
     }  # fmt: skip
     for (name, arrows), drawing, budget in zip(every.items(), panels[:2], panels[2:], strict=True):
         _scene(drawing)
-        drawing.set_title(_TITLES[name])
+        drawing.set_title(TITLES[name])
         for arrow in arrows:
             length = arrow.value * scale
             if arrow.symbol in places:
@@ -204,7 +205,7 @@ def moments_on_ball(results: Results) -> Figure:
     places = ((0.34, -90.0), (0.34, 90.0), (0.84, -90.0), (0.84, 90.0), (0.6, -90.0), (0.6, 90.0), (0.92, 0.0))
     for (name, arrows), drawing, budget in zip(every.items(), panels[:2], panels[2:], strict=True):
         _scene(drawing)
-        drawing.set_title(_TITLES[name])
+        drawing.set_title(TITLES[name])
         for arrow, (radius, begin) in zip(arrows, places, strict=True):
             _arc(drawing, radius, begin, arrow.value * scale, arrow.colour)
         for arrow, (x, y) in zip(
@@ -246,7 +247,7 @@ def slip_in_contact(results: Results) -> Figure:
     )
     figure, panels = charts.new_figure(caption, rows=2, height=2.7, sharex=True, sharey="row")
     for (name, result), ellipse, profile in zip(results.items(), panels[:2], panels[2:], strict=True):
-        ellipse.set_title(f"{_TITLES[name]}: Y = {float(result.screw.pure_rolling_offset):.4f}")
+        ellipse.set_title(f"{LABELS[name]}: Y = {float(result.screw.pure_rolling_offset):.4f}")
         _slip_map(ellipse, result)
         a, c, y, slip = _slip(result)
         profile.axhline(0, color=charts.GREY, linewidth=0.8)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -13,15 +13,14 @@ from matplotlib.figure import Figure
 
 from ballscrew.evidence.papers.olaru2005 import case
 from ballscrew.physics.friction.result import MECHANISMS
+from ballscrew.questions.reproduce.shown_models import MEANING, TITLES
 from ballscrew.questions.shared import charts
 from ballscrew.questions.shared.charts import Columns, Plot
 
-#: What stands above the panels.
-TITLES: Mapping[str, str] = {"olaru2005": "as printed", "corrected": "corrected"}
 SPEED, TORQUE, LOAD = "screw speed n (rpm)", "friction torque M$_S$ (N m)", "contact load Q of a ball (N)"
 EFFICIENCY = "efficiency η"
 _SCREW = "d$_m$ 40 mm, lead 5 mm, d$_w$ 3.175 mm, 56 balls, 45°"
-_CHOSEN = "Chosen, as not stated in the paper: E′ 226 GPa, α$_p$ 22 1/GPa, equal load on all balls."
+_CHOSEN = "Chosen, as not stated in the paper: E′ 226 GPa, α$_p$ 22 1/GPa, equal load on all balls. " + MEANING
 _AT_SPEEDS = f"Screw {_SCREW}; F = 4000 N."
 _PAPER = "#FBEFD5"
 

@@ -12,7 +12,7 @@ from ballscrew.questions.shared.options import Option
 class ReversalOptions:
     """What is asked of a reversal; numbers in SI."""
 
-    from_rest: Annotated[bool, Option("From rest, and not after motion in the other direction.")] = False
+    from_rest: Annotated[bool, Option("Start from rest instead of after motion in the other direction.")] = False
     travel: Annotated[
         float | None,
         Option(
@@ -23,7 +23,8 @@ class ReversalOptions:
     inertia: Annotated[
         float | None,
         Option(
-            'Of all that turns with the screw: "2e-3 kg m^2"; LuGre has no damping without it.', metavar="VALUE",
+            'Inertia of all that turns with the screw: "2e-3 kg m^2"; LuGre has no damping without it.',
+            metavar="VALUE",
             unit="kg m^2", above=0,
         ),
     ] = None  # fmt: skip

@@ -19,29 +19,35 @@ class RippleOptions:
     fault: Annotated[
         Sequence[str],
         Option(
-            'Compute it with a fault, too: missing-ball, full, spall="2 mm x 2 um", preload=0.35, groove=3; repeat, or '
-            "all.",
+            'Also with a fault: missing-ball, full, spall="2 mm x 2 um", preload=0.35, groove=3, or all; '
+            "may be repeated.",
             metavar="FAULT",
         ),
     ] = ()
-    gap: Annotated[float | None, Option("Room in each circuit, in balls, else 0.55; assumed.", metavar="BALLS")] = None
+    gap: Annotated[
+        float | None, Option("Free room in each circuit, in balls; 0.55 if left out, an assumption.", metavar="BALLS")
+    ] = None
     groove_deviation: Annotated[
         float | None,
         Option(
-            'Of nut groove against screw groove, root mean square, else "1 um"; assumed.', metavar="LENGTH", unit="m",
+            'Deviation of nut groove against screw groove, root mean square; "1 um" if left out, an assumption.',
+            metavar="LENGTH", unit="m",
             shown_in="um", at_least=0, hint="grooves have 0.5 um to 2 um",
         ),
     ] = None  # fmt: skip
-    circuits: Annotated[int | None, Option("Circuits of each half, else one; assumed.", metavar="NUMBER")] = None
+    circuits: Annotated[
+        int | None, Option("Circuits of each half; one if left out, an assumption.", metavar="NUMBER")
+    ] = None
     return_balls: Annotated[
-        int | None, Option("Balls in the return of each circuit, else half a turn of them.", metavar="NUMBER")
+        int | None, Option("Balls in the return of each circuit; half a turn of them if left out.", metavar="NUMBER")
     ] = None
     wall_factor: Annotated[
-        float | None, Option("Drag of the oil in the return over that far from walls, else 10.", metavar="FACTOR")
+        float | None,
+        Option("Drag of the oil in the return over that far from walls; 10 if left out.", metavar="FACTOR"),
     ] = None
     relief: Annotated[
         float, Option("Length at the ends over which balls take their load, in balls.", metavar="BALLS")
     ] = 1.0
-    turns: Annotated[float, Option("Turns of the screw that are looked at, at least.", metavar="TURNS")] = 12.0
-    seed: Annotated[int, Option("Of the grooves: one seed gives the same nut.", metavar="NUMBER")] = 1
-    seeds: Annotated[int, Option("So many nuts, with seeds from that one on: a band.", metavar="NUMBER")] = 1
+    turns: Annotated[float, Option("Turns of the screw to compute, at least.", metavar="TURNS")] = 12.0
+    seed: Annotated[int, Option("Seed of the grooves: one seed gives the same nut.", metavar="NUMBER")] = 1
+    seeds: Annotated[int, Option("Number of nuts, with seeds from --seed on: a band.", metavar="NUMBER")] = 1

@@ -40,11 +40,13 @@ class RunResults(table_of(_NUMBERS, at_times=OF_ONE_BALL)):
     valid: Annotated[bool, _OF_RUN["valid"].info]
     self_locking: Annotated[bool, _OF_RUN["self_locking"].info]
     preload_drag: Annotated[
-        Torque | None, Info("M_0", "torque of the nut without load, seals and other losses included"), LEFT_OUT
+        Torque | None,
+        Info("M_0", "drag torque of the nut: without axial load, seals and other losses included"),
+        LEFT_OUT,
     ]
     preload_drag_of_balls: Annotated[
         Torque | None,
-        Info("M_0", "torque of the preloaded nut without load, seals and other losses left out"),
+        Info("M_0", "drag torque of the preloaded nut without seals and other losses"),
         LEFT_OUT,
     ]
     #: The same by the rules of makers, which know neither oil nor speed; of a preloaded nut.

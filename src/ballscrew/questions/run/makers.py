@@ -14,7 +14,7 @@ from ballscrew.cases.case_files.makers_rules import BY_RULE, OfRule, by_rules
 from ballscrew.physics.friction.verdicts import RULE_OF_MAKER
 from ballscrew.questions.run.nut_state import NutState
 
-_LINE = Message("without load and seals {torque}; by the rules of makers: {rules}")
+_LINE = Message("drag torque without seals {torque}; by the rules of makers: {rules}")
 _OWN = Message("{rule}, its maker, {torque} (model / rule {ratio})")
 _OTHER = Message("{rule} {torque} (model / rule {ratio})")
 _CONTRADICTION = Message(

@@ -57,7 +57,7 @@ def results(run: Run, bands: Mapping[str, OutputBand]) -> list[Table]:
     note = ". ".join(map(sentence, rules_contradict(run)))
     tables = [Table("Torque, efficiency and power", ("", "value", "band"), rows, note=note and f"{note}.")]
     if stiff:
-        tables.append(Table("How the nut gives way", ("", "value"), stiff))
+        tables.append(Table("Stiffness of the nut", ("", "value"), stiff))
     return [*tables, _contacts(whose, run.contacts, run.curvature_alone)]
 
 

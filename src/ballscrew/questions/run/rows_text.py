@@ -12,7 +12,7 @@ from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.run.compute import Run
 from ballscrew.questions.shared.text_tables import shown_or_dash
 
-_HEADINGS = ("name", "nut", "preload", "friction torque", "without load", "drive torque", "eff.", "eff. back")
+_HEADINGS = ("name", "nut", "preload", "friction torque", "drag torque", "drive torque", "eff.", "eff. back")
 _RESULT = quantities_of(FrictionResult)
 
 

@@ -116,14 +116,21 @@ def _results(run: Run) -> Table:
 
 
 def unloaded_rows(run: Run) -> list[tuple[str, float]]:
-    """The torque of the nut without load, what of it are losses and balls, and that of the balls by makers' rules."""
+    """The drag torque of the nut with seals and other losses, these, and without them, as makers' rules have it."""
     nut = run.nut
     if nut is None:
         return []
     losses = [(_of_loss(name, run.case), torque) for name, torque in nut.idle_losses.items() if torque]
     rules = [(one.label, float(one.by_rule.torque)) for one in beside_rules(run.case, nut)]
-    balls = [("of it balls", nut.drag_of_balls)] if losses and rules else []
-    return [("torque without load", nut.preload_drag), *losses, *balls, *rules]
+    lost = [name for name, torque in nut.idle_losses.items() if torque]
+    whole = [(drag_label(lost, included=True), nut.preload_drag), *losses] if lost else []
+    return [*whole, (drag_label(lost, included=False), nut.drag_of_balls), *rules]
+
+
+def drag_label(losses: Sequence[str], *, included: bool) -> str:
+    """``drag torque without seals``; of other losses as well where the nut has some."""
+    others = any(name != "seals" for name in losses)
+    return f"drag torque {'with' if included else 'without'} seals{' and other losses' if others else ''}"
 
 
 def rules_contradict(run: Run) -> list[str]:
@@ -135,7 +142,7 @@ def rules_contradict(run: Run) -> list[str]:
 def _of_loss(name: str, case: Case) -> str:
     """A loss, of seals with the table that their torque is from, where it is not the row's own."""
     source = seal_torque_source(case.row, case.screw.nut) if name == "seals" else ""
-    return f"of it {MECHANISMS.get(name, name)}" + (f" ({source})" if source else "")
+    return f"of which {MECHANISMS.get(name, name)}" + (f" ({source})" if source else "")
 
 
 def parts_table(contributions: Mapping[str, Any], total: float, encoding: str) -> Table:
@@ -172,7 +179,7 @@ def _quadrants(quadrants: Mapping[str, Quadrant], loaded: bool) -> Table:
 
 
 def _loads(nut: NutState) -> Table:
-    table = table_of("\nLoads of the balls, and how the nut gives way", "", "least", "mean", "greatest")
+    table = table_of("\nLoads of the balls, and stiffness of the nut", "", "least", "mean", "greatest")
     for flank, label in ((nut.loaded, "the flank that carries the load"), (nut.relieved, "the other flank")):
         if flank is not None:
             for values, name, what in ((flank.load, "forward_load", "load"), (flank.angle, "forward_angle", "angle")):

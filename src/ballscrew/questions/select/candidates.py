@@ -347,7 +347,7 @@ def _price(need: Need, variant: Variant) -> float:
 
 
 def _life_of(checks: Sequence[Check]) -> Duration:
-    """The time that nine of ten outlive, by the check of it; NaN where it is not known."""
+    """The basic rating life L10h, by the check of it; NaN where it is not known."""
     value = next(check for check in checks if check.name == "running_time").value
     return math.nan if value is None else float(value)
 
@@ -380,7 +380,7 @@ class Starved(NamedTuple):
         """The record under load; where there is none that of the torque without load."""
         if self.under_load or self.without_load is None:
             return [*self.under_load]
-        remark = Message("torque of the nut without load")
+        remark = Message("drag torque of the nut")
         return units.in_display_units_of(starvation.records([self.without_load], remark))
 
 

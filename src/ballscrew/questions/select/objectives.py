@@ -45,7 +45,7 @@ OBJECTIVES: Mapping[str, Objective] = {
         _objective("life", "s", "L_h", "basic rating life L10h", "h", larger=True),
         _objective("rigidity", "N/m", "R", "rigidity of the nut under the load", "N/um", larger=True),
         _objective("drive_torque", "N m", "M", "torque on the shaft, of a cycle the largest"),
-        _objective("preload_torque", "N m", "M_p", "torque of the nut without load"),
+        _objective("preload_torque", "N m", "M_p", "drag torque of the nut"),
         _objective("price_index", "1", "p", "price against another of the same list"),
     )
 }

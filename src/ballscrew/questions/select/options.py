@@ -11,7 +11,8 @@ from ballscrew.questions.shared.options import Option
 Objectives = Annotated[
     Sequence[str],
     Option(
-        "Compared, the first ranks: loss, inertia, reflected_mass, life, rigidity, drive_torque, …", metavar="NAMES"
+        "Objectives to compare; the first ranks: loss, inertia, reflected_mass, life, rigidity, drive_torque, …",
+        metavar="NAMES",
     ),
 ]
 
@@ -23,7 +24,7 @@ class SelectOptions:
     words: Annotated[
         str, Option('Only rows with these sizes and words: "rexroth 40x".', metavar="WORDS", flag="filter")
     ] = ""
-    complete: Annotated[bool, Option("The full model also of candidates that their loads alone rule out.")] = False
+    complete: Annotated[bool, Option("The full model also for candidates that their loads alone rule out.")] = False
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -32,6 +33,6 @@ class ListOptions:
 
     #: Empty for those of the need.
     objectives: Objectives = ()
-    holds: Annotated[bool, Option("Only candidates of which no check fails.")] = False
+    holds: Annotated[bool, Option("Only candidates that pass all checks that are judged.")] = False
     front: Annotated[bool, Option("Only members of the Pareto front.")] = False
     first: Annotated[int, Option("Lines shown; 0 for all.", metavar="N", at_least=0)] = 20

@@ -60,7 +60,7 @@ def of_friction(
             "drive_torque", numbers["drive_torque"], required.largest_drive_torque, "N m",
         ),
         _bounded(
-            Check.at_most, Message("torque of the nut without load"),
+            Check.at_most, Message("drag torque of the nut"),
             "preload_torque", numbers["preload_torque"], required.largest_preload_torque, "N m",
         ),
         _bounded(

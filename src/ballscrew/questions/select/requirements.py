@@ -32,7 +32,8 @@ class Requirements(ByValue):
         Torque | None, Info("M_{max}", "largest torque on the shaft", "N m", above=0, hint="that of the motor")
     ] = None
     largest_preload_torque: Annotated[
-        Torque | None, Info("M_{p,max}", "largest torque of the nut without load", "N m", above=0, hint="0.1 to 2 N m")
+        Torque | None,
+        Info("M_{p,max}", "largest drag torque of the nut, its seals included", "N m", above=0, hint="0.1 to 2 N m"),
     ] = None
     least_rigidity: Annotated[
         Stiffness | None,

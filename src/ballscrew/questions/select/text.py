@@ -22,7 +22,7 @@ USUAL_LINES = 20
 #: Objectives in the headings of tables.
 LABELS = {
     "loss": "loss", "inertia": "inertia", "reflected_mass": "adds mass", "life": "life", "rigidity": "rigidity",
-    "drive_torque": "torque", "preload_torque": "without load", "price_index": "price",
+    "drive_torque": "torque", "preload_torque": "drag torque", "price_index": "price",
 }  # fmt: skip
 
 #: Torques of a need with a motion, by their headings.
@@ -49,12 +49,13 @@ def cost(plan: Plan) -> str:
 
 
 def not_judged(found: Selection) -> str:
-    """Why none holds though some fail nothing: ``12 of them fail nothing, but …``; empty where that is not so."""
+    """Why none holds though some fail nothing: ``12 of them fail no check, but …``; empty where that is not so."""
     fitting = [each.candidate for each in found.ranked if each.candidate.fits]
     missing = _missing([each.candidate for each in found.ranked])
     if found.holding or not fitting or not missing:
         return ""
-    return f"{len(fitting)} of them fail nothing, but nothing holds that was not judged: give {', '.join(missing)}"
+    needed = ", ".join(missing)
+    return f"{len(fitting)} of them fail no check, but a candidate holds only once all are judged: give {needed}"
 
 
 def _missing(candidates: Sequence[Candidate]) -> list[str]:
@@ -110,11 +111,14 @@ def text(found: Selection, ranked: Sequence[Ranked], most: int = USUAL_LINES) ->
         lines.append("none is left of these")
     lines += beside_rules(found)
     named = " and ".join(LABELS[name] for name in found.objectives)
-    lines += ["", wrapped(f"*  of those of which no check fails, no other is better in {named}, taken together")]
+    lines += [
+        "",
+        wrapped(f"*  Pareto front: of the candidates that fail no check, none is better in {named} taken together"),
+    ]
     lines += ["", "assumed", *(wrapped(f"  {note}") for note in found.need.notes)] if found.need.notes else []
     missing = _missing([each.candidate for each in found.ranked])
     if missing and not reason:
-        lines += ["", wrapped(f"nothing holds that was not judged: give {', '.join(missing)}")]
+        lines += ["", wrapped(f"a candidate holds only once all checks are judged: give {', '.join(missing)}")]
     elif found.best is None and not reason:
         lines += ["", "no candidate holds within the validity of the model: look at what fails first, and by how much"]
     return "\n".join(lines)

@@ -54,7 +54,7 @@ def print_service(case: Case, report: ServiceReport) -> None:
         others = verdicts(case, report)[1:]
         if others:
             before = "the case's" if report.change.new.fit is None else "the new log's"
-            say(f"\nHad the preload stayed {before}:", "bold")
+            say(f"\nIf the preload had stayed {before}:", "bold")
         for record in others:
             say(f"  {record.text}")
 
@@ -68,7 +68,7 @@ def _logs(report: ServiceReport) -> list[str]:
 def names(report: ServiceReport) -> list[str]:
     """The logs by the names of their files, or the reading."""
     if report.reading is not None:
-        return [f"{units.shown(report.reading.torque, TORQUE)} without load"]
+        return [f"drag torque {units.shown(report.reading.torque, TORQUE)}"]
     found: list[str] = []
     for label, one in report.estimates.items():
         if one.fit is not None:

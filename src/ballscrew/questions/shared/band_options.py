@@ -6,8 +6,10 @@ from typing import Annotated
 
 from ballscrew.questions.shared.options import Option
 
-Level = Annotated[float | None, Option("With --band: share in the band, 0.95.", metavar="SHARE")]
-OnlyGiven = Annotated[bool, Option("With --band: only what the file says is uncertain.")]
+Level = Annotated[
+    float | None, Option("With --band: share of the samples in the band; 0.95 if left out.", metavar="SHARE")
+]
+OnlyGiven = Annotated[bool, Option("With --band: only the uncertain inputs that the case file gives.")]
 
 
 def number_of_samples(meaning: str) -> Option:

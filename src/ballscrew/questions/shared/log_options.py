@@ -14,16 +14,23 @@ def headings(meaning: str) -> Option:
     return Option(meaning, metavar="NAME=HEADING", flag="column", noun="heading", example=example)
 
 
-Columns = Annotated[Mapping[str, str], headings('A heading by hand: torque="M_ist [N m]".')]
+Columns = Annotated[Mapping[str, str], headings('Heading of a column: torque="M_ist [N m]".')]
 TorqueKind = Annotated[
     Literal["friction", "drive", "unknown"],
-    Option("Of torque: friction or drive; if left out, the model tells.", metavar="KIND", noun="kind of torque"),
+    Option(
+        "Kind of the torque: friction or drive; if left out, found by comparison with the model.",
+        metavar="KIND",
+        noun="kind of torque",
+    ),
 ]
 TorqueConstant = Annotated[
-    float | None, Option('Of a motor current: "0.5 N m/A".', metavar="VALUE", unit="N m/A", above=0)
+    float | None,
+    Option('Torque for each ampere of a motor current: "0.5 N m/A".', metavar="VALUE", unit="N m/A", above=0),
 ]
 Inertia = Annotated[
     float | None,
-    Option('What the torque accelerates, at the screw: "2e-3 kg m^2".', metavar="VALUE", unit="kg m^2", above=0),
+    Option(
+        'Inertia that the torque accelerates, at the screw: "2e-3 kg m^2".', metavar="VALUE", unit="kg m^2", above=0
+    ),
 ]
 KeepGoing = Annotated[bool, Option("Leave faulty rows out, and say how many.")]

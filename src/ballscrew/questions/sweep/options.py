@@ -23,7 +23,7 @@ class SweepOptions:
         Sequence[str],
         Option("What to return, for example efficiency; may be repeated.", metavar="NAME", flag="output"),
     ] = ()
-    band: Annotated[bool, Option("How far off each output may be: low and high beside it, as of run --band.")] = False
+    band: Annotated[bool, Option("Band of each output: low and high beside it, as of run --band.")] = False
     samples: Annotated[int | None, number_of_samples("samples a point, 16384; where balls differ 1024")] = None
     level: Level = None
     only_given: OnlyGiven = False

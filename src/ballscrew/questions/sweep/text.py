@@ -20,7 +20,9 @@ from ballscrew.physics.friction.validity import REASONS
 from ballscrew.questions.sweep.compute import Plan, implausible, is_store, reasons_of, starved
 
 #: Why a point that heats itself may not be valid, besides the reasons of the model.
-_OF_HEAT = {"steady_state": "no steady state in the range of oil and preload: it runs away, or gets too hot"}
+_OF_HEAT = {
+    "steady_state": "no steady state in the range of oil and preload: thermal runaway, or too hot for the model"
+}
 
 
 @dataclasses.dataclass(frozen=True)

@@ -14,8 +14,8 @@ class WarmUpOptions:
     """What is asked of a warm-up: hours of work and of rest, and a band."""
 
     hours: Annotated[float, Option("Hours of work.", metavar="H")] = 4.0
-    cool_down: Annotated[float, Option("Hours of rest after them, 0.", metavar="H")] = 0.0
-    band: Annotated[bool, Option("How far off it all may be, by uncertain surroundings and friction.")] = False
+    cool_down: Annotated[float, Option("Hours of rest after the work; 0 if left out.", metavar="H")] = 0.0
+    band: Annotated[bool, Option("Bands of all results, by uncertain surroundings and friction.")] = False
     samples: Annotated[int | None, number_of_samples("transients, 512")] = None
     level: Level = None
     only_given: OnlyGiven = False
@@ -26,8 +26,10 @@ class DriftOptions:
     """A cycle like that of ISO 230-3 in place of the motion of the case, which has a rest of its own."""
 
     hours: Annotated[float, Option("Hours of work.", metavar="H")] = 4.0
-    cool_down: Annotated[float | None, Option("Hours of rest after them, 0.", metavar="H")] = None
+    cool_down: Annotated[float | None, Option("Hours of rest after the work; 0 if left out.", metavar="H")] = None
     drift_cycle: Annotated[
         bool, Option("A cycle like that of ISO 230-3: full stroke at a share of rapid, an hour of rest.")
     ] = False
-    feed_share: Annotated[float | None, Option("With --drift-cycle: feed over rapid, 0.5.", metavar="SHARE")] = None
+    feed_share: Annotated[
+        float | None, Option("With --drift-cycle: feed as a share of rapid; 0.5 if left out.", metavar="SHARE")
+    ] = None

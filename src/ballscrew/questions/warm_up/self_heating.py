@@ -38,11 +38,11 @@ OPTION = "--self-heating"
 _TORQUE = quantities_of(FrictionResult)["screw_torque"]
 _HEATED = Message(
     "self-heating: oil at {oil} in place of {given} (nut {nut}); friction torque {warm}, not {cold}; "
-    "gain of the thermal loop {gain}, thermal runaway at 1"
+    "stability margin of the thermal loop {margin}, thermal runaway at 0"
 )
 _HEATED_WITH_PRELOAD = Message(
     "self-heating: oil at {oil} in place of {given} (nut {nut}), preload {preload} in place of {before}; "
-    "friction torque {warm}, not {cold}; gain of the thermal loop {gain}, thermal runaway at 1"
+    "friction torque {warm}, not {cold}; stability margin of the thermal loop {margin}, thermal runaway at 0"
 )
 #: The friction torques that a starved one has beside it, warm and as given.
 WARM, GIVEN = (
@@ -151,15 +151,15 @@ class SelfHeating:
             "warm": Measured(self.torque, _TORQUE),
             "cold": Measured(self.torque_given, _TORQUE),
         }
-        gain = units.as_written(f"{1 - end.margin:z.2f}")
+        margin = units.as_written(f"{end.margin:z.2f}")
         if end.network.preload_set:
             quantity = EQUILIBRIUM["preload"]
             message = _HEATED_WITH_PRELOAD.of(
-                **numbers, gain=gain, preload=Measured(float(end.preload), quantity),
+                **numbers, margin=margin, preload=Measured(float(end.preload), quantity),
                 before=Measured(float(end.network.preload_set), quantity),
             )  # fmt: skip
         else:
-            message = _HEATED.of(**numbers, gain=gain)
+            message = _HEATED.of(**numbers, margin=margin)
         return units.record(
             message, id="verdict.self_heating", subject="lubricant.temperature", severity="info", holds=True,
             value=end.oil_temperature, unit="K",

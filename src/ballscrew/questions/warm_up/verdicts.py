@@ -39,7 +39,7 @@ def _starved(report: WarmUpReport) -> list[Record]:
     ends = full.warm_up.equilibrium
     if ends.exists or not report.warm_up.equilibrium.exists:
         return said
-    message = Message("in a full bath of oil there is no steady state: it runs away, or it gets too hot for the model")
+    message = Message("in a full bath of oil there is no steady state: thermal runaway, or too hot for the model")
     record = units.record(
         message, id="verdict.equilibrium_of_full_bath", subject="equilibrium", severity="error", holds=False,
         value=ends.margin, limit=0.0,

@@ -115,12 +115,12 @@ def agreement(seen: Observations) -> Finding:
     """Abstract, §1: agreement with measurements."""
     m = seen.minimum
     torques = f"{m.torque:.3f} to {max(m.torque_at_rest, m.torque_at_top):.3f} N m"
-    return _open(f"friction torque {torques} at 4000 N; nothing to hold it against", torques)
+    return _open(f"friction torque {torques} at 4000 N; the paper prints no value to compare it with", torques)
 
 
 def literature_efficiency(seen: Observations) -> Finding:
     """Abstract, §8: agreement with the efficiencies of the literature."""
-    return _open(f"{_band(seen.efficiency)}; nothing to hold it against", _band(seen.efficiency))
+    return _open(f"{_band(seen.efficiency)}; the paper prints no value to compare it with", _band(seen.efficiency))
 
 
 def film_friction(seen: Observations) -> Finding:

@@ -1,0 +1,156 @@
+"""The reference model on a preloaded nut in words: a few lines for the terminal, and a page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from ballscrew.basis import units
+from ballscrew.basis.output.wrapping import aligned
+from ballscrew.basis.quantities import Quantity
+from ballscrew.cases.case_files.descriptions import nut_text, operating_point
+from ballscrew.engine.evaluation.outputs import known_outputs
+from ballscrew.questions.band.text import input_counts
+from ballscrew.questions.reproduce.preloaded_nut import (
+    CASE,
+    CASE_FILE,
+    UNLOADED_OPTIONS,
+    Banded,
+    PreloadedNut,
+    RuleBesideBand,
+)
+from ballscrew.questions.run.makers import contradiction
+from ballscrew.questions.shared.report_blocks import sentence
+from ballscrew.questions.shared.text_tables import ends_or_dashes, shown_or_dash
+
+_TORQUE = "screw_torque"
+#: The file of the page, and of its picture without the ending.
+PAGE_FILE, PICTURE = "preloaded_nut.md", "preloaded_nut"
+#: What is shown under load.
+_SHOWN = (_TORQUE, "drive_torque", "efficiency")
+#: The torque that rules of makers are of.
+DRAG = "drag torque without seals"
+_PAGE = """\
+# The reference model on a preloaded nut
+
+The claims of the paper are checked with its own equations, as printed and corrected. The model to use is another one,
+`reference`, and most machines have a preloaded nut, which the paper has not. Here is that model on one: row `{row}`
+of the catalogue, {nut}. The case is in `{file}`.
+
+## Without load
+
+{drag}
+At {point}, without seals, as the rules have none. {contradiction}.
+
+![The band of the model, and the rules of makers]({picture}.svg)
+
+## Under load
+
+{loaded}
+At {loaded_point}. {counts}. The band is of what is uncertain in inputs and laws; it is no tolerance for acceptance.
+
+## The same case again
+
+```console
+$ ballscrew run {file} --band {options}
+$ ballscrew run {file} --band
+$ ballscrew check {file}
+```
+
+```toml
+{case}```
+"""
+
+
+def lines(found: PreloadedNut) -> list[str]:
+    """The nut, the model without load with its band, each rule, and the nut under load."""
+    here, loaded = found.unloaded, found.loaded
+    rows = [
+        (f"{DRAG}, {operating_point(here.case)}", "", f"{level(here)} band"),
+        (" reference model", *value_and_band(here, _TORQUE)),
+        *((f" {label_of(one)}", torque_of(one, here), _is_held(one)) for one in found.rules),
+        (f"under load, {operating_point(loaded.case)}", "", ""),
+        *((f" {_quantity(loaded, name).info.meaning}", *value_and_band(loaded, name)) for name in _SHOWN),
+    ]
+    return [
+        f"The model to use, reference, on a preloaded nut ({_row(found)}, {nut_text(loaded.case.screw.nut)}):",
+        *(f"  {line}" for line in aligned(rows)),
+        f"  {contradiction_of(found)}",
+    ]
+
+
+def page(found: PreloadedNut) -> str:
+    """The page, in Markdown."""
+    here, loaded = found.unloaded, found.loaded
+    drag = [
+        ("**reference model**", *value_and_band(here, _TORQUE), "", ""),
+        *(
+            (
+                label_of(one), torque_of(one, here), _is_held(one), f"{one.beside.ratio:.2f}",
+                one.beside.by_rule.rule.range,
+            )
+            for one in found.rules
+        ),
+    ]  # fmt: skip
+    of_load = [(_quantity(loaded, name).info.meaning, *value_and_band(loaded, name)) for name in _SHOWN]
+    return _PAGE.format(
+        row=_row(found),
+        nut=nut_text(loaded.case.screw.nut),
+        file=CASE_FILE,
+        picture=PICTURE,
+        drag=_table((DRAG, "value", f"{level(here)} band", "model / rule", "range or tolerance, as stated"), drag),
+        point=operating_point(here.case),
+        contradiction=sentence(contradiction_of(found)),
+        loaded=_table(("", "value", f"{level(loaded)} band"), of_load),
+        loaded_point=operating_point(loaded.case),
+        counts=units.filled(input_counts(loaded.band)),
+        options=UNLOADED_OPTIONS,
+        case=CASE,
+    )
+
+
+def label_of(one: RuleBesideBand) -> str:
+    """``rule of Rexroth, its maker``."""
+    by_rule = one.beside.by_rule
+    return f"rule of {by_rule.rule.label}{', its maker' if by_rule.is_own else ''}"
+
+
+def torque_of(one: RuleBesideBand, here: Banded) -> str:
+    """What a rule gives, with its unit."""
+    return shown_or_dash(float(one.beside.by_rule.torque), _quantity(here, _TORQUE))
+
+
+def level(found: Banded) -> str:
+    """``95 %``."""
+    return f"{100 * found.band.band.level:.4g} %"
+
+
+def value_and_band(found: Banded, name: str) -> tuple[str, str]:
+    """An output at the values of the case, and the ends of its band."""
+    quantity, one = _quantity(found, name), found.band.band[name]
+    return shown_or_dash(one.value, quantity), " to ".join(ends_or_dashes(*one.both, quantity))
+
+
+def contradiction_of(found: PreloadedNut) -> str:
+    """By how much the rules contradict each other."""
+    return units.filled(contradiction([one.beside for one in found.rules]))
+
+
+def _is_held(one: RuleBesideBand) -> str:
+    return "within it" if one.is_in_band else "outside it"
+
+
+def _quantity(found: Banded, name: str) -> Quantity:
+    return known_outputs(found.case.screw.nut)[name].quantity
+
+
+def _row(found: PreloadedNut) -> str:
+    row = found.loaded.case.row
+    assert row is not None, "the case has a row"
+    return row.name
+
+
+def _table(heading: Sequence[str], rows: Sequence[Sequence[Any]]) -> str:
+    """A table in Markdown."""
+    marks = ["---", *["--:"] * (len(heading) - 1)]
+    return "".join("| " + " | ".join(line) + " |\n" for line in (heading, marks, *rows))
