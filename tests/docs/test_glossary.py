@@ -1,6 +1,5 @@
 """The glossary has the words that people search for, and every name in it exists in the program."""
 
-import inspect
 import re
 
 import pytest
@@ -10,14 +9,13 @@ from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.schema.case_schema import LAWS, coefficients_of, sections
 from ballscrew.cases.screw_tables.nut_kinds import LOSSES, NUTS
 from ballscrew.engine.evaluation.outputs import known_outputs
-from ballscrew.faces.cli import main
-from ballscrew.faces.cli.flags import with_flags
+from ballscrew.faces.cli.main import command_line
 from ballscrew.faces.web import openapi
 from ballscrew.faces.web.server import application
 from ballscrew.physics.components.nut import DoubleNut
 from ballscrew.physics.friction.balls import MECHANISMS
 from ballscrew.physics.friction.starvation import STARVED
-from ballscrew.physics.sizing.checks import BY_NAME as _CHECKS
+from ballscrew.physics.sizing.check_table import CHECKS
 from ballscrew.questions.select.need import SHORT_NAMES
 from ballscrew.questions.select.requirements import Requirements
 
@@ -55,7 +53,7 @@ def known():
     laws = {law for slot in (*LAWS.values(), *LOSSES.values()) for law in slot}
     return {
         *answers, *known_outputs(), *known_outputs(DoubleNut(preload=1000.0)), *MECHANISMS, *laws, *NUTS, *SHORT_NAMES,
-        *_CHECKS, STARVED,
+        *(row.name for row in CHECKS), STARVED,
     }  # fmt: skip
 
 
@@ -68,23 +66,15 @@ def fields_in(section):
     return {*sections()[section].model_fields}
 
 
-def flags(command):
-    annotations = [one.annotation for one in inspect.signature(with_flags(command), eval_str=True).parameters.values()]
-    found = [one.__metadata__[0] for one in annotations if hasattr(one, "__metadata__")]
-    return {word for one in found for word in getattr(one, "param_decls", None) or ()} | {
-        one.default for one in found if isinstance(getattr(one, "default", None), str)
-    }
-
-
 def exists(name, known):
     if name in known:
         return True
     if name.startswith("ballscrew "):
-        return name.removeprefix("ballscrew ") in {*main.COMMANDS, *main.GROUPS}
+        return name.removeprefix("ballscrew ") in command_line().commands
     if name.startswith("bs."):
         return hasattr(bs, name.removeprefix("bs."))
     if name.startswith("--"):
-        return any(name in flags(command) for command in main.COMMANDS.values())
+        return any(name in one.opts for each in command_line().commands.values() for one in each.params)
     if name.startswith("["):
         return name.strip("[]") in sections()
     section, _, field = name.partition(".")
