@@ -9,7 +9,7 @@ from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.schema.case_schema import LAWS, coefficients_of, sections
 from ballscrew.cases.screw_tables.nut_kinds import LOSSES, NUTS
 from ballscrew.engine.evaluation.outputs import known_outputs
-from ballscrew.faces.cli.main import command_line
+from ballscrew.faces.cli.main import COMMANDS, command_line, command_of
 from ballscrew.faces.web import openapi
 from ballscrew.faces.web.server import application
 from ballscrew.physics.components.nut import DoubleNut
@@ -70,11 +70,11 @@ def exists(name, known):
     if name in known:
         return True
     if name.startswith("ballscrew "):
-        return name.removeprefix("ballscrew ") in command_line().commands
+        command, *flags = name.split()[1:]
+        known_flags = {flag for one in command_of(command, COMMANDS[command]).params for flag in one.opts} if flags else ()
+        return command in command_line().commands and set(flags) <= {*known_flags}
     if name.startswith("bs."):
         return hasattr(bs, name.removeprefix("bs."))
-    if name.startswith("--"):
-        return any(name in one.opts for each in command_line().commands.values() for one in each.params)
     if name.startswith("["):
         return name.strip("[]") in sections()
     section, _, field = name.partition(".")
