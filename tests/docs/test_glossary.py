@@ -23,9 +23,7 @@ from .pages import DOCS
 
 TEXT = (DOCS / "glossary.md").read_text(encoding="utf-8")
 ROWS = [
-    [cell.strip() for cell in line.strip("|").split(" | ")]
-    for line in TEXT.splitlines()
-    if line.startswith("| **")
+    [cell.strip() for cell in line.strip("|").split(" | ")] for line in TEXT.splitlines() if line.startswith("| **")
 ]
 #: Words that people search for.
 SEARCHED = ("L10", "C_a", "Backlash", "Drag torque", "Preload class", "NLGI", "DN value")
@@ -71,14 +69,18 @@ def exists(name, known):
         return True
     if name.startswith("ballscrew "):
         command, *flags = name.split()[1:]
-        known_flags = {flag for one in command_of(command, COMMANDS[command]).params for flag in one.opts} if flags else ()
+        known_flags = (
+            {flag for one in command_of(command, COMMANDS[command]).params for flag in one.opts} if flags else ()
+        )
         return command in command_line().commands and set(flags) <= {*known_flags}
     if name.startswith("bs."):
         return hasattr(bs, name.removeprefix("bs."))
     if name.startswith("["):
         return name.strip("[]") in sections()
     section, _, field = name.partition(".")
-    return bool(field) and (section == "need" or section in LAWS or section in sections()) and field in fields_in(section)
+    return (
+        bool(field) and (section == "need" or section in LAWS or section in sections()) and field in fields_in(section)
+    )
 
 
 def test_the_words_of_catalogues_are_entries():

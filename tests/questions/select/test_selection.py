@@ -700,10 +700,11 @@ def test_the_case_of_a_row_of_ones_own_needs_no_table(ballscrew, tmp_path):
     )
     need, case = tmp_path / "need.toml", tmp_path / "out" / "case.toml"
     need.write_text(
-        'force = "4 kN"\nfeed = "10 m/min"\n[lubricant]\noil = "Oil"\noil_file = "oils.toml"\ntemperature = "40 degC"\n',
+        'force = "4 kN"\nfeed = "10 m/min"\ntemperature = "40 degC"\n[lubricant]\noil = "Oil"\noil_file = "oils.toml"\n',
         encoding="utf-8",
     )
-    words = ["--rows", ROOT / "examples" / "own_screws.csv", "--complete", "--model", "corrected", "--to", case]
+    words = ["--rows", ROOT / "examples" / "own_screws.csv", "--filter", "axis", "--complete"]
+    words += ["--model", "corrected", "--to", case]
     first = json.loads(ballscrew("select", need, *words, "--json").stdout)["candidates"][0]
     tables = tomllib.loads(case.read_text(encoding="utf-8"))
     assert tables["lubricant"]["oil_file"] == "../oils.toml"

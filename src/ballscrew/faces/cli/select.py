@@ -42,7 +42,9 @@ def select(
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object with all candidates, SI units.")] = False,
     to: Annotated[
         list[Path] | None,
-        typer.Option(_TO, "-o", metavar="FILE", help="Also write .csv or .xlsx, .png, .svg or .pdf; .toml: the case; repeat."),
+        typer.Option(
+            _TO, "-o", metavar="FILE", help="Also write .csv, .xlsx, .png, .svg, .pdf, or .toml, a case; repeat."
+        ),
     ] = None,
     keep_going: KeepGoing = False,
     allow_code: AllowCode = False,

@@ -37,5 +37,6 @@ class ListOptions:
     first: Annotated[int, Option("Lines shown; 0 for all.", metavar="N", at_least=0)] = 20
     #: None for that of the first one listed.
     rank: Annotated[
-        int | None, Option("Of the candidate whose case --to FILE.toml writes; the first listed.", metavar="N", at_least=1)
+        int | None,
+        Option("Of the candidate whose case --to FILE.toml writes; the first listed.", metavar="N", at_least=1),
     ] = None
