@@ -458,7 +458,7 @@ def test_every_case_has_a_report_of_few_pages(name):
     assert least_filled(reader) >= LEAST_FILLED
     tornado = any("one uncertain input at a time" in text for text in pictures_of(content))
     assert tornado == (name not in ("without load", "nothing"))
-    assert len([tag for tag, _ in found.tags if tag == "figure"]) == 4 + moves + warms + tornado
+    assert len([tag for tag, _ in found.tags if tag == "figure"]) == 4 + moves + is_mounted + warms + tornado
 
 
 # -- as a PDF -------------------------------------------------------------------------------------

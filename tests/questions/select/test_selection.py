@@ -700,7 +700,8 @@ def test_the_case_of_a_row_of_ones_own_needs_no_table(ballscrew, tmp_path):
     )
     need, case = tmp_path / "need.toml", tmp_path / "out" / "case.toml"
     need.write_text(
-        'force = "4 kN"\nfeed = "10 m/min"\ntemperature = "40 degC"\n[lubricant]\noil = "Oil"\noil_file = "oils.toml"\n',
+        'force = "4 kN"\nfeed = "10 m/min"\n'
+        '[lubricant]\noil = "Oil"\noil_file = "oils.toml"\ntemperature = "40 degC"\n',
         encoding="utf-8",
     )
     words = ["--rows", ROOT / "examples" / "own_screws.csv", "--filter", "axis", "--complete"]
