@@ -38,6 +38,9 @@ from ballscrew.faces.report.html import html_bytes
 from ballscrew.faces.report.pdf import pdf_bytes
 from ballscrew.physics.components.nut_losses import ConstantTorque
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.questions.axis.compute import SERIES as CHAIN
+from ballscrew.questions.axis.compute import chain_of
+from ballscrew.questions.axis.compute import load as axis_load
 from ballscrew.questions.band import compute as band
 from ballscrew.questions.check.compute import checked
 from ballscrew.questions.duty.compute import NUMBERS, duty
@@ -444,7 +447,8 @@ def test_every_case_has_a_report_of_few_pages(name):
     reader = pypdf.PdfReader(io.BytesIO(pdf_bytes(content)))
     assert 1 <= len(reader.pages) <= content.pages
     moves, warms = case_of(name).motion is not None, case_of(name).surroundings is not None
-    assert content.pages == 5 + 2 * moves + warms
+    is_mounted = moves and case_of(name).installation is not None
+    assert content.pages == 5 + 2 * moves + is_mounted + warms
     words = text_of(reader)
     assert f"page {len(reader.pages)} of {len(reader.pages)}" in words
     found = Page(html_bytes(content).decode())
@@ -454,7 +458,7 @@ def test_every_case_has_a_report_of_few_pages(name):
     assert least_filled(reader) >= LEAST_FILLED
     tornado = any("one uncertain input at a time" in text for text in pictures_of(content))
     assert tornado == (name not in ("without load", "nothing"))
-    assert len([tag for tag, _ in found.tags if tag == "figure"]) == 4 + moves + warms + tornado
+    assert len([tag for tag, _ in found.tags if tag == "figure"]) == 4 + moves + is_mounted + warms + tornado
 
 
 # -- as a PDF -------------------------------------------------------------------------------------
@@ -706,6 +710,25 @@ def test_heat_is_that_of_the_command():
     assert all(line in words for line in report.assumed)
     end = report.equilibrium["nut_temperature"] - 273.15
     assert f"{end:.2f} degC" in words
+
+
+def test_stiffness_is_that_of_the_command():
+    """A case with an axis, its motion and an installation has what ``ballscrew axis`` prints of it."""
+    section = next(s for s in content_of("vertical_axis").sections if s.title == "Stiffness over the stroke")
+    found = chain_of(axis_load(ROOT / "examples" / "vertical_axis.toml", []))
+    words = str(section.blocks)
+    for record in found.verdicts:
+        assert record.text[1:] in words
+    assert all(line in words for line in found.assumed)
+    places = next(block for block in section.blocks if getattr(block, "title", "") == "Over the stroke")
+    assert places.columns[:2] == ["nut at", "rigidity"]
+    assert len(places.rows) == len(found.shown)
+    for row, at in zip(places.rows, found.shown, strict=True):
+        assert row[1] == units.shown(float(found.series["total"][at]), CHAIN["total"])
+
+
+def test_a_motion_without_an_installation_has_no_stiffness():
+    assert not [s for s in content_of("warm_up").sections if s.title.startswith("Stiffness")]
 
 
 def test_one_verdict_where_a_cycle_is_given():

@@ -632,3 +632,84 @@ def test_the_schema_knows_what_is_read(ballscrew):
     validator.validate({"need": {"force": "6 kN", "speed": "15 rpm", "least_rigidity": "500 N/um"}})
     for wrong in ({"forse": "6 kN"}, {"need": {"leest_rigidity": "5 N/um"}}, {"optimise": {"population": 1}}):
         assert not validator.is_valid(wrong), wrong
+
+
+# -- the case of a candidate ----------------------------------------------------------------------
+
+
+def need_file(folder, **others):
+    """A need that moves, with all that other commands want to know."""
+    path = folder / "need.toml"
+    lines = [f"{key} = {json.dumps(value)}\n" for key, value in {**UP, **ROW, "preload": "5 %", **others}.items()]
+    tables = (
+        '[bearings.fixed]\nlaw = "known"\ntorque = "0.3 N m"\nrigidity = "800 N/um"\n'
+        '[guides]\nfriction_coefficient = 0.003\nseal_force = "3 N"\ncarriages = 4\n'
+        '[installation]\nunsupported_length = "0.9 m"\nends = "fixed-supported"\n'
+        '[limits]\nrunning_time = "2000 h"\n[surroundings]\nambient = "20 degC"\n[aside]\nfile = "offer.pdf"\n'
+    )
+    path.write_text("".join(lines) + tables, encoding="utf-8")
+    return path
+
+
+def test_the_case_of_a_candidate_goes_on_unchanged(ballscrew, tmp_path):
+    """Duty, axis, warm-up and run take the file that ``--to`` writes, and duty has the numbers of the list."""
+    (tmp_path / "out").mkdir()
+    need, case = need_file(tmp_path), tmp_path / "out" / "axis.toml"
+    done = ballscrew("select", need, "--complete", "--json", "--to", case)
+    first = json.loads(done.stdout)["candidates"][0]
+    assert f"{case}: {first['label']}, rank 1: {first['verdict']}" in done.stderr
+    text = case.read_text(encoding="utf-8")
+    assert text.startswith(f"# {first['label']}: rank 1 of ")
+    assert "# assumed: " in text
+    tables = tomllib.loads(text)
+    assert tables == first["case"]
+    assert {"bearings", "guides", "installation", "limits", "surroundings", "axis", "motion"} <= tables.keys()
+    duty = json.loads(ballscrew("duty", case, "--json").stdout)
+    assert duty["results"]["energy_lost"] == pytest.approx(first["duty"]["energy_lost"], rel=1e-9)
+    assert {check["id"]: check["holds"] for check in duty["checks"]}.items() <= {
+        check["id"]: check["holds"] for check in first["checks"]
+    }.items()
+    for command in ("axis", "run"):
+        assert json.loads(ballscrew(command, case, "--json").stdout)["results"]
+    assert json.loads(ballscrew("warm-up", case, "--hours", "0.1", "--json").stdout)["results"]
+
+
+def test_the_case_of_another_rank(ballscrew, tmp_path):
+    need, case = need_file(tmp_path, preload=["3 %", "5 %"]), tmp_path / "axis.toml"
+    document = json.loads(ballscrew("select", need, "--complete", "--json", "--rank", "2", "--to", case).stdout)
+    assert tomllib.loads(case.read_text(encoding="utf-8")) == document["candidates"][1]["case"]
+    for words, said in (
+        (["--rank", "2"], "--rank"),
+        (["--rank", "99", "--to", tmp_path / "b.toml"], "there is no such candidate"),
+        (["--to", need], "is the file of the need"),
+        (["--to", tmp_path / "b.docx"], ".toml"),
+    ):
+        refused = ballscrew("select", need, *words)
+        assert refused.returncode == 2
+        assert said in refused.stderr
+    assert not (tmp_path / "b.toml").exists()
+
+
+def test_the_case_of_a_row_of_ones_own_needs_no_table(ballscrew, tmp_path):
+    """Written elsewhere it finds the oil that the need names by a file; model and calibration are those asked for."""
+    (tmp_path / "out").mkdir()
+    oils = tmp_path / "oils.toml"
+    oils.write_text(
+        '[oils."Oil"]\nkinematic_viscosity_40 = "100 cSt"\nkinematic_viscosity_100 = "11.1 cSt"\n',
+        encoding="utf-8",
+    )
+    need, case = tmp_path / "need.toml", tmp_path / "out" / "case.toml"
+    need.write_text(
+        'force = "4 kN"\nfeed = "10 m/min"\n'
+        '[lubricant]\noil = "Oil"\noil_file = "oils.toml"\ntemperature = "40 degC"\n',
+        encoding="utf-8",
+    )
+    words = ["--rows", ROOT / "examples" / "own_screws.csv", "--filter", "axis", "--complete"]
+    words += ["--model", "corrected", "--to", case]
+    first = json.loads(ballscrew("select", need, *words, "--json").stdout)["candidates"][0]
+    tables = tomllib.loads(case.read_text(encoding="utf-8"))
+    assert tables["lubricant"]["oil_file"] == "../oils.toml"
+    assert tables["model"]["name"] == "corrected"
+    assert "catalogue" not in tables["screw"]
+    alone = json.loads(ballscrew("run", case, "--json").stdout)
+    assert alone["results"]["screw_torque"] == pytest.approx(first["results"]["screw_torque"], rel=1e-9)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -12,7 +12,13 @@ from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, KeepG
 from ballscrew.faces.cli.flags import flags_of
 from ballscrew.questions.select.options import ListOptions, SelectOptions
 
+if TYPE_CHECKING:
+    from ballscrew.basis.errors import InputError
+    from ballscrew.questions.select.compute import Ranked, Selection
+
 _TO = "--to"
+#: The kind of a case file.
+_CASE = ".toml"
 Need = Annotated[
     Path, typer.Argument(metavar="NEED", help="File (TOML) of what the screw has to do; a case file will do.")
 ]
@@ -42,7 +48,8 @@ def select(
             _TO,
             "-o",
             metavar="FILE",
-            help="Also write a table (.csv, .xlsx) or a picture (.png, .svg, .pdf); may be repeated.",
+            help="Also write a table (.csv, .xlsx), a picture (.png, .svg, .pdf) or a candidate's case (.toml); may be "
+            "repeated.",
         ),
     ] = None,
     keep_going: KeepGoing = False,
@@ -51,7 +58,8 @@ def select(
     """Rank the screws of the catalogue for a need. Each row counts with its nut, preloads and oils.
 
     Each candidate is judged by the full model and all checks, but for those that their loads alone rule out. The
-    exit code is 0 where none holds, too: the list says what fails, and by how much.
+    exit code is 0 where none holds, too: the list says what fails, and by how much. With --to FILE.toml one candidate
+    is a case file, with all tables of the need, for duty, axis, warm-up, run and report.
     """
     from ballscrew.basis.output.json_text import as_json as json_text
     from ballscrew.faces.cli.progress import progress
@@ -61,11 +69,12 @@ def select(
     from ballscrew.questions.select.compute import select as selected
     from ballscrew.questions.shared.option_values import read
 
-    for path in to or []:
-        check_file(path)
     options, listed = read(SelectOptions, written), read(ListOptions, written)
+    _check_files(to or [], need, listed.rank)
     words = options.words or None
     planned = plan(need, rows=rows, words=words, settings=settings or [], keep_going=keep_going)
+    if listed.rank is not None and listed.rank > planned.candidates:
+        raise _no_such_rank(listed.rank, planned.candidates)
     with progress("candidates", text.cost(planned)) as done:
         found = selected(
             need,
@@ -91,18 +100,62 @@ def select(
     else:
         typer.echo(text.text(found, kept, listed.first))
     for path in to or []:
-        from ballscrew.questions.select import table as selection_tables
-        from ballscrew.questions.shared import row_tables
-
-        if path.suffix.lower() in row_tables.KINDS:
-            row_tables.write(path, selection_tables.of_selection(kept))
-        else:
-            from ballscrew.questions.select import figure as selection
-            from ballscrew.questions.shared import chart_files as files
-
-            files.draw(lambda: selection.picture(found), path, _TO)
-        typer.echo(f"{path}: {len(kept)} candidates", err=True)
+        said = _written(path, found, kept, listed.rank, model)
+        typer.echo(f"{path}: {said}", err=True)
     say_of_rows(found.notes, found.interrupted)
+
+
+def _check_files(to: Sequence[Path], need: Path, rank: int | None) -> None:
+    from ballscrew.basis.errors import Fault, InputError
+
+    for path in to:
+        if path.resolve() == need.resolve():
+            raise InputError(Fault(_TO, "is the file of the need", str(path), "give the case a name of its own"))
+        check_file(path, _CASE)
+    if rank is not None and not any(path.suffix.lower() == _CASE for path in to):
+        raise InputError(Fault("--rank", "names no file", str(rank), "add --to axis.toml"))
+
+
+def _written(path: Path, found: Selection, kept: Sequence[Ranked], rank: int | None, model: str | None) -> str:
+    """Write a file of a selection, and return what is in it."""
+    from ballscrew.questions.shared import row_tables
+
+    if path.suffix.lower() == _CASE:
+        from ballscrew.questions.select import case_text
+        from ballscrew.questions.select.document import verdict
+
+        chosen = _chosen(found, kept, rank)
+        said = verdict(chosen.candidate)
+        case_text.save(path, found, chosen, said, model)
+        return f"{chosen.candidate.variant.label}, rank {chosen.rank}: {said}"
+    if path.suffix.lower() in row_tables.KINDS:
+        from ballscrew.questions.select import table as selection_tables
+
+        row_tables.write(path, selection_tables.of_selection(kept))
+    else:
+        from ballscrew.questions.select import figure as selection
+        from ballscrew.questions.shared import chart_files as files
+
+        files.draw(lambda: selection.picture(found), path, _TO)
+    return f"{len(kept)} candidates"
+
+
+def _chosen(found: Selection, kept: Sequence[Ranked], rank: int | None) -> Ranked:
+    """The candidate of a rank, or the first of those that are listed."""
+    listed = kept if rank is None else [each for each in found.ranked if each.rank == rank]
+    if not listed:
+        raise _no_such_rank(rank, len(found.ranked))
+    return listed[0]
+
+
+def _no_such_rank(rank: int | None, candidates: int) -> InputError:
+    from ballscrew.basis.errors import Fault, InputError
+    from ballscrew.basis.records import Message
+
+    if rank is None:
+        return InputError(Fault(_TO, "there is no candidate to write", "", "leave out --holds and --front"))
+    remedy = Message("there are {candidates}", {"candidates": str(candidates)})
+    return InputError(Fault("--rank", "there is no such candidate", str(rank), remedy))
 
 
 def objectives_of(written: Sequence[str]) -> list[str] | None:
@@ -110,19 +163,25 @@ def objectives_of(written: Sequence[str]) -> list[str] | None:
     return [name.replace("-", "_") for name in written] or None
 
 
-def check_file(path: Path) -> None:
-    """Raise :class:`~ballscrew.basis.errors.InputError` now for a file that could not be written later."""
+def check_file(path: Path, *others: str) -> None:
+    """Raise :class:`~ballscrew.basis.errors.InputError` now for a file that could not be written later.
+
+    ``others`` are kinds of files that a command writes beside tables and pictures.
+    """
+    from ballscrew.basis.atomic_files import check_writable
     from ballscrew.basis.errors import Fault, InputError
     from ballscrew.basis.records import Message
     from ballscrew.questions.shared import row_tables
     from ballscrew.questions.shared.chart_files import SUFFIXES, check_picture
 
-    known = (*row_tables.KINDS, *SUFFIXES)
+    known = (*row_tables.KINDS, *SUFFIXES, *others)
     if path.suffix.lower() not in known:
         raise InputError(
             Fault(_TO, "unknown kind of file", str(path), Message("end it in {names}", {"names": ", ".join(known)}))
         )
-    if path.suffix.lower() in row_tables.KINDS:
+    if path.suffix.lower() in others:
+        check_writable(_TO, path)
+    elif path.suffix.lower() in row_tables.KINDS:
         row_tables.check_path(path)
     else:
         check_picture(path)

@@ -39,8 +39,8 @@ from ballscrew.questions.shared.report_blocks import (
 Done = Callable[[int, int], None]
 #: How far along the work is after its steps, of a hundred: the answer, the band, the curves.
 _ANSWERED, _BANDED, _DRAWN, ALL = 5, 60, 85, 100
-#: Pages at most, and how many more a cycle of motion and the heat may take.
-_PAGES, _PAGES_OF_CYCLE, _PAGES_OF_HEAT = 5, 2, 1
+#: Pages at most, and how many more a cycle of motion, the stiffness over its stroke and the heat may take.
+_PAGES, _PAGES_OF_CYCLE, _PAGES_OF_STIFFNESS, _PAGES_OF_HEAT = 5, 2, 1, 1
 #: Sources of what a report says besides the model: the ratings and checks.
 _OF_CHECKS = ("ISO3408-5", "ISO76")
 
@@ -75,6 +75,7 @@ def content(case: case_file.Case, done: Done | None = None, samples: int | None 
         Section("How far off it may be", band_report.blocks(case, uncertain)),
         *([Section("Beside a vendor's rows", beside)] if beside else []),
         *_cycle(cycle),
+        *_stiffness(case),
         *_heat(case),
         Section("What to beware of", run_report.beware(found)),
         Section(
@@ -82,7 +83,8 @@ def content(case: case_file.Case, done: Done | None = None, samples: int | None 
         ),
         Section("Sources", [Links(sources(case, uncertain))]),
     ]
-    pages = _PAGES + (case.motion is not None) * _PAGES_OF_CYCLE + (case.surroundings is not None) * _PAGES_OF_HEAT
+    pages = _PAGES + (case.motion is not None) * _PAGES_OF_CYCLE + _has_stiffness(case) * _PAGES_OF_STIFFNESS
+    pages += (case.surroundings is not None) * _PAGES_OF_HEAT
     return Report("Friction of a ball screw", subtitle(case), sections, f"ballscrew {__version__}", pages)
 
 
@@ -108,6 +110,20 @@ def _cycle(cycle: DutyReport | None) -> list[Section]:
     from ballscrew.questions.duty import report
 
     return [Section("Over a cycle of the motion", report.blocks(cycle))]
+
+
+def _has_stiffness(case: case_file.Case) -> bool:
+    """Whether a case tells the ends of its shaft and how the nut travels between them."""
+    return case.installation is not None and case.axis is not None and case.motion is not None
+
+
+def _stiffness(case: case_file.Case) -> list[Section]:
+    """The section on what gives way between motor and table, and on what the shaft stands."""
+    if not _has_stiffness(case):
+        return []
+    from ballscrew.questions.axis import report
+
+    return [Section("Stiffness over the stroke", report.blocks_of(case))]
 
 
 def _heat(case: case_file.Case) -> list[Section]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -20,6 +20,8 @@ _COLOURS: Mapping[str, str] = dict(
     zip(SPRINGS, (charts.BLUE, charts.ORANGE, charts.GREEN, charts.GREY, charts.PURPLE), strict=True)
 )
 _TITLE_CHARACTERS = 100
+#: Inches on a page of a report.
+_PAGE = (7.1, 4.2)
 
 
 def picture(report: ChainReport) -> Figure:
@@ -29,6 +31,19 @@ def picture(report: ChainReport) -> Figure:
         "\n".join(textwrap.wrap(text.title(report), _TITLE_CHARACTERS)),
         x=0.012, ha="left", fontsize=11, fontweight="bold",
     )  # fmt: skip
+    _draw(panels, report)
+    return figure
+
+
+def panels(report: ChainReport) -> Figure:
+    """The panels for a page of a report, without a caption."""
+    figure = Figure(figsize=_PAGE, layout="constrained")
+    places: Any = figure.subplots(2, 2)
+    _draw(places.ravel(), report)
+    return figure
+
+
+def _draw(panels: Sequence[Axes], report: ChainReport) -> None:
     _line(panels[0], report, "total", "rigidity between motor and table")
     panels[0].set_ylim(bottom=0)
     _shares(panels[1], report)
@@ -40,7 +55,6 @@ def picture(report: ChainReport) -> Figure:
         low, high = (float(units.from_si(end, SERIES["position"])) for end in report.travel)
         panel.axvspan(low, high, color=charts.LIGHT_SHADE, zorder=0)
         panel.set_xlabel(f"nut from the fixed bearing [{SERIES['position'].shown_in}]")
-    return figure
 
 
 def caption(report: ChainReport) -> str:

@@ -45,11 +45,9 @@ def title(report: ChainReport) -> str:
 
 def _places(report: ChainReport) -> list[str]:
     """One row for each place that is shown."""
-    names = [name for name in _SHORT if name != "lost_motion" or report.guide_friction == report.guide_friction]
-    rows = [[_SHORT[name] for name in names]]
-    rows += [[shown_or_dash(float(report.series[name][at]), SERIES[name]) for name in names] for at in report.shown]
+    rows = place_rows(report)
     lines = aligned(rows)
-    if len(names) < len(_SHORT):
+    if len(rows[0]) < len(_SHORT):
         return lines
     return [
         *lines,
@@ -57,15 +55,28 @@ def _places(report: ChainReport) -> list[str]:
     ]
 
 
+def place_rows(report: ChainReport) -> list[list[str]]:
+    """Headings, and a row for each place that is shown."""
+    names = [name for name in _SHORT if name != "lost_motion" or report.guide_friction == report.guide_friction]
+    rows = [[_SHORT[name] for name in names]]
+    return rows + [
+        [shown_or_dash(float(report.series[name][at]), SERIES[name]) for name in names] for at in report.shown
+    ]
+
+
 def _springs(report: ChainReport) -> list[str]:
     """What each spring has, and its share, at the places that are shown."""
+    heads, *rows = spring_rows(report)
+    return aligned([heads, *([f"  {name}", *cells] for name, *cells in rows)])
+
+
+def spring_rows(report: ChainReport) -> list[list[str]]:
+    """Headings, and a row for each spring that is known."""
     shares = report.chain.shares
     known = [name for name in SPRINGS if shares[name].any()]
     places = (units.shown(float(report.chain.position[at]), SERIES["position"]) for at in report.shown)
     rows = [["rigidity, share of the compliance", *places]]
     for name in known:
         springs = ((float(report.series[name][at]), float(shares[name][at])) for at in report.shown)
-        rows.append(
-            [f"  {name}", *(f"{shown_or_dash(spring, SERIES[name])} {share:4.0%}" for spring, share in springs)]
-        )
-    return aligned(rows)
+        rows.append([name, *(f"{shown_or_dash(spring, SERIES[name])} {share:4.0%}" for spring, share in springs)])
+    return rows

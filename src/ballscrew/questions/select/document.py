@@ -8,11 +8,11 @@ from ballscrew.basis import units
 from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.basis.records import Message, documents
 from ballscrew.cases.case_files import provenance
-from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction.starvation import STARVED
 from ballscrew.physics.sizing.checks import failing, judged, verdict_of
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.check import document as check_documents
+from ballscrew.questions.select import case_text
 from ballscrew.questions.select.answer import (
     OfMotion,
     OneCandidate,
@@ -22,7 +22,7 @@ from ballscrew.questions.select.answer import (
     of_motion,
     worst,
 )  # fmt: skip
-from ballscrew.questions.select.candidates import Candidate, case_tables
+from ballscrew.questions.select.candidates import Candidate
 from ballscrew.questions.select.compute import Plan, Ranked, Selection
 from ballscrew.questions.select.need import Need
 from ballscrew.questions.select.requirements import Requirements
@@ -111,21 +111,13 @@ def candidate_document(ranked: Ranked, need: Need) -> dict[str, Any]:
             # of the cycle, or of the nut without load
             whole["warnings"] = [*documents(found.starved), *whole["warnings"]]
     return {
-        **declared.document(candidate(ranked, verdict(found), _case(found, need))),
+        **declared.document(candidate(ranked, verdict(found), case_text.tables(found, need))),
         "results": whole.pop("results"),
         **({} if found.duty is None else declared.document(of_motion(found.duty))),
         "checks": [check_documents.check_document(check) for check in found.checks],
         "judged": judged(found.checks),
         **{name: part for name, part in whole.items() if name not in (*_LEFT_OUT, "nut")},
     }
-
-
-def _case(found: Candidate, need: Need) -> dict[str, Any]:
-    """The case file of a candidate; one that moves has its steady travel as operation, for all other questions."""
-    known, at = fields_of(OperatingState), found.case.operation
-    steady = {name: units.written(getattr(at, name), known[name]) for name in ("axial_load", "screw_speed")}
-    tables = case_tables(need, found.variant)
-    return {**tables, "operation": steady} if need.moves and "operation" not in tables else tables
 
 
 def verdict(found: Candidate) -> str:

@@ -1,0 +1,80 @@
+"""The case file of a candidate: ``ballscrew duty``, ``axis``, ``warm-up``, ``run`` and ``report`` go on with it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from ballscrew.basis import units
+from ballscrew.basis.atomic_files import atomic_write
+from ballscrew.basis.quantities import fields_of
+from ballscrew.cases.case_files.case_file import ASIDE
+from ballscrew.cases.case_files.named_calibration import NO_CALIBRATION, with_calibration
+from ballscrew.cases.schema.case_schema import sections
+from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.questions.select.candidates import Candidate, case_tables
+from ballscrew.questions.select.compute import Ranked, Selection
+from ballscrew.questions.select.need import Need
+
+#: Fields of a case that name a file beside it.
+_FILES = ("file", "oil_file")
+
+
+def tables(found: Candidate, need: Need) -> dict[str, Any]:
+    """The case file of a candidate; one that moves has its steady travel as operation, for all other questions."""
+    known, at = fields_of(OperatingState), found.case.operation
+    steady = {name: units.written(getattr(at, name), known[name]) for name in ("axial_load", "screw_speed")}
+    made = case_tables(need, found.variant)
+    return {**made, "operation": steady} if need.moves and "operation" not in made else made
+
+
+def save(to: Path, found: Selection, chosen: Ranked, said: str, model: str | None = None) -> None:
+    """Write the case of a candidate; ``said`` is what its checks say, ``model`` the one it was judged by."""
+    with atomic_write("--to", to) as path:
+        path.write_text(text(found, chosen, said, model=model, folder=to.parent), encoding="utf-8")
+
+
+def text(found: Selection, chosen: Ranked, said: str, *, model: str | None = None, folder: Path = Path()) -> str:
+    """The case of a candidate as TOML for a file in ``folder``; what was assumed stands in its comments."""
+    import tomlkit
+
+    candidate, need = chosen.candidate, found.need
+    made = tables(candidate, need)
+    if model is not None:
+        made["model"] = {**made.get("model", {}), "name": model}
+    if candidate.case.calibration is not None:
+        made = {**with_calibration(made, candidate.case.calibration.name)}
+    elif "calibration" in made.get("model", {}):
+        made = {**with_calibration(made, NO_CALIBRATION)}
+    if need.folder.resolve() != folder.resolve():
+        kept = made.pop(ASIDE, None)  # no command reads it
+        made = {**_moved(made, need.folder, folder), **({} if kept is None else {ASIDE: kept})}
+    order = [name for name in (*sections(), *made) if name in made]
+    ordered = {name: made[name] for name in dict.fromkeys(order)}
+    head = [
+        f"{candidate.variant.label}: rank {chosen.rank} of {len(found.ranked)} for {need.name}",
+        f"written by ballscrew select; checks: {said}",
+        *(f"assumed: {note}" for note in _assumed(candidate, need)),
+    ]
+    comments = "".join(f"# {' '.join(line.split())}\n" for line in head)
+    return f"{comments}\n{tomlkit.dumps(ordered)}"
+
+
+def _assumed(candidate: Candidate, need: Need) -> list[str]:
+    """What was assumed of the need and of the row, once each."""
+    of_run = () if candidate.run is None else candidate.run.assumed
+    return [*dict.fromkeys((*need.notes, *of_run))]
+
+
+def _moved(value: Any, old: Path, new: Path) -> Any:
+    """Tables with the files that they name as they lie from another folder."""
+    if isinstance(value, Mapping):
+        return {
+            key: Path(os.path.relpath(old / item, new)).as_posix()
+            if key in _FILES and isinstance(item, str)
+            else _moved(item, old, new)
+            for key, item in value.items()
+        }
+    return [_moved(item, old, new) for item in value] if isinstance(value, list) else value
