@@ -1,12 +1,14 @@
 """Links lead somewhere: those of the sources here, those of the built pages if they have been built."""
 
 import functools
+import json
 import re
 from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 import pytest
+import snowballstemmer
 
 from .pages import DOCS, ROOT, blocks, name, pages
 
@@ -145,3 +147,19 @@ def test_links_of_the_built_pages_lead_somewhere(built_pages):
                 continue  # a listing leads back to where its names are documented; some are, under shorter names
             if parts.fragment and found.suffix == ".html":
                 assert unquote(parts.fragment) in parsed(found).places, f"{path.relative_to(BUILT)}: {target}"
+
+
+#: Words that people search, as they stand in the glossary.
+SEARCHED = "L10", "C_a", "backlash", "drag", "preload", "NLGI", "DN", "buckling", "stiffness", "critical", "wiper"
+
+
+def test_the_search_finds_the_words_of_the_glossary(built_pages):
+    """As the page of the search does: the word's stem in the index, and the pages that have it."""
+    stem = snowballstemmer.stemmer("english").stemWord
+    written = (BUILT / "searchindex.js").read_text(encoding="utf-8")
+    index = json.loads(written.removeprefix("Search.setIndex(").removesuffix(")"))
+    glossary = index["docnames"].index("glossary")
+    for word in SEARCHED:
+        places = [index[terms].get(stem(word.lower()), []) for terms in ("terms", "titleterms")]
+        found = {page for some in places for page in (some if isinstance(some, list) else [some])}
+        assert glossary in found, f"the search does not find {word}"

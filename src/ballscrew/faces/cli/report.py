@@ -38,8 +38,9 @@ def report(
 
     With --beside other designs stand side by side with the first, checks and bands included, then each by itself. A
     report has up to five pages, two more of a case with a motion, a third for its stiffness with [installation], and
-    one more with [surroundings], for four hours of warming up. The .html is one file that asks for nothing from outside; the .pdf can be read by machines, too
-    (PDF/UA-1). The same case gives the same bytes: a date stands on it only where --date says one.
+    one more with [surroundings], for four hours of warming up. The .html is one file that asks for nothing from
+    outside; the .pdf can be read by machines, too (PDF/UA-1). The same case gives the same bytes: a date stands on it
+    only where --date says one.
     """
     from ballscrew.basis.errors import Fault, InputError
     from ballscrew.basis.records import Message
