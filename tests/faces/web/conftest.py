@@ -276,7 +276,7 @@ def pages(browser) -> list[Page]:
 def new_page(browser) -> Page:
     """A page that waits as long as a slow machine with other work takes."""
     page = browser.new_context().new_page()
-    page.set_default_timeout(25_000)
+    page.set_default_timeout(180_000)
     return page
 
 

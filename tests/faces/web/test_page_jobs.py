@@ -108,7 +108,7 @@ def test_a_curve_that_takes_too_long_goes_on_as_a_job(visit):
         route.fulfill(status=200, content_type="application/x-ndjson", body=body)
 
     here.page.route("**/api/v1/answers", answer)
-    here.page.route("**/jobs/sweep", held.append)
+    here.page.route("**/jobs/sweep", lambda route: held.append(route))
     here.open("#A=paper&band=0&view=nut.contact")
     here.page.wait_for_selector("#pressure-chart .warning:has-text('goes on in the background')")
     here.page.wait_for_selector("#long-work [data-address=sweep]")
