@@ -31,7 +31,13 @@ CASE = {
     "operation": {"axial_load": "7 kN", "screw_speed": "600 rpm"},
 }
 NUT = {**CASE, "nut": {"preload": "7 %"}, "bodies": {}}
-MOVED = tomllib.loads((Path(__file__).parents[1] / "examples" / "warm_up.toml").read_text(encoding="utf-8"))
+EXAMPLES = Path(__file__).parents[1] / "examples"
+MOVED = tomllib.loads((EXAMPLES / "warm_up.toml").read_text(encoding="utf-8"))
+SERVICE = tomllib.loads((EXAMPLES / "service.toml").read_text(encoding="utf-8"))
+OWN_NUT = {
+    "d0": "40 mm", "lead": "10 mm", "turns": "5", "Ca": "52 kN", "pitch_circle_diameter": "41 mm",
+    "root_diameter": "36 mm", "preload": "5 %", "nut": "double",
+}  # fmt: skip
 NEED = {"force": "2 kN", "feed": "15 m/min", "length": "1 m", "ends": "fixed-supported", "life": "20000 h"}
 #: Requests after which the kinds come again.
 KINDS = 15
@@ -167,6 +173,7 @@ def slowest(address: str) -> Iterator[tuple[str, str, int, float]]:
     """Seconds of the slowest requests that are let through, alone."""
     from ballscrew.faces.web.bodies import MOST_BALLS
     from ballscrew.faces.web.limits import MOST_BALLS_IN_ALL, MOST_POINTS, MOST_POINTS_OF_NUT, MOST_SAMPLES
+    from ballscrew.faces.web.log_bodies import MOST_LOGS
 
     deviations = {"ball_diameter": "2 um", "lead": "3 um"}
     ball = {**CASE, "model": {"name": "reference"}}
@@ -175,6 +182,8 @@ def slowest(address: str) -> Iterator[tuple[str, str, int, float]]:
     many = {**CASE["screw"], "loaded_balls": MOST_BALLS}
     double = {**NUT, "screw": many, "deviations": deviations}
     oversize = {**double, "nut": {"type": "oversize-balls", "preload": "3 kN"}}
+    log = (EXAMPLES / "nut_new.csv").read_text(encoding="utf-8")
+    logs = [{"name": f"{i}.csv", "text": f"{log}\n# {i}\n"} for i in range(MOST_LOGS)]
     points = {"two nuts": MOST_BALLS_IN_ALL // (2 * MOST_BALLS), "oversize": MOST_BALLS_IN_ALL // (3 * MOST_BALLS)}
     asked = [
         ("run", f"{2 * MOST_BALLS} balls one by one", {"case": double}),
@@ -193,12 +202,65 @@ def slowest(address: str) -> Iterator[tuple[str, str, int, float]]:
         ("band", f"{MOST_BALLS_IN_ALL} balls, oversize", {"case": oversize, "samples": points["oversize"]}),
         ("report", "a ball", {"case": ball}),
         ("report", f"{MOST_BALLS_IN_ALL} balls, two nuts", {"case": double}),
+        ("axis", "a moving axis", {"case": moved(0)}),
+        ("own-nut", "all numbers", {"numbers": OWN_NUT}),
+        ("condition", f"{MOST_LOGS} logs", {"case": SERVICE, "tests": logs, "keep_going": True}),
     ]  # fmt: skip
     with httpx.Client(base_url=address, timeout=60, trust_env=False) as client:
+        for what, case in (("a ball", ball), ("two nuts", double)):
+            samples = most_samples(case)
+            asked.append(("sensitivity", f"{what}, {samples} samples", {"case": case, "samples": samples}))
         for path, what, body in asked:
             before = time.perf_counter()
             answer = client.post(f"/api/v1/{path}", json=body)
             yield path, what, answer.status_code, time.perf_counter() - before
+        body = longest_search(client)
+        before = time.perf_counter()
+        status = as_job(client, "optimise", body)
+        yield "optimise", f"{body['generations']} generations, a job", status, time.perf_counter() - before
+
+
+def most_samples(case: dict[str, Any]) -> int:
+    """The samples of a sensitivity that are let through, a power of two."""
+    from ballscrew.basis.errors import InputError
+    from ballscrew.cases.case_files import case_file
+    from ballscrew.faces.web.limits import samples_of_sensitivity
+    from ballscrew.questions.sensitivity.options import SensitivityOptions
+
+    built = case_file.build(case)
+    samples = 2
+    while True:
+        try:
+            samples_of_sensitivity(built, SensitivityOptions(samples=2 * samples))
+        except InputError:
+            return samples
+        samples *= 2
+
+
+def longest_search(client: httpx.Client) -> dict[str, Any]:
+    """The body of a search of as many generations as are let through."""
+
+    def body(generations: int) -> dict[str, Any]:
+        return {"need": NEED, "generations": generations}
+
+    def is_refused(generations: int) -> bool:
+        return client.post("/api/v1/optimise/plan", json=body(generations)).status_code != httpx.codes.OK
+
+    least, most = 1, 2
+    while not is_refused(most):
+        least, most = most, 2 * most
+    while most - least > 1:
+        middle = (least + most) // 2
+        least, most = (least, middle) if is_refused(middle) else (middle, most)
+    return body(least)
+
+
+def as_job(client: httpx.Client, path: str, body: dict[str, Any]) -> int:
+    """The status of the answer of a job, once it has ended."""
+    started = client.post(f"/api/v1/jobs/{path}", json=body).json()["id"]
+    while client.get(f"/api/v1/jobs/{started}", params={"wait": 30}).json()["state"] in ("waiting", "running"):
+        pass
+    return client.get(f"/api/v1/jobs/{started}/answer").status_code
 
 
 def main() -> None:
@@ -212,7 +274,7 @@ def main() -> None:
     try:
         if options.limits:
             for path, what, status, seconds in slowest(address):
-                print(f"{path:8} {what:32} {status} {seconds:6.2f} s")
+                print(f"{path:11} {what:32} {status} {seconds:6.2f} s")
             return
         seconds, statuses = crowd(address)
         shares = statistics.quantiles(seconds, n=20)

@@ -36,8 +36,8 @@ OF_PAGE = {
 #: Tall enough that all charts of a card are near the viewport, and drawn.
 TALL = {"width": 1360, "height": 6000}
 OF_CARDS = {
-    "app_duty.png": ("duty", "#A=vertical-axis&band=0&view=duty"),
-    "app_warm_up.png": ("warm-up", "#A=warm-up&band=0&view=heat&rest=1&heat=band"),
+    "app_duty.png": ("duty", "#A=vertical-axis&band=0&view=duty.time"),
+    "app_warm_up.png": ("warm-up", "#A=warm-up&band=0&view=heat.temperatures&rest=1&heat=band"),
 }
 
 

@@ -373,9 +373,8 @@ def numbers() -> dict[str, str]:
             prefix = f"{key}_{'calibrated' if fitted else 'raw'}"
             values[f"{prefix}_mean"] = f"{entry.mean_ratio:.2f}"
             values[f"{prefix}_share"] = _percent(entry.share_in_band)
-            values[f"{prefix}_outside"] = ", ".join(
-                f"{point.name} ({point.ratio:.2f})" for point in entry.points if point.in_band is False
-            )
+            outside = [f"{point.name} ({point.ratio:.2f})" for point in entry.points if point.in_band is False]
+            values[f"{prefix}_outside"] = ", ".join(outside) or "none"
             above = [apart for apart in entry.upper_limits if apart.ratio > 1]
             values[f"{prefix}_above"] = f"{len(above)} of {len(entry.upper_limits)}"
     steep, fine = _steep_and_fine(by_key["rexroth-single-nut", True])

@@ -18,6 +18,7 @@ HOLDERS = {
     "store.js store": "the state of the page: what somebody has",
     "answers.js answers": "what the server has answered to it, and the requests under way",
     "cards.js PLACES": "the scripts of the cards that were loaded",
+    "dom.js listening": "elements with listeners, which stand as they were made",
     "designs.js leads": "leads that the server has computed, by screw: the same for the same screw",
     "designs.js starts": "cases to start from, as the server has them: the same for the same name",
     "history.js entries": "the place in the history of the browser",

@@ -27,12 +27,14 @@ def test_a_feed_axis_from_its_sketch_to_its_numbers(visit, server):
     assert said == [one["id"] for one in (*answer["verdicts"], *answer["warnings"])]
     assert page.locator("#axis .card-result details li").count() == len(answer["assumed"])
     # the chart has the whole and its parts at all places
+    here.see("#axis-rigidity")
     page.locator("#axis-rigidity").scroll_into_view_if_needed()
     page.wait_for_selector("#axis-rigidity .main-svg")
     drawn = page.eval_on_selector("#axis-rigidity .plot", "one => one.data.map(({ y }) => y.length)")
     assert drawn == [len(results["position"])] * (len(known) + 1)
     whole = page.eval_on_selector("#axis-rigidity .plot", "one => Math.min(...one.data.at(-1).y)")
     assert abs(whole - min(results["total"]) / 1e6) < 1e-9 * whole
+    here.go("axis.parts")
     # each part shows its input, and what the case lacks is dashed
     assert {name: part(here, name) for name in ("table", "fixed", "ends", "shaft", "motor", "mount")} == {
         "table": "500 kg", "fixed": "800 N/µm", "ends": "fixed-supported", "shaft": "1100 mm", "motor": "not given",
@@ -58,7 +60,7 @@ def test_a_feed_axis_from_its_sketch_to_its_numbers(visit, server):
     assert number(here, "axis", "bearings") == 400e6
     assert number(here, "axis", "total") < softest["total"]
     here.type("installation.mount_rigidity", "500 N/um")
-    page.wait_for_selector("#axis [data-name=mount]")
+    page.wait_for_selector("#axis [data-name=mount]", state="attached")
     answered(here, "axis")
     assert number(here, "axis", "mount") == 500e6
     assert page.locator("#axis svg g.absent[data-part=mount]").count() == 0
@@ -80,8 +82,9 @@ def test_an_axis_without_an_installation_in_german(visit):
         here.choose("installation.ends", "fixed-free")
         answered(here, "axis")
         assert page.locator("#axis .fault").count() == 0
-        assert "fast die ganze Spindel" in here.text("#axis")
-        assert "keine Umkehrspanne" in here.text("#axis")
+        words = page.locator("#axis").text_content()  # of all panes
+        assert "fast die ganze Spindel" in words
+        assert "keine Umkehrspanne" in words
         assert not page.locator("#axis-lost").is_visible()
         assert page.locator("#axis svg g[data-part=ends] > *").count() == 0  # its far end is free
         assert page.locator("#axis [lang=en]").count() == 0

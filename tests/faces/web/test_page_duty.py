@@ -104,6 +104,7 @@ def test_a_duty_from_an_example_to_a_fault_and_back(visit, server):
     edited(here, "duty", lambda: page.locator("#duty-trace-remove").click())
     assert number(here, "duty", "cycle_time") != 4.0
     edited(here, "duty", lambda: page.locator("#motion-kind").select_option("s-curve"))
+    here.go("duty.axis")
     edited(here, "duty", lambda: page.locator("#f-axis-mass").fill("200"))
     edited(here, "duty", lambda: page.locator("#f-motor-largest_speed").fill("100"))
     assert "no torque above 100 rpm" in here.text("#duty [data-check=motor_peak_torque]")
@@ -113,7 +114,7 @@ def test_a_duty_from_an_example_to_a_fault_and_back(visit, server):
     assert "motor" not in case
     assert violations(here) == []
     # the link has all of it, with the card open
-    page.wait_for_function("location.hash.includes('view=duty')")
+    page.wait_for_function("location.hash.includes('view=duty.axis')")
     here.open(page.url.partition("/")[2].partition("#")[2].join(["#", ""]))
     answered(here, "duty")
     assert page.input_value("#f-axis-mass") == "200"
@@ -150,6 +151,7 @@ def test_warming_up_with_a_band_that_is_cancelled(visit, server):
     edited(here, "warm-up", lambda: page.locator("#warm-up .card-line button").click())
     assert " to " in here.text("#warm-up .interval >> nth=0")
     # the picture of the axis at another instant
+    here.see("#warm-axis-chart")
     page.locator("#warm-axis-chart").scroll_into_view_if_needed()
     page.wait_for_selector("#warm-axis-chart .main-svg")
     said = page.locator("#warm-axis-chart .plot").get_attribute("aria-label")

@@ -143,6 +143,7 @@ def test_a_server_that_is_gone(visit, commands, start):
     start("--port", str(port))
     page.wait_for_selector("#results:not(.stale)")
     assert here.settle().text("#case").startswith("5000 N")
+    here.go("duty.answer")
     page.wait_for_selector("#duty .verdict")
     assert page.locator(".card-trouble:visible").all_inner_texts() == []
 
@@ -201,7 +202,7 @@ def test_units_and_labels_are_those_of_people(visit):
     here.page.context.add_cookies([{"name": "ballscrew-language", "value": "de", "url": here.address}])
     try:
         here.open("#A=vertical-axis&band=0&view=duty")
-        here.page.wait_for_selector("#duty .verdict")
+        here.page.wait_for_selector("#duty .verdict", state="attached")
         assert here.page.locator("#duty input[type=file]").is_hidden()
         assert here.page.locator("#duty-trace-choose").inner_text() == "Datei wählen"
         shown = here.page.locator("#duty option").all_inner_texts()

@@ -88,6 +88,36 @@ def test_a_limit_that_was_reached_is_said_as_it_is(visit, start):
     assert starts(here) == 1
 
 
+def test_a_curve_that_takes_too_long_goes_on_as_a_job(visit):
+    """The line of the curve has the sweep that it is; the other lines are shown meanwhile."""
+    here = visit()
+    problem = out_of_time(20.0).faults[0]
+    refused = {"type": "about:blank", "title": "Invalid input", "status": 422, "lines": [str(problem)],
+               "faults": [problem.document()]}  # fmt: skip
+    held = []
+
+    def answer(route):
+        lines = [json.loads(line) for line in route.fetch().text().splitlines()]
+        for line in lines:
+            if line["question"] == "over_load":
+                axis = line.pop("answer")["axes"]["axial_load"]["values"]
+                vary = {"axial_load": f"{', '.join(map(repr, axis))} N"}
+                outputs = ["screw_maximum_pressure", "nut_maximum_pressure"]
+                line |= {"problem": refused, "sweep": {"vary": vary, "outputs": outputs}}
+        body = "".join(json.dumps(line) + "\n" for line in lines)
+        route.fulfill(status=200, content_type="application/x-ndjson", body=body)
+
+    here.page.route("**/api/v1/answers", answer)
+    here.page.route("**/jobs/sweep", lambda route: held.append(route))
+    here.open("#A=paper&band=0&view=nut.contact")
+    here.page.wait_for_selector("#pressure-chart .warning:has-text('goes on in the background')")
+    here.page.wait_for_selector("#long-work [data-address=sweep]")
+    held.pop().continue_()
+    here.page.wait_for_selector("#pressure-chart .main-svg")
+    here.page.wait_for_selector("#long-work [data-address=sweep]", state="detached")
+    assert sum(url.endswith("/jobs/sweep") for url in here.requests) == 1
+
+
 DUPLICATED = """async () => {
   const jobs = await import("/page/jobs.js");
   const { keeping } = await import("/page/keeping.js");

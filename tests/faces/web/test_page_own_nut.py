@@ -33,6 +33,11 @@ def test_numbers_that_do_not_go_together_are_named(visit):
     page = opened(here, nominal_diameter="40", lead="10", turns="5", ball_diameter="6",
                   dynamic_load_rating="5.27")  # fmt: skip
     page.wait_for_selector("#own-nut .warning >> text=check its unit")
+    page.fill("#own-nut-ball_diameter", "")
+    page.fill("#own-nut-starts", "1000000")
+    page.wait_for_selector("#own-nut .fault >> text=leaves no room for balls")
+    assert "0 m" not in page.inner_text("#own-nut .fault")  # that of a ball that nobody has typed
+    page.fill("#own-nut-starts", "")
     page.fill("#own-nut-ball_diameter", "60")
     page.wait_for_selector("#own-nut .fault")
     assert page.locator("#own-nut-use").is_disabled()

@@ -253,7 +253,7 @@ def answered(here, card):
 
 def test_a_cycle_shows_the_numbers_and_the_parts_that_are_any(go, server):
     """The cycle ends where it began: of what is stored only rounding is left. Its guides have no friction."""
-    here = go("#A=vertical-axis&band=0&view=duty")
+    here = go("#A=vertical-axis&band=0&view=duty.answer")
     here.page.wait_for_selector("#duty .verdict")
     answered(here, "duty")
     known = server.get("vocabulary").json()
@@ -289,7 +289,7 @@ def test_warming_up_with_a_rest_and_without_starvation(go, server):
 
     What moves the instant stands above the picture of the axis.
     """
-    here = go("#A=warm-up&band=0&view=heat&hours=0.5&rest=0.5")
+    here = go("#A=warm-up&band=0&view=heat.end&hours=0.5&rest=0.5")
     here.page.wait_for_selector("#warm-up [data-name=nut_temperature]")
     answered(here, "warm-up")
     case = server.get("vocabulary").json()["starts"]["warm-up"]["case"]
@@ -303,7 +303,7 @@ def test_warming_up_with_a_rest_and_without_starvation(go, server):
     assert "in a full bath of oil" in here.text(legend)
     warm = {**case, "surroundings": {**case["surroundings"], "ambient": "45 degC"}}
     steady = server.post("warm-up", {"case": warm, "hours": 0.5, "cool_down": 0.5}).json()["results"]["equilibrium"]
-    go("#A=warm-up&A.surroundings.ambient=45+degC&band=0&view=heat&hours=0.5&rest=0.5")
+    go("#A=warm-up&A.surroundings.ambient=45+degC&band=0&view=heat.end&hours=0.5&rest=0.5")
     here.page.wait_for_selector(f"#warm-up [data-name=nut_temperature][value='{steady['nut_temperature']}']")
     here.page.wait_for_function(f"() => !document.querySelector('{legend}').textContent.includes('full bath')")
 

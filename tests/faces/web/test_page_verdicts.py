@@ -18,12 +18,12 @@ def in_german(here, fragment):
 def test_one_verdict_where_a_cycle_is_given(visit):
     """Item 19: the headline failed the operating point for ever, the card of the cycle held all checks."""
     here = visit().open(MOVING)
-    here.page.wait_for_selector("#duty [data-check=motor_speed]")
+    here.page.wait_for_selector("#duty [data-check=motor_speed]", state="attached")
     assert "Over the cycle: All 11 checks hold." in here.text("#summary")
     assert "Fails" not in here.text("main")
     assert here.text("#checks .verdict") == "Over the cycle: All 11 checks hold."
     assert here.page.locator("#checks [data-check=motor_speed]").count() == 1
-    here.page.locator("#f-motor-rated_torque").fill("2")
+    here.go("duty.axis").page.locator("#f-motor-rated_torque").fill("2")
     here.page.wait_for_selector("#summary:has-text('Over the cycle: Fails: RMS torque of the motor.')")
     assert here.text("#checks .verdict") == "Over the cycle: Fails: RMS torque of the motor."
 
@@ -33,8 +33,8 @@ def test_safety_in_german(visit):
     here = visit()
     try:
         in_german(here, "#A=vertical-axis&band=0&view=duty&A.lubricant.temperature=-5+degC")
-        here.page.wait_for_selector("#duty [data-record='verdict.brake']")
-        here.go("heat")
+        here.page.wait_for_selector("#duty [data-record='verdict.brake']", state="attached")
+        here.go("heat.end")
         here.page.wait_for_selector("#warm-up [data-record]")
         brake = here.text("#duty [data-record='verdict.brake']")
         assert re.search(

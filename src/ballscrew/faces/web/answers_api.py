@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import functools
 from collections.abc import AsyncIterator, Awaitable, Callable, Sequence
 from typing import Any, ClassVar, Literal
@@ -75,12 +76,20 @@ class DrawingLine(answer_parts.Closed):
     answer: answer_parts.Drawing
 
 
+class CurveSweep(answer_parts.Closed):
+    """The sweep of a curve, as which it may be asked for by itself: the rest of a body of ``/sweep``."""
+
+    vary: dict[str, str]
+    outputs: list[str]
+
+
 class ProblemLine(answer_parts.Closed):
-    """A question that has no answer, and why."""
+    """A question that has no answer, and why; a curve has its sweep, which may be started as a job."""
 
     question: Literal["run", "check", "over_speed", "cold_and_hot", "over_both", "over_load", "drawing"]
     place: int
     problem: answer_parts.Problem
+    sweep: CurveSweep | None = None
 
 
 class Line(RootModel[RunLine | CheckLine | CurveLine | DrawingLine | ProblemLine]):
@@ -117,10 +126,10 @@ async def _lines(asked: _Asked, run: dict[str, Any], beside: Sequence[Tables]) -
     yield _written("run", 0, answer=run)
     yield await _line("check", 0, asked.checks)
     named = curves(asked.found)
-    yield await _line("over_speed", 0, functools.partial(asked.curve, named.pop("over_speed")))
+    yield await _curve(asked, "over_speed", named.pop("over_speed"))
     rest = [_beside(_Asked(asked.queue, tables), place) for place, tables in enumerate(beside, start=1)]
-    rest += [_alone(name, functools.partial(asked.curve, curve)) for name, curve in named.items()]
-    rest.append(_alone("drawing", asked.drawing))
+    rest += [_alone(_curve(asked, name, curve)) for name, curve in named.items()]
+    rest.append(_alone(_line("drawing", 0, asked.drawing)))
     tasks = [asyncio.ensure_future(one) for one in rest]
     try:
         for task in asyncio.as_completed(tasks):
@@ -131,9 +140,15 @@ async def _lines(asked: _Asked, run: dict[str, Any], beside: Sequence[Tables]) -
             task.cancel()
 
 
-async def _alone(question: str, answer: Callable[[], Awaitable[Any]]) -> list[bytes]:
+async def _alone(line: Awaitable[bytes]) -> list[bytes]:
     """The line of one question about the case."""
-    return [await _line(question, 0, answer)]
+    return [await line]
+
+
+def _curve(asked: _Asked, name: str, curve: Curve) -> Awaitable[bytes]:
+    """The line of a curve."""
+    sweep = {"vary": dict(curve.vary), "outputs": list(curve.outputs)}
+    return _line(name, 0, functools.partial(asked.curve, curve), sweep=sweep)
 
 
 async def _beside(asked: _Asked, place: int) -> list[bytes]:
@@ -145,12 +160,12 @@ async def _beside(asked: _Asked, place: int) -> list[bytes]:
     return [run, await _line("check", place, asked.checks)]
 
 
-async def _line(question: str, place: int, answer: Callable[[], Awaitable[Any]]) -> bytes:
-    """A line with an answer, or with the reason why there is none."""
+async def _line(question: str, place: int, answer: Callable[[], Awaitable[Any]], **beside: Any) -> bytes:
+    """A line with an answer, or with the reason why there is none and what stands beside it."""
     try:
         return _written(question, place, answer=await answer())
     except (InputError, Refused) as error:
-        return _written(question, place, problem=_problem(error))
+        return _written(question, place, problem=_problem(error), **beside)
 
 
 def _problem(error: InputError | Refused) -> dict[str, Any]:
@@ -208,7 +223,8 @@ class _Asked:
     async def release(self) -> None:
         """Give back what heavy work has left behind: once, after the last line, as it takes as long as a curve."""
         if self._is_heavy:
-            await self.queue.heavy(memory.releasing(lambda _: None))
+            with contextlib.suppress(Refused):  # a server that ends meanwhile gives all of it back
+                await self.queue.heavy(memory.releasing(lambda _: None))
 
     async def _of_run(self, work: Callable[[Run], dict[str, Any]]) -> dict[str, Any]:
         """Work on the run: quick, unless many balls are computed one by one."""

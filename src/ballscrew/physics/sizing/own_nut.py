@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ballscrew.basis.arrays import ByValue
-from ballscrew.basis.errors import InputError, accepts_units, shown_in_si
+from ballscrew.basis.errors import Fault, InputError, accepts_units, measured, shown, shown_in_si
 from ballscrew.basis.quantities import (
     Angle,
     Count,
@@ -25,7 +25,7 @@ from ballscrew.basis.records import Measured, Message, Record
 from ballscrew.basis.usual_ranges import IMPLAUSIBLE
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import geometry
-from ballscrew.physics.sizing.catalogue import CONFORMITY_DOUBT, CatalogueRow
+from ballscrew.physics.sizing.catalogue import CONFORMITY_DOUBT, SMALLEST_BALL, CatalogueRow
 from ballscrew.physics.sizing.ratings import ratings_of
 from ballscrew.physics.solvers.rated_ball import ball_of_rating
 
@@ -228,6 +228,8 @@ def _ball(row: CatalogueRow) -> tuple[Estimate, list[Record]]:
     by_rule = RULE_FACTOR * row.nominal_diameter
     by_rule *= (min(pitch / row.nominal_diameter, LARGEST_PITCH) / LARGEST_PITCH) ** RULE_EXPONENT
     rule = _within("ball_diameter", round(by_rule, _WHOLE_MICROMETRES), RULE_BAND, BY_RULE)
+    if rule.value < SMALLEST_BALL * row.ball_circle:
+        raise InputError(_no_room(row, pitch))
     rating = row.dynamic_load_rating
     if rating is None:
         return rule, []
@@ -241,6 +243,15 @@ def _ball(row: CatalogueRow) -> tuple[Estimate, list[Record]]:
         return _within("ball_diameter", ball, band, BY_RATING), []
     message = _NO_BALL.of(listed=Measured(rating, QUANTITIES["dynamic_load_rating"]))
     return rule, [_warning("dynamic_load_rating", rating, message)]
+
+
+def _no_room(row: CatalogueRow, pitch: float) -> Fault:
+    """The fault of a lead or of starts that are listed, in place of one of the ball, which is none of the user's."""
+    name, given = ("starts", f"{int(row.starts):,}") if row.starts > 1 else ("lead", shown(row.lead, "m"))
+    remedy = Message(
+        "neighbouring grooves are {apart} apart: give more lead or fewer starts", {"apart": measured(pitch, "m")}
+    )
+    return Fault(f"{row.name}.{name}", "leaves no room for balls", given, remedy)
 
 
 def _within(name: str, value: float, band: tuple[float, float], source: Message) -> Estimate:

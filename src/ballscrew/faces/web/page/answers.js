@@ -6,7 +6,7 @@ import * as checks from "./checks.js";
 import { showDesigns, showModels } from "./compare.js";
 import * as curves from "./curves.js";
 import { caseOf, titleOf } from "./designs.js";
-import { byId } from "./dom.js";
+import { byId, update } from "./dom.js";
 import * as drawings from "./drawing.js";
 import { hotAndCold as hot } from "./hot_and_cold.js";
 import * as inputs from "./inputs.js";
@@ -14,9 +14,10 @@ import { localEngine } from "./local_engine.js";
 import { inWords, labelOf } from "./messages.js";
 import * as moving from "./moving.js";
 import * as nutPicture from "./nut_picture.js";
+import * as nutUnrolled from "./nut_unrolled.js";
 import { diamond } from "./operating_point.js";
-import { isVisible, move, showFailure } from "./plot.js";
-import { askPatiently, sendPatiently } from "./long_work.js";
+import { isVisible, move, showFailure, showWords } from "./plot.js";
+import { askPatiently, goOn, isOutOfTime, sendPatiently } from "./long_work.js";
 import { powerFlow } from "./power_flow.js";
 import * as results from "./results.js";
 import { withoutCards } from "./schema.js";
@@ -27,6 +28,7 @@ import { store } from "./store.js";
 import * as stribeck from "./stribeck.js";
 import * as temperatures from "./temperatures.js";
 import { text } from "./texts.js";
+import { isSeen } from "./views.js";
 import { vocabulary } from "./vocabulary.js";
 
 /** Every how many points of the curve over the speed have a band: of a screw, and of a whole nut. */
@@ -148,18 +150,24 @@ async function checksOfCycle(body, signal) {
   }
 }
 
+/** Wait until what was drawn is on the screen: a task queued within a frame runs after it. */
+function painted() {
+  return new Promise((resolve) => {
+    requestAnimationFrame(() => setTimeout(resolve));
+    setTimeout(resolve, PAINT_TIMEOUT);
+  });
+}
+
 /**
- * Measure the time until something is on the screen: a task queued within a frame runs after it.
+ * Measure the time until something is on the screen.
  *
  * @param {string} name
  * @param {number} start
  * @param {AbortSignal} signal
+ * @param {Promise<unknown>} shown done when it is there
  */
-async function measurePaint(name, start, signal) {
-  await new Promise((resolve) => {
-    requestAnimationFrame(() => setTimeout(resolve));
-    setTimeout(resolve, PAINT_TIMEOUT);
-  });
+async function measurePaint(name, start, signal, shown = painted()) {
+  await shown;
   if (!signal.aborted) performance.measure(name, { start });
 }
 
@@ -193,10 +201,26 @@ function after(delay, signal, work) {
   signal.addEventListener("abort", () => clearTimeout(timer));
 }
 
+/** The line of a curve that took too long for a request. @typedef {Extract<AnswerLine, { problem: unknown }>} Late */
+
+/** Test whether a curve goes on as a job. @param {Late} line */
+function isLate({ problem, sweep }) {
+  return Boolean(sweep) && isOutOfTime(new Problem(problem));
+}
+
 /** Show where the power of an answer goes. @param {Run} answer */
 function showPower(answer) {
-  byId("power").replaceChildren(powerFlow(answer, vocabulary.mechanisms));
+  update(byId("power"), powerFlow(answer, vocabulary.mechanisms));
 }
+
+/** What is drawn of an answer beside its numbers, by the places. @type {[string, (answer: Run) => unknown][]} */
+const PICTURES = [
+  ["power", showPower],
+  ["nut-picture", nutPicture.show],
+  ["nut-unrolled", nutUnrolled.show],
+  ["stiffness", stiffness.show],
+  ["balls-chart", stiffness.showBalls],
+];
 
 /** The answers to the state of the page, as far as they are there. */
 class Answers {
@@ -216,6 +240,8 @@ class Answers {
   /** Its next curves, where they do not fit into a frame. @type {ReturnType<typeof setTimeout> | undefined} */
   #curves;
   #never = new AbortController();
+  /** What draws the parts of the answer that nobody sees yet. @type {(() => unknown)[]} */
+  #undrawn = [];
 
   constructor() {
     diamond.addEventListener("move", (event) => {
@@ -298,12 +324,24 @@ class Answers {
     if (!moved || !before) return;
     const answer = moving.answerOf(before, moved.values);
     byId("results").classList.add("moving");
-    results.show(answer, { band: band && { state: "pending" } });
-    showPower(answer);
+    results.show(answer, { band: band && { state: "pending" } }, isSeen);
+    if (isSeen(byId("power"))) showPower(answer);
     this.#shown = { answer, moved };
+    // this is a frame: the next task runs once it is painted, and before the curves
+    measurePaint("moved", moved.start, this.#never.signal, nextTask());
     if (localEngine.timeOf(MOST_POINTS) < TIME_IN_FRAME) this.#drawMovedCurves();
     else this.#curves ??= setTimeout(() => this.#drawMovedCurves()); // the numbers are painted before
-    measurePaint("moved", moved.start, this.#never.signal);
+  }
+
+  /** Another pane is seen: show in it what was left out while it was not. */
+  look() {
+    this.#drawRest();
+    if (this.#moved) this.#frame ??= requestAnimationFrame(() => this.#drawMoved());
+  }
+
+  /** Draw what was left out of the answer. */
+  #drawRest() {
+    for (const draw of this.#undrawn.splice(0)) draw();
   }
 
   /** Draw the curves of the numbers that are shown. */
@@ -315,11 +353,11 @@ class Answers {
       moved: { values, isHeld, start },
     } = this.#shown;
     const { alongSpeed, alongLoad, everywhere } = this.#displayed;
-    const isSeen = (/** @type {string[]} */ ...ids) => ids.some(isVisible);
+    const isNear = (/** @type {string[]} */ ...ids) => ids.some(isVisible);
     const before = {
-      ...(alongSpeed && isSeen("torque-chart", "film-chart") && { over_speed: alongSpeed }),
-      ...(alongLoad && isSeen("pressure-chart") && { over_load: alongLoad }),
-      ...(everywhere && isSeen("map-chart") && { over_both: everywhere }),
+      ...(alongSpeed && isNear("torque-chart", "film-chart") && { over_speed: alongSpeed }),
+      ...(alongLoad && isNear("pressure-chart") && { over_load: alongLoad }),
+      ...(everywhere && isNear("map-chart") && { over_both: everywhere }),
     };
     move(["torque-chart", "film-chart", "stribeck-chart", "hot-chart", "pressure-chart", "map-chart"], isHeld, () => {
       const found = moving.curvesOf(before, values, isHeld, TIME_OF_CURVES);
@@ -385,8 +423,7 @@ class Answers {
     const { answer, alongSpeed, everywhere, alongLoad, hotAndCold, drawing, designs, models } = found;
     if (!answer) return;
     results.show(answer, found);
-    showPower(answer);
-    stiffness.show(answer);
+    for (const [, draw] of PICTURES) draw(answer);
     checks.show(found.checks);
     if (alongSpeed) {
       this.#drawTorque(answer);
@@ -486,6 +523,7 @@ class Answers {
         if (question === "run") this.#showNumbers(/** @type {any} */ (line).answer, asked);
         else if (question === "check") judged = this.#showChecks(body);
         else await this.#charts[question](line, asked);
+        if ("sweep" in line && isLate(line)) this.#goOn(line, asked);
         isWarm ||= question === "cold_and_hot";
       }
       if (signal.aborted) return;
@@ -495,6 +533,7 @@ class Answers {
       }
     }
     await judged;
+    this.#drawRest();
     const { answer } = this.#displayed;
     if (signal.aborted || !answer) return;
     if (!isWarm) {
@@ -506,6 +545,24 @@ class Answers {
     this.showBand(asked.band);
     localEngine.check(body, answer);
     localEngine.learn(body);
+  }
+
+  /**
+   * Go on with a curve as a job, and draw it once it is there.
+   *
+   * @param {Late} line
+   * @param {Question} asked
+   */
+  async #goOn({ question, place, sweep }, asked) {
+    const { body, signal } = asked;
+    /** @type {any} */
+    let found;
+    try {
+      found = { answer: await goOn("sweep", { ...body, ...sweep }, signal) };
+    } catch (error) {
+      found = { problem: { title: "", lines: linesOf(error) } };
+    }
+    if (!signal.aborted) await this.#charts[question]({ question, place, ...found }, asked);
   }
 
   /**
@@ -527,9 +584,16 @@ class Answers {
     if (wanted && !this.#displayed.band) this.#displayed.band = { state: "pending" };
     results.show(answer, this.#displayed);
     bath.show(answer);
-    showPower(answer);
-    stiffness.show(answer);
-    measurePaint("numbers", start, signal);
+    const isFirst = (/** @type {typeof PICTURES[number]} */ [id]) => isSeen(byId(id));
+    for (const [, draw] of PICTURES.filter(isFirst)) draw(answer);
+    this.#undrawn = PICTURES.filter((one) => !isFirst(one)).map(
+      ([, draw]) =>
+        () =>
+          draw(answer),
+    );
+    const shown = painted();
+    measurePaint("numbers", start, signal, shown);
+    shown.then(() => this.#drawRest());
   }
 
   /**
@@ -605,7 +669,8 @@ class Answers {
    */
   async #drawn(id, line, { signal }, draw) {
     if ("problem" in line) {
-      showFailure(id, new Problem(line.problem).lines.join("; "));
+      if (isLate(line)) showWords(id, text("long.computing", { what: text("long.of.sweep") }));
+      else showFailure(id, new Problem(line.problem).lines.join("; "));
       return;
     }
     await nextTask();

@@ -29,14 +29,14 @@ const SCRIPTS = {
   "own-nut": "./cards/own_nut_card.js",
   files: "./cards/files.js",
 };
-/** Sections of the case by the cards that have their fields. @type {Record<string, string>} */
+/** Sections of the case by the cards that have their fields, and the panes where these are. @type {Record<string, [string, string]>} */
 const HOMES = {
-  axis: "duty",
-  motion: "duty",
-  motor: "duty",
-  surroundings: "warm-up",
-  bearings: "axis",
-  guides: "axis",
+  axis: ["duty", "duty.axis"],
+  motion: ["duty", "duty.motion"],
+  motor: ["duty", "duty.axis"],
+  surroundings: ["warm-up", "heat.state"],
+  bearings: ["axis", "axis.parts"],
+  guides: ["axis", "axis.parts"],
 };
 
 /** The place of a card, whose script is loaded when it is first seen. */
@@ -118,8 +118,9 @@ export async function jump(path) {
     jumpInForm(path);
     return;
   }
-  const holder = byId(home);
-  await views.goTo(holder);
+  const [name, pane] = home;
+  const holder = byId(name);
+  await views.go(pane);
   await follow(); // its script may not be there yet
   /** @type {NodeListOf<HTMLElement>} */
   const fields = holder.querySelectorAll("[data-path]");

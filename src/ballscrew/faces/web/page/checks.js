@@ -1,7 +1,7 @@
 // The checks: how much of each limit is used, what fails, and what was not judged for want of an input.
 
 import { jump } from "./cards.js";
-import { byId, element, table } from "./dom.js";
+import { byId, element, table, update } from "./dom.js";
 import { ofRecord, said } from "./messages.js";
 import { text, textOr } from "./texts.js";
 import * as units from "./units.js";
@@ -163,7 +163,8 @@ export function show(found) {
     byId("checks").textContent = text("checks.none");
     return;
   }
-  byId("checks").replaceChildren(
+  update(
+    byId("checks"),
     ...panel(found, text(found.isOfCycle ? "duty.checks_caption" : "checks.caption")),
     element(
       "p",

@@ -4,6 +4,9 @@
 /** @typedef {string | number | Node | null | undefined} Child */
 /** @typedef {string | number | boolean | null | undefined} Cell */
 
+/** Elements with listeners, which stand as they were made. @type {WeakSet<Node>} */
+const listening = new WeakSet();
+
 /**
  * An element with attributes and children; texts are texts, never markup.
  *
@@ -17,8 +20,10 @@ export function element(name, attributes = {}, ...children) {
   const found = document.createElement(name);
   for (const [key, value] of Object.entries(attributes)) {
     if (value === undefined || value === null || value === false) continue;
-    if (typeof value === "function") found.addEventListener(key.slice(2), value);
-    else found.setAttribute(key, value === true ? "" : String(value));
+    if (typeof value === "function") {
+      found.addEventListener(key.slice(2), value);
+      listening.add(found);
+    } else found.setAttribute(key, value === true ? "" : String(value));
   }
   for (const child of children) {
     if (child !== null && child !== undefined) found.append(typeof child === "number" ? String(child) : child);
@@ -126,6 +131,69 @@ export function keepFocus(rebuild, instead) {
  */
 export function redraw(holder, ...children) {
   keepFocus(() => holder.replaceChildren(...children));
+}
+
+/**
+ * Show children in place of those that an element has, and write only what differs: the browser lays out nothing else
+ * anew. An element that has listeners by ``element`` takes the place of that before.
+ *
+ * @param {Element} holder
+ * @param {Child[]} children
+ */
+export function update(holder, ...children) {
+  let before = holder.firstChild;
+  for (const child of children) {
+    if (child === null || child === undefined) continue;
+    const wanted = child instanceof Node ? child : document.createTextNode(String(child));
+    const next = before?.nextSibling ?? null;
+    if (!before) holder.append(wanted);
+    else if (!become(before, wanted)) before.replaceWith(wanted);
+    before = next;
+  }
+  while (before) {
+    const next = before.nextSibling;
+    before.remove();
+    before = next;
+  }
+}
+
+/**
+ * Make a node what another one is; false where that has to take its place.
+ *
+ * @param {Node} node
+ * @param {Node} wanted
+ */
+function become(node, wanted) {
+  if (node.nodeName !== wanted.nodeName || listening.has(node) || listening.has(wanted)) return false;
+  if (node instanceof Text && wanted instanceof Text) {
+    if (node.data !== wanted.data) node.data = wanted.data;
+    return true;
+  }
+  const [one, other] = /** @type {HTMLElement[]} */ ([node, wanted]);
+  /** What is opened or closed by hand stays so. @param {string} name */
+  const isOfUser = (name) => name === "open" && node.nodeName === "DETAILS";
+  for (const { name } of [...one.attributes]) {
+    if (!other.hasAttribute(name) && !isOfUser(name)) one.removeAttribute(name);
+  }
+  for (const { name, value } of other.attributes) {
+    if (isOfUser(name) || one.getAttribute(name) === value) continue;
+    // as an attribute the policy of the page refuses it
+    if (name === "style") one.style.cssText = value;
+    else one.setAttribute(name, value);
+  }
+  update(one, ...other.childNodes);
+  return true;
+}
+
+/**
+ * Write a text into an element where it has another one.
+ *
+ * @param {string} id
+ * @param {string} words
+ */
+export function write(id, words) {
+  const holder = byId(id);
+  if (holder.textContent !== words) holder.textContent = words;
 }
 
 /**

@@ -46,6 +46,18 @@ export async function sendPatiently(address, body, signal = new AbortController(
 }
 
 /**
+ * The answer to a body that the server has stopped for its time, by a job.
+ *
+ * @param {string} address
+ * @param {object} body
+ * @param {AbortSignal} signal
+ */
+export function goOn(address, body, signal) {
+  slow.add(address);
+  return sendPatiently(address, body, signal);
+}
+
+/**
  * The answer of an address to a body, which is kept as ``ask`` keeps it.
  *
  * @param {"run" | "check" | "band" | "duty" | "warm-up"} address

@@ -79,6 +79,7 @@ async function follow({ path, isStep = false, rebuild = false, of, isLook = fals
     return;
   }
   views.show();
+  if (isLook) answers.look();
   cards.follow();
   if (of === "cards") answers.keepWhole(await designs.currentCase());
   else if (!of) await answers.update();

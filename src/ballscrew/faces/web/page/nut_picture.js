@@ -1,7 +1,7 @@
 // The side view of a screw and its nut, to scale, with the load of each ball in front as its colour.
 
 import { colourAt, nutOf, rangeOf } from "./ball_places.js";
-import { byId, element } from "./dom.js";
+import { byId, element, update } from "./dom.js";
 import { NARROW } from "./drawing.js";
 import { arrow, line, polygon, shape } from "./shapes.js";
 import { text } from "./texts.js";
@@ -26,7 +26,7 @@ const ROUNDING = 1e-9;
 
 /** Show the nut of an answer in its place, or why it is not drawn. @param {Run} answer */
 export function show(answer) {
-  byId("nut-picture").replaceChildren(picture(answer, NARROW.matches));
+  update(byId("nut-picture"), picture(answer, NARROW.matches));
 }
 
 /**

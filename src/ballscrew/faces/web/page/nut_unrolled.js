@@ -3,7 +3,7 @@
 import { nutOf, rangeOf, SCALE } from "./ball_places.js";
 import { POSITION } from "./cards/quantities.js";
 import * as parts from "./chart_parts.js";
-import { byId, element, scrolling, table } from "./dom.js";
+import { byId, element, scrolling, table, update } from "./dom.js";
 import { draw, hide, layout } from "./plot.js";
 import { text } from "./texts.js";
 import * as units from "./units.js";
@@ -26,7 +26,7 @@ export function show(answer) {
     place.replaceChildren();
     return;
   }
-  place.replaceChildren(extremes(nut));
+  update(place, extremes(nut));
   draw(CHART, chart(nut));
 }
 

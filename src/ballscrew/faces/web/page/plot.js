@@ -1,6 +1,6 @@
 // A chart in its place: the plot, its legend, its numbers as a table, and both as files.
 
-import { byId, csv, element, table, within } from "./dom.js";
+import { byId, csv, element, table, update, within } from "./dom.js";
 import { letDrag } from "./operating_point.js";
 import { save } from "./saving.js";
 import { sketch } from "./sketch.js";
@@ -130,7 +130,7 @@ function showNumbers(chart, holder) {
  * @param {LegendEntry[]} entries
  */
 function showLegend(id, entries) {
-  within(byId(id), "ul.legend").replaceChildren(...entries.map(legendItem));
+  update(within(byId(id), "ul.legend"), ...entries.map(legendItem));
 }
 
 /**
@@ -330,16 +330,16 @@ class Charts {
   }
 
   /**
-   * The reason in place of a chart that could not be computed.
+   * Words in place of a chart.
    *
    * @param {string} id
-   * @param {string} reason
+   * @param {string} words
    */
-  showFailure(id, reason) {
+  showWords(id, words) {
     this.#charts.delete(id);
     this.#pending.delete(id);
     purge(byId(id));
-    byId(id).replaceChildren(element("p", { class: "warning" }, text("chart.none", { reason })));
+    byId(id).replaceChildren(element("p", { class: "warning" }, words));
   }
 
   /** @param {IntersectionObserverEntry[]} entries */
@@ -430,5 +430,7 @@ export const move = (ids, isHeld, work) => charts.move(ids, isHeld, work);
 export const isVisible = (id) => charts.isVisible(id);
 /** @type {Charts["hide"]} */
 export const hide = (id) => charts.hide(id);
-/** @type {Charts["showFailure"]} */
-export const showFailure = (id, reason) => charts.showFailure(id, reason);
+/** @type {Charts["showWords"]} */
+export const showWords = (id, words) => charts.showWords(id, words);
+/** The reason in place of a chart that could not be computed. @param {string} id @param {string} reason */
+export const showFailure = (id, reason) => charts.showWords(id, text("chart.none", { reason }));

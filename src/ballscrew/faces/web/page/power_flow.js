@@ -2,6 +2,7 @@
 
 import { operationOf } from "./chart_parts.js";
 import { wordsOf } from "./charts.js";
+import { opened } from "./controls.js";
 import { element, scrolling, table } from "./dom.js";
 import { shape } from "./shapes.js";
 import { text } from "./texts.js";
@@ -84,7 +85,7 @@ export function powerFlow(answer, mechanisms) {
     { class: "power-flow" },
     element("p", { class: "small" }, direction),
     picture(found, words, colour, label),
-    scrolling(text("power.caption"), numbers),
+    opened(text("chart.numbers"), scrolling(text("power.caption"), numbers)),
     isApart
       ? element("p", { class: "small" }, text("power.heat", { heat: units.formatted("friction_power", heat) }))
       : null,

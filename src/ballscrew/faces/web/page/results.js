@@ -2,7 +2,7 @@
 
 import { inHeadline, isStarved } from "./bath.js";
 import { verdict } from "./checks.js";
-import { byId, element, table } from "./dom.js";
+import { byId, element, table, update, write } from "./dom.js";
 import { ofRecord, said } from "./messages.js";
 import { text, textOr } from "./texts.js";
 import * as units from "./units.js";
@@ -139,12 +139,13 @@ const announcer = new Announcer();
  *
  * @param {Run} answer
  * @param {{ band: Band | null, checks?: import("./checks.js").Judged }} beside its band and its checks, as far as they are there
+ * @param {(place: Element) => boolean} isWanted where it is shown: everywhere, or in what is seen alone
  */
-export function show(answer, { band, checks }) {
+export function show(answer, { band, checks }, isWanted = () => true) {
   const { results, display, warnings } = answer;
-  const numbers = numbersOf(answer);
   const known = band?.state === "done" ? band.answer : undefined;
-  byId("case").textContent = said(display.title);
+  const wants = (/** @type {string} */ id) => isWanted(byId(id));
+  update(byId("case"), said(display.title));
   const torque = rounded("screw_torque", results.screw_torque, known);
   const numbersInWords = text("answer.summary", {
     friction: `${torque.text}${torque.interval ? ` (${torque.interval})` : ""}`,
@@ -152,12 +153,30 @@ export function show(answer, { band, checks }) {
     efficiency: rounded("efficiency", results.efficiency, known).text,
   });
   const summary = `${numbersInWords}${inHeadline(answer)}${checks ? ` ${verdict(checks)}` : ""}`;
-  byId("summary").textContent = summary;
+  write("summary", summary);
   if (!byId("results").classList.contains("stale")) {
     announcer.announce(summary);
-    document.title = `${torque.text} · ballscrew`;
+    const title = `${torque.text} · ballscrew`;
+    if (document.title !== title) document.title = title;
   }
-  showVerdicts(answer);
+  if (wants("verdicts")) showVerdicts(answer);
+  if (wants("numbers")) showResults(answer, known, band !== null);
+  if (wants("rules")) update(byId("rules"), ...display.rules.map((one) => element("p", { class: "small" }, said(one))));
+  if (wants("vendor-rows")) showVendorRows(answer);
+  if (wants("contacts")) showContacts(answer, warnings.filter(isOfContact));
+  if (wants("assumed")) showAssumptions(answer);
+  if (wants("band-words")) showBand(answer, band);
+}
+
+/**
+ * The table of results.
+ *
+ * @param {Run} answer
+ * @param {BandAnswer | undefined} known its band, where that is there
+ * @param {boolean} isBanded whether there is one, or will be
+ */
+function showResults(answer, known, isBanded) {
+  const numbers = numbersOf(answer);
   // without a load there is nothing to hold, as the verdict says
   const unloaded = answer.verdicts.some(({ id }) => id === "verdict.no_load");
   const isShown = (/** @type {string} */ name) =>
@@ -165,7 +184,7 @@ export function show(answer, { band, checks }) {
   const rows = FIRST.filter(isShown).map((name) => {
     const { text: shown, interval } = rounded(name, numbers[name], known);
     // the place of an interval that is still computed is kept
-    const ends = interval || band ? element("span", { class: "interval" }, interval ?? "\u00a0") : null;
+    const ends = interval || isBanded ? element("span", { class: "interval" }, interval ?? "\u00a0") : null;
     return element(
       "div",
       {},
@@ -173,12 +192,7 @@ export function show(answer, { band, checks }) {
       element("dd", {}, data(name, numbers[name], shown), ends),
     );
   });
-  byId("numbers").replaceChildren(element("dl", {}, ...rows));
-  byId("rules").replaceChildren(...display.rules.map((one) => element("p", { class: "small" }, said(one))));
-  showVendorRows(answer);
-  showContacts(answer, warnings.filter(isOfContact));
-  showAssumptions(answer);
-  showBand(answer, band);
+  update(byId("numbers"), element("dl", {}, ...rows));
 }
 
 /**
@@ -194,8 +208,8 @@ function showVendorRows({ vendor_rows: near }) {
   const spread = units.digits(near.std_ratio, 1);
   const { calibration, maker, set } = near;
   const how = calibration ? text("vendor.calibrated", { calibration }) : text("vendor.plain");
-  place.textContent = text("vendor.rows", { ratio, spread, how, set, maker, rows: near.rows.join(", ") });
-  byId("calibrate").textContent = calibration ? text("vendor.undo") : text("vendor.calibrate", { maker });
+  write("vendor-rows", text("vendor.rows", { ratio, spread, how, set, maker, rows: near.rows.join(", ") }));
+  write("calibrate", calibration ? text("vendor.undo") : text("vendor.calibrate", { maker }));
 }
 
 /** @param {Run} answer */
@@ -220,7 +234,7 @@ function showVerdicts(answer) {
   }
   const said = new Set(verdicts.map((record) => record.text));
   const others = warnings.filter((record) => !isOfContact(record) && !said.has(record.text));
-  byId("verdicts").replaceChildren(...lines, ...others.map(warning));
+  update(byId("verdicts"), ...lines, ...others.map(warning));
 }
 
 /** @param {VerdictRecord} record */
@@ -232,7 +246,8 @@ function warning(record) {
 /** @param {Run} answer */
 function showAssumptions({ display, provenance }) {
   const { model, version, references } = provenance;
-  byId("assumed").replaceChildren(
+  update(
+    byId("assumed"),
     element("ul", {}, ...display.assumed.map((one) => element("li", {}, said(one)))),
     element("p", { class: "small" }, text("assumed.sources", { model, version, references: references.join(", ") })),
   );
@@ -255,7 +270,8 @@ function showContacts(answer, warnings) {
   ]);
   const film = leastFilm(answer);
   const caption = text(answer.loads ? "contact.most_loaded" : "contact.each");
-  byId("contacts").replaceChildren(
+  update(
+    byId("contacts"),
     element(
       "p",
       { class: "regime" },

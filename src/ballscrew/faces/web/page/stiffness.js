@@ -1,11 +1,9 @@
 // The nut: how far it gives way, what is left of its preload, and the load of each ball.
 
 import * as parts from "./chart_parts.js";
-import { byId, element, table } from "./dom.js";
+import { byId, element, table, update } from "./dom.js";
 import { draw, hide, layout } from "./plot.js";
 import { said } from "./messages.js";
-import * as nutPicture from "./nut_picture.js";
-import * as nutUnrolled from "./nut_unrolled.js";
 import { text } from "./texts.js";
 import * as units from "./units.js";
 import { vocabulary } from "./vocabulary.js";
@@ -30,21 +28,22 @@ function at(table, path) {
   return path.split(".").reduce((found, name) => found?.[name], /** @type {any} */ (table));
 }
 
+/** @param {Run} answer @returns {Record<string, any> | undefined} */
+function loadsOf({ loads }) {
+  return loads;
+}
+
 /**
- * The table of stiffness, and the load of each ball.
+ * The table of stiffness.
  *
  * @param {Run} answer
  */
 export function show(answer) {
-  /** @type {Record<string, any> | undefined} */
-  const loads = answer.loads;
+  const loads = loadsOf(answer);
   const place = byId("stiffness");
-  nutPicture.show(answer);
-  nutUnrolled.show(answer);
   if (!loads) {
     const load = units.formatted("contact_load", answer.results.contact_load);
-    place.replaceChildren(element("p", {}, text("stiffness.no_nut", { load })));
-    hide("balls-chart");
+    update(place, element("p", {}, text("stiffness.no_nut", { load })));
     return;
   }
   const rows = ROWS.flatMap(([path, key, si, unit]) => {
@@ -60,11 +59,18 @@ export function show(answer) {
     rows.push([text(`stiffness.${flank}`), text("stiffness.loads", { least, greatest, mean })]);
   }
   const notes = answer.display.rigidity.map(said).join("; ");
-  place.replaceChildren(
+  update(
+    place,
     table(text("stiffness.caption"), ["", ""], rows),
     element("p", { class: "small" }, notes ? text("stiffness.assumed", { notes }) : ""),
   );
-  drawBalls(loads.balls ?? {}, halvesOf(answer));
+}
+
+/** The load of each ball, where it is known. @param {Run} answer */
+export function showBalls(answer) {
+  const loads = loadsOf(answer);
+  if (loads) drawBalls(loads.balls ?? {}, halvesOf(answer));
+  else hide("balls-chart");
 }
 
 /**

@@ -1,5 +1,5 @@
 // Views: the tasks of the page, each with its panes, of which one is seen. Which section stands where says the page
-// itself: ``data-pane="torque.map"``, or several of them.
+// itself: ``data-pane="torque.map"``, or several of them, of which a card that is long divides its parts (``inPanes``).
 
 import { byId, element, keepFocus } from "./dom.js";
 import { store } from "./store.js";
@@ -57,12 +57,6 @@ export function current() {
   return paneAt(store.state.view) ?? panes()[0];
 }
 
-/** The pane in which an element stands. @param {Element} inside */
-function paneWith(inside) {
-  const holder = inside.closest("[data-pane]");
-  return holder ? panesOf(holder)[0] : undefined;
-}
-
 /** Test whether an element stands in the pane that is seen, or in none. @param {Element} inside */
 export function isSeen(inside) {
   const holder = inside.closest("[data-pane]");
@@ -84,10 +78,17 @@ export function go(address) {
   );
 }
 
-/** Go to the pane in which an element stands. @param {Element} inside */
-export async function goTo(inside) {
-  const pane = paneWith(inside);
-  if (pane && !isSeen(inside)) await go(pane);
+/**
+ * A part of a card that is seen in some panes of its view alone.
+ *
+ * @template {HTMLElement} Part
+ * @param {Part} part
+ * @param {string[]} panes
+ */
+export function inPanes(part, ...panes) {
+  part.dataset.pane = panes.join(" ");
+  part.classList.toggle("elsewhere", !panes.includes(current()));
+  return part;
 }
 
 /** The tabs of the views, and below them those of the panes of this view. */

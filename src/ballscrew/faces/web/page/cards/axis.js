@@ -11,6 +11,7 @@ import * as states from "../state.js";
 import { store } from "../store.js";
 import { text } from "../texts.js";
 import * as units from "../units.js";
+import { inPanes } from "../views.js";
 import { fieldset, placeFaults, showValues } from "./case_fields.js";
 import { caseFile, commandLine, faultLines } from "./log_parts.js";
 import { data, FORCE, GROWTH, POSITION, quantity, TURNING } from "./quantities.js";
@@ -30,7 +31,14 @@ const SPRINGS = [
   ["torsion", "#CC79A7"],
 ];
 /** @typedef {"nut" | "shaft" | "bearings" | "mount" | "torsion"} Spring */
-const CHARTS = ["axis-rigidity", "axis-shares", "axis-lost", "axis-speed", "axis-buckling"];
+/** The charts, and the panes in which they are. @type {[string, string][]} */
+const CHARTS = [
+  ["axis-rigidity", "axis.stroke"],
+  ["axis-shares", "axis.stroke"],
+  ["axis-lost", "axis.limits"],
+  ["axis-speed", "axis.limits"],
+  ["axis-buckling", "axis.limits"],
+];
 const LIMIT = "#D55E00";
 const SHADE = "#80808033";
 const RIGIDITY = quantity("N/m", "N/um");
@@ -46,14 +54,15 @@ const ELEMENTS = [
  * @returns {import("../cards.js").Card}
  */
 export function setUp(holder) {
-  const picture = element("div");
-  const editor = element("div", { class: "card-inputs" });
-  const command = element("div");
+  const picture = inPanes(element("div"), "axis.parts");
+  const editor = inPanes(element("div", { class: "card-inputs" }), "axis.parts");
+  const command = inPanes(element("div"), "axis.parts");
   const problems = element("div");
-  const words = element("div");
-  const rest = element("div");
-  const places = CHARTS.map((id) => element("div", { id, class: "chart low", hidden: true }));
-  const result = element("div", { class: "card-result", hidden: true }, words, ...places, rest);
+  const words = inPanes(element("div", { class: "half" }), "axis.stroke");
+  const weakest = inPanes(element("div", { class: "half" }), "axis.stroke");
+  const assumed = inPanes(element("div", { class: "half" }), "axis.limits");
+  const places = CHARTS.map(([id, pane]) => inPanes(element("div", { id, class: "chart low", hidden: true }), pane));
+  const result = element("div", { class: "card-result", hidden: true }, ...places, weakest, words, assumed);
   /** @type {Tables} */
   let tables = {};
   /** @type {ChainAnswer | undefined} */
@@ -135,10 +144,8 @@ export function setUp(holder) {
     draw("axis-speed", against(results, "speed", results.critical_speed, results.largest_speed, TURNING));
     draw("axis-buckling", against(results, "buckling", results.buckling_load, results.largest_load, BUCKLING));
     const list = element("ul", {}, ...found.display.assumed.map((one) => element("li", {}, said(one))));
-    rest.replaceChildren(
-      softest(results),
-      element("details", { open: "" }, element("summary", {}, text("axis.assumed")), list),
-    );
+    weakest.replaceChildren(softest(results));
+    assumed.replaceChildren(element("details", { open: "" }, element("summary", {}, text("axis.assumed")), list));
   }
 
   return { follow };

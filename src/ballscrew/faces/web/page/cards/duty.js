@@ -11,6 +11,7 @@ import * as states from "../state.js";
 import { store } from "../store.js";
 import { text, textOr } from "../texts.js";
 import * as units from "../units.js";
+import { inPanes } from "../views.js";
 import { vocabulary } from "../vocabulary.js";
 import { placeFaults, showValues } from "./case_fields.js";
 import * as charts from "./duty_charts.js";
@@ -34,10 +35,14 @@ const ROUNDING = 1e-9;
 export function setUp(holder) {
   const note = element("p", { class: "small" });
   const editor = element("div", { class: "card-inputs" });
-  const words = element("div");
-  const parts = element("div");
-  const places = charts.PLACES.map((id) => element("div", { id, class: "chart low", hidden: true }));
-  const result = element("div", { class: "card-result" }, words, ...places, parts);
+  const words = inPanes(element("div"), "duty.answer");
+  const limits = inPanes(element("div"), "duty.limits");
+  const parts = inPanes(element("div"), "duty.parts");
+  const phasesOf = inPanes(element("div", { class: "half" }), "duty.time");
+  const places = charts.PLACES.map((id) =>
+    inPanes(element("div", { id, class: "chart low", hidden: true }), "duty.time"),
+  );
+  const result = element("div", { class: "card-result" }, words, limits, ...places, phasesOf, parts);
   const asked = question({
     address: "duty",
     result,
@@ -46,7 +51,8 @@ export function setUp(holder) {
     isLarge: (body) => "trace" in body,
   });
   const recorded = element("p", { class: "card-start" });
-  holder.replaceChildren(examples(vocabulary.starts), recorded, note, editor, asked.line, result);
+  const begin = inPanes(element("div", {}, examples(vocabulary.starts), recorded, note), "duty.motion");
+  holder.replaceChildren(begin, editor, asked.line, result);
   for (const place of places) watch(place);
 
   /** Sections of the case, with those of the example where it has none. @type {Tables} */
@@ -101,7 +107,8 @@ export function setUp(holder) {
     if (keyOf(tables) !== shown) {
       shown = keyOf(tables);
       const usual = /** @type {Tables} */ (example.motor);
-      redraw(editor, ...inputs(() => tables, store.state, vocabulary.motions, usual, { put, onChange }));
+      const [motion, ...others] = inputs(() => tables, store.state, vocabulary.motions, usual, { put, onChange });
+      redraw(editor, inPanes(motion, "duty.motion"), ...others.map((one) => inPanes(one, "duty.axis")));
       if (answer) showValues(editor, answer.inputs);
     }
     if (answer && system !== units.currentSystem()) show(answer);
@@ -193,10 +200,11 @@ export function setUp(holder) {
       ),
       numbers(results),
       ...smoothing(results),
-      ...checks.panel(checks.ofCycle(found), text("duty.checks_caption")),
     );
+    limits.replaceChildren(...checks.panel(checks.ofCycle(found), text("duty.checks_caption")));
     charts.show(results, vocabulary.causes);
-    parts.replaceChildren(partsOf(results), brake(results), phases(results));
+    phasesOf.replaceChildren(phases(results));
+    parts.replaceChildren(partsOf(results), brake(results));
   }
 
   /** @param {DutyAnswer["results"]} results */

@@ -1,7 +1,7 @@
 // The card of warming up: temperatures, preload, torque and growth over hours, and the state in which it ends.
 
 import * as designs from "../designs.js";
-import { box, framed, opened, textField } from "../controls.js";
+import { box, framed, labelled, opened, textField } from "../controls.js";
 import { element, redraw, table } from "../dom.js";
 import { said } from "../messages.js";
 import { watch } from "../plot.js";
@@ -10,6 +10,7 @@ import * as states from "../state.js";
 import { store } from "../store.js";
 import { text, textOr } from "../texts.js";
 import * as units from "../units.js";
+import { inPanes } from "../views.js";
 import { vocabulary } from "../vocabulary.js";
 import { fieldset, placeFaults, showValues } from "./case_fields.js";
 import { data, FORCE, GROWTH, HOURS, POWER, quantity, TEMPERATURE, TORQUE } from "./quantities.js";
@@ -50,20 +51,21 @@ const SERIES = { growth: "shaft_growth", power: "friction_power" };
  * @returns {import("../cards.js").Card}
  */
 export function setUp(holder) {
-  const note = element("p", { class: "small" });
-  const editor = element("div", { class: "card-inputs" });
-  const words = element("div");
+  const note = inPanes(element("p", { class: "small" }), "heat.state");
+  const editor = inPanes(element("div", { class: "card-inputs" }), "heat.state");
+  const words = inPanes(element("div"), "heat.end");
   const rest = element("div");
   const slider = element("input", { type: "range", id: "warm-instant", min: "0", max: "1", step: "1" });
-  const at = element(
-    "p",
-    { class: "card-start whole-width" },
-    element("label", { for: "warm-instant" }, text("warm_up.instant")),
-    slider,
+  const at = labelled(slider, text("warm_up.instant"));
+  const places = Object.entries(charts.PLACES).map(([id, pane]) =>
+    inPanes(element("div", { id, class: "chart low", hidden: true }), pane),
   );
-  const places = charts.PLACES.map((id) => element("div", { id, class: "chart low", hidden: true }));
-  const pictures = places.flatMap((place) => (place.id === "warm-axis-chart" ? [at, place] : [place]));
-  const result = element("div", { class: "card-result", hidden: true }, words, ...pictures, rest);
+  const half = (/** @type {HTMLElement[]} */ ...parts) =>
+    inPanes(element("div", { class: "half" }, ...parts), "heat.temperatures");
+  const pictures = places.flatMap((place) =>
+    place.id === "warm-axis-chart" ? [half(at, place), half(rest)] : [place],
+  );
+  const result = element("div", { class: "card-result", hidden: true }, words, ...pictures);
   const asked = question({
     address: "warm-up",
     result,

@@ -10,14 +10,15 @@ import { FORCE, GROWTH, HOURS, POSITION, TEMPERATURE, TORQUE } from "./quantitie
 /** @typedef {{ name: string, values: readonly (number | null)[], colour: string, dash?: string, end?: number | null, band?: Ends }} Line */
 /** @typedef {{ time: number[], low: (number | null)[], high: (number | null)[] }} Ends */
 
-export const PLACES = [
-  "warm-temperature-chart",
-  "warm-picture-chart",
-  "warm-axis-chart",
-  "warm-growth-chart",
-  "warm-preload-chart",
-  "warm-torque-chart",
-];
+/** The places of the charts, and the panes in which they are. @type {Record<string, string>} */
+export const PLACES = {
+  "warm-temperature-chart": "heat.temperatures",
+  "warm-picture-chart": "heat.temperatures",
+  "warm-axis-chart": "heat.temperatures",
+  "warm-growth-chart": "heat.growth",
+  "warm-preload-chart": "heat.growth",
+  "warm-torque-chart": "heat.growth",
+};
 /** Colours of Okabe and Ito, as the command draws with. */
 const [BLUE, ORANGE, GREEN, RED, PURPLE, GREY] = ["#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#8a8a8a"];
 /** Elements of the axis by their series, and their colours. @type {[string, string, string?][]} */
