@@ -84,7 +84,7 @@ js: $(READY) $(NODE_READY)
 pages: $(READY)
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python docs/writer/write.py $(if $(CHECK),--check) $(PAGE)
 
-# into out/docs: seconds, as nothing is computed
+# into out/docs, with the static page beside it, which takes most of the time
 # What is written while a build goes on is not whole: out/docs/.built stands from its end to the next
 docs: $(READY)
 	@rm -f out/docs/.built

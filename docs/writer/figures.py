@@ -10,7 +10,9 @@ import numpy as np
 #: By how much a coordinate of a figure may differ, in points; and the pixels of a picture, root of the mean square of
 #: levels from 0 to 255.
 COORDINATES, PIXELS = 0.02, 1.0
-_DIGITS = re.compile(rb"-?\d+\.?\d*(?:e[+-]?\d+)?")
+_NUMBER = re.compile(r"(?<![\w#.])-?\d+(?:\.\d+)?(?:e[+-]?\d+)?(?![\w.])")
+#: Names of parts of a drawing: matplotlib makes those of clip paths from all digits of their coordinates.
+_NAMED = re.compile(r'\bid="([^"]+)"')
 
 
 def same(before: Path, now: Path) -> bool:
@@ -22,14 +24,25 @@ def same(before: Path, now: Path) -> bool:
         return True
     if now.suffix == ".svg":
         return _same_drawing(first, second)
+    if now.suffix == ".pdf":
+        return _words(before) == _words(now)
     return now.suffix == ".png" and _same_picture(before, now)
 
 
 def _same_drawing(first: bytes, second: bytes) -> bool:
-    if _DIGITS.sub(b"0", first) != _DIGITS.sub(b"0", second):
+    one, other = _in_order(first.decode()), _in_order(second.decode())
+    if _NUMBER.sub("0", one) != _NUMBER.sub("0", other):
         return False
-    one, other = (np.array([float(x) for x in _DIGITS.findall(text)]) for text in (first, second))
-    return bool(np.all(np.abs(one - other) <= COORDINATES))
+    numbers = (np.array(_NUMBER.findall(text), dtype=float) for text in (one, other))
+    return bool(np.all(np.abs(np.subtract(*numbers)) <= COORDINATES))
+
+
+def _in_order(drawing: str) -> str:
+    """A drawing whose parts are named by the order in which they come."""
+    names = {name: f"part_{number}" for number, name in enumerate(dict.fromkeys(_NAMED.findall(drawing)))}
+    return re.sub(
+        r'(?P<before>\bid="|#)(?P<name>[\w-]+)', lambda at: at["before"] + names.get(at["name"], at["name"]), drawing
+    )
 
 
 def _same_picture(before: Path, now: Path) -> bool:
@@ -37,3 +50,10 @@ def _same_picture(before: Path, now: Path) -> bool:
 
     first, second = (255 * matplotlib.image.imread(path) for path in (before, now))
     return first.shape == second.shape and bool(np.sqrt(np.mean((first - second) ** 2)) <= PIXELS)
+
+
+def _words(document: Path) -> list[str]:
+    """The text of a document, page by page: how its bytes are packed depends on libraries."""
+    import pypdf
+
+    return [page.extract_text() for page in pypdf.PdfReader(document).pages]

@@ -1,4 +1,4 @@
-"""Make a generated part: ``make_part NAME MODULE:FUNCTION``, run in a fork of ``libraries``.
+"""Make a generated part: ``make_part FOLDER NAME MODULE:FUNCTION``, run in a fork of ``libraries``.
 
 A name with a suffix is a file: the function returns its text, or a table that is written as JSON. Else it is a folder,
 which the function fills.
@@ -9,14 +9,12 @@ import json
 import sys
 from pathlib import Path
 
-MADE = Path(__file__).parents[2] / "out" / "pages"
 
-
-def make(name: str, maker: str) -> None:
+def make(folder: str, name: str, maker: str) -> None:
     """Call the function, and write what it returns."""
     module, _, function = maker.partition(":")
     make = getattr(importlib.import_module(module), function)
-    target = MADE / name
+    target = Path(folder, name)
     target.parent.mkdir(parents=True, exist_ok=True)
     if not target.suffix:
         make(target)

@@ -69,7 +69,7 @@ class Part:
 
     def make(self) -> Record:
         """Make it, and write down from what."""
-        arguments = [self.name, MAKERS[self.name]]
+        arguments = [str(MADE), self.name, MAKERS[self.name]]
         before = {path: path.stat().st_mtime_ns for path in self._there()}
         code, said, heard = kept.run(command.program_at_hand(), "make_part", arguments, ROOT, {"COLUMNS": "100"})
         if code:

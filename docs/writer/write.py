@@ -14,8 +14,10 @@ So a page reads where it lies, without a build. What is written stands between m
 - ``equation``: the formula of a function, with its symbols, units and source;
 - ``<!--= NAME-->0.87<!--/-->``: a number.
 
-A figure is in ``figures/PART`` where a page shows it. ``python docs/writer/write.py`` writes; ``--check`` only
-compares, and fails where a page or a figure is not what its program makes; names of pages choose some of them.
+Decisions are as they were written: no mark in them is followed. A figure is in ``figures/PART`` where a page shows it.
+
+``python docs/writer/write.py`` writes; ``--check`` only compares, and fails where a page or a figure is not what its
+program makes. Names of pages choose some of them.
 """
 
 from __future__ import annotations
@@ -27,17 +29,19 @@ import os
 import re
 import shutil
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
+from typing import NamedTuple
 
-import figures
 import kept
 import sources
 from command import DOCS, MADE, Page, chosen, displayed
 from equation import as_markdown
 from kept import ROOT
 from parts import PARTS, Part, numbers_of, part_of
+
+import figures
 
 FIGURES = DOCS / "figures"
 _BLOCK = re.compile(
@@ -46,6 +50,9 @@ _BLOCK = re.compile(
     r"(?P<written>.*?)^<!-- end -->$",
     re.MULTILINE | re.DOTALL,
 )
+#: The options of each kind of mark.
+OPTIONS = {"command": {"show", "keep"}, "include": set(), "file": {"from", "to", "lines"}, "equation": set()}
+_MARK = re.compile(rf"^<!-- (?:{'|'.join(OPTIONS)}): ", re.MULTILINE)
 _NUMBER = re.compile(r"(?P<mark><!--= (?P<name>\w+)-->)(?P<written>[^<]*)<!--/-->")
 _FIGURE = re.compile(r"\((?:\.\./)*figures/(?P<name>[\w./-]+)\)")
 #: A figure that stands beside the text that shows it, where a program made both.
@@ -57,8 +64,9 @@ class Failed(Exception):
 
 
 def pages() -> list[str]:
-    """The names of all pages."""
-    return sorted(path.relative_to(DOCS).with_suffix("").as_posix() for path in DOCS.rglob("*.md"))
+    """The names of all pages but those of decisions."""
+    names = (path.relative_to(DOCS).with_suffix("").as_posix() for path in DOCS.rglob("*.md"))
+    return sorted(name for name in names if not name.startswith("decisions/"))
 
 
 class Written:
@@ -68,8 +76,11 @@ class Written:
         self.name, self.path = name, DOCS / f"{name}.md"
         self.text = self.path.read_text(encoding="utf-8") if text is None else text
         self.blocks = [*_BLOCK.finditer(self.text)]
-        if self.text.count("\n<!-- end -->") != len(self.blocks):
+        if not len(_MARK.findall(self.text)) == self.text.count("\n<!-- end -->\n") == len(self.blocks):
             raise Failed(f"{name}: a mark has no end, or an end no mark")
+        for block in self.blocks:
+            if unknown := _options(block).keys() - OPTIONS[block["kind"]]:
+                raise Failed(f"{name}: {block['kind']} {block['what']} has no option {', '.join(sorted(unknown))}")
         #: The way from the page to the folder of all pages.
         self.up = "../" * name.count("/")
 
@@ -117,6 +128,8 @@ class Written:
         """The text with everything in its place."""
         said = iter(outputs)
         text = _BLOCK.sub(lambda block: f"{block['mark']}{self._written(block, said)}<!-- end -->", self.text)
+        if unknown := self.numbers - numbers.keys():
+            raise Failed(f"{self.name}: nothing makes the number {', '.join(sorted(unknown))}")
         return _NUMBER.sub(lambda number: f"{number['mark']}{numbers[number['name']]}<!--/-->", text)
 
     def _written(self, block: re.Match[str], said: Iterator[str]) -> str:
@@ -213,28 +226,45 @@ class Made:
         self._pool.shutdown(wait=True, cancel_futures=True)
 
 
-def put(names: list[str], write: bool) -> list[str]:
-    """What differs between pages and programs; written, or only said."""
+#: What goes wrong with one page, of which the others are made all the same.
+_FAULTS = Failed, LookupError, OSError, RuntimeError, ValueError
+
+
+class Outcome(NamedTuple):
+    """What differs between pages and programs, and what cannot be made."""
+
+    differ: list[str]
+    failed: list[str]
+
+
+def put(names: list[str], write: bool) -> Outcome:
+    """Make all of some pages, and write or only compare it."""
     found = [Written(name) for name in names]
     made = Made(found)
-    differ: list[str] = []
+    differ, failed = Outcome([], [])
     try:
         for page in found:
-            text = made.text(page)
+            try:
+                text = made.text(page)
+            except _FAULTS as error:
+                failed.append(f"{page.name}: {error}\n")
+                continue
             if text != page.text:
                 differ.append(_difference(page, text))
                 if write:
                     page.path.write_text(text, encoding="utf-8")
             for name in sorted(figures_of(text)):
                 before, now = FIGURES / name, made.figure(name, page)
-                if not figures.same(before, now):
+                if not now.is_file():
+                    failed.append(f"{page.name}: nothing makes figures/{name}\n")
+                elif not figures.same(before, now):
                     differ.append(f"figures/{name} of {page.name} is another figure\n")
                     if write:
                         before.parent.mkdir(parents=True, exist_ok=True)
                         shutil.copy(now, before)
     finally:
         made.close()
-    return differ
+    return Outcome(differ, failed)
 
 
 def _difference(page: Written, text: str) -> str:
@@ -257,20 +287,15 @@ def main(arguments: list[str]) -> int:
     parser.add_argument("--check", action="store_true", help="only compare; 1 if something differs")
     chosen_by = parser.parse_args(arguments)
     try:
-        differ = put(chosen_by.pages or pages(), write=not chosen_by.check)
-    except (Failed, LookupError, RuntimeError, ValueError) as error:
-        print(error, file=sys.stderr)
-        return 1
-    unused = [] if chosen_by.pages else left_over(pages())
-    say: Callable[[str], object] = sys.stdout.write
-    for difference in differ:
-        say(difference)
-    for name in unused:
-        say(f"no page shows {name}\n")
-    if chosen_by.check and (differ or unused):
-        say("make pages writes what programs make now\n")
-        return 1
-    return 0
+        differ, failed = put(chosen_by.pages or pages(), write=not chosen_by.check)
+        failed += [] if chosen_by.pages else [f"no page shows {name}\n" for name in left_over(pages())]
+    except _FAULTS as error:
+        differ, failed = Outcome([], [f"{error}\n"])
+    sys.stdout.writelines(differ)
+    if chosen_by.check and differ:
+        print("make pages writes what programs make now")
+    sys.stderr.writelines(failed)
+    return int(bool(failed or (chosen_by.check and differ)))
 
 
 if __name__ == "__main__":
