@@ -256,8 +256,9 @@ example: the vendors contradict each other, and nothing here tells which is clos
 
 HIWIN's stocked double nuts and nuts with an offset, which nothing was chosen on, have twice the drag of the model at a
 preload of 7 % (the middle of what is called medium; none is printed): {stock_double:.2f} and {stock_offset:.2f}. The
-rule of JIS B 1192 meets them there, with {stock_double_jis:.2f} and {stock_offset_jis:.2f}. So two makers of three
-follow that rule, and the third has one of its own.
+rule of JIS B 1192 meets them there, with {stock_double_jis:.2f} and {stock_offset_jis:.2f}; the rule that HIWIN prints
+does not, with {stock_double_hiwin:.2f} and {stock_offset_hiwin:.2f}. So THK's example and HIWIN's list go with JIS B
+1192, Rexroth's tables with a rule of Rexroth's own, and HIWIN's rule and list contradict each other at that preload.
 
 Measured are two things. The rolling torque of balls between rings is {rings} of the measured one. Of the two new screws
 of XJTU, the only measured torques of ball screws found in public, neither size nor nut, wipers nor oil are stated. So
@@ -298,6 +299,8 @@ def vendors_in_words() -> str:
         stock_offset=stock["offset"].mean_ratio,
         stock_double_jis=stock["double"].mean_laws["jis"],
         stock_offset_jis=stock["offset"].mean_laws["jis"],
+        stock_double_hiwin=stock["double"].mean_laws["hiwin"],
+        stock_offset_hiwin=stock["offset"].mean_laws["hiwin"],
     )
     points = (textwrap.fill(point, 130, initial_indent="- ", subsequent_indent="  ") for point in words.split("\n\n"))
     return "".join(f"{point}\n" for point in points)
