@@ -10,7 +10,7 @@ from ballscrew.physics.friction.result import MECHANISMS
 from ballscrew.questions.shared import charts
 from effect_study import curves, law_figures
 from effect_study import effect_figures as figures
-from effect_study.cases import CASES, RPM, effects, sensitivities
+from effect_study.cases import CASES, CATALOGUE, RPM, effects, sensitivities
 
 
 def write(folder: Path) -> None:
@@ -60,7 +60,7 @@ def sensitivity_table(rows: int | None = None) -> str:
 
 
 def numbers() -> dict[str, str]:
-    """Numbers that replace the names in double braces in the pages."""
+    """The numbers in the text of the pages, by their names there."""
     found: dict[str, str] = {}
     steps = {name: effects(case) for name, case in CASES.items()}
     for i, key in enumerate(
@@ -72,7 +72,6 @@ def numbers() -> dict[str, str]:
         r, c = case.result(reference), case.result(corrected)
         found[f"{name}_torque"] = f"{float(r.screw_torque):.3f}"
         found[f"{name}_corrected"] = f"{float(c.screw_torque):.3f}"
-        found[f"{name}_efficiency"] = f"{float(r.efficiency):.3f}"
         found[f"{name}_spin_parameter"] = f"{law_figures.half_spin_parameter(case):.2f}"
         found[f"{name}_spin_screw"] = f"{float(r.screw.spin_parameter):.2f}"
         found[f"{name}_spin_nut"] = f"{float(r.nut.spin_parameter):.2f}"
@@ -85,10 +84,10 @@ def numbers() -> dict[str, str]:
         found[f"{name}_skid"] = f"{skid:.0f}"
         found[f"{name}_skid_ball"] = f"{skid / case.axial_load * float(r.contact_load):.1f}"
         found[f"{name}_skid_fast"] = f"{fast:.0f}"
-        found[f"{name}_light_efficiency"] = f"{float(case.result(reference, axial_load=1.0).efficiency):.2f}"
         _, steep = curves.over_lead(case)
         share = steep.contributions["helix"][-1] / steep.screw_torque[-1]
         found[f"{name}_steep"] = f"{float(share):.0%}".replace("%", " %")
+    found["catalogue_light_efficiency"] = f"{float(CATALOGUE.result(reference, axial_load=1.0).efficiency):.2f}"
     return found
 
 

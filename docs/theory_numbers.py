@@ -11,7 +11,7 @@ from ballscrew.physics.components.mixed_friction import arana_traction
 from ballscrew.physics.components.nut import DoubleNut
 from ballscrew.physics.equations import friction, hertz, kinematics, preload, transmission
 from ballscrew.physics.friction.model import FrictionModel
-from effect_study.cases import CASES, CATALOGUE
+from effect_study.cases import CASES, CATALOGUE, PAPER
 
 REFERENCE = FrictionModel.reference()
 
@@ -24,7 +24,6 @@ def numbers() -> dict[str, str]:
         s, n, screw = result.screw, result.nut, case.screw
         rolls = kinematics.ball_rotation(result.entrainment_speed, screw.ball_diameter) / case.screw_speed
         sideways = 1e3 * kinematics.torsion_speed(case.screw_speed, screw.ball_diameter, screw.lead_angle)
-        by_chain = 1e3 * screw.loaded_balls * result.ball_to_ball_force * result.frame.path_radius
         found |= {
             f"t_{name}_angle": f"{math.degrees(float(screw.lead_angle)):.2f}",
             f"t_{name}_gamma": f"{float(result.frame.curvature_ratio):.3f}",
@@ -36,22 +35,14 @@ def numbers() -> dict[str, str]:
             f"t_{name}_long": f"{1e3 * float(s.semi_major_axis):.2f}",
             f"t_{name}_short": f"{1e3 * float(s.semi_minor_axis):.2f}",
             f"t_{name}_pressure": f"{float(s.maximum_pressure) / 1e9:.2f}",
-            f"t_{name}_approach": f"{1e6 * float(_approach(s)):.1f}",
             f"t_{name}_film": f"{1e6 * float(s.minimum_film_thickness):.2f}",
             f"t_{name}_lambda": f"{float(s.film_parameter):.2f}",
             f"t_{name}_mu": f"{float(s.friction_coefficient):.3f}",
-            f"t_{name}_screw_torque": f"{float(result.screw_torque):.3f}",
-            f"t_{name}_nut_torque": f"{float(result.nut_torque):.3f}",
-            f"t_{name}_split": f"{1e3 * float(result.screw_torque - result.nut_torque):.1f}",
-            f"t_{name}_chain": f"{float(by_chain):.1f}",
             f"t_{name}_power": f"{float(result.friction_power):.1f}",
-            f"t_{name}_efficiency": f"{float(result.efficiency):.3f}",
-            f"t_{name}_back": f"{float(result.back_driving_efficiency):.3f}",
-            f"t_{name}_ideal": f"{float(result.ideal_torque):.2f}",
-            f"t_{name}_hold": f"{float(result.holding_torque):.2f}",
             f"t_{name}_rolling": f"{_percent(result.contributions['hydrodynamic_rolling'] / result.screw_torque)}",
             f"t_{name}_steel": f"{_percent(result.contributions['elastic_hysteresis'] / result.screw_torque)}",
         }
+    found |= _of_paper(PAPER.result(REFERENCE), PAPER.screw) | _of_catalogue(CATALOGUE.result(REFERENCE))
     offset = float(friction.offset_from_traction(0.0))
     plain = float(transmission.classical_efficiency(CATALOGUE.screw.lead_angle, math.atan(0.1)))
     found |= {
@@ -66,6 +57,28 @@ def numbers() -> dict[str, str]:
         **_of_oils(),
     }
     return found
+
+
+def _of_paper(result, screw) -> dict[str, str]:
+    """What the text has of the paper's screw alone."""
+    by_chain = 1e3 * screw.loaded_balls * result.ball_to_ball_force * result.frame.path_radius
+    return {
+        "t_paper_approach": f"{1e6 * float(_approach(result.screw)):.1f}",
+        "t_paper_screw_torque": f"{float(result.screw_torque):.3f}",
+        "t_paper_nut_torque": f"{float(result.nut_torque):.3f}",
+        "t_paper_split": f"{1e3 * float(result.screw_torque - result.nut_torque):.1f}",
+        "t_paper_chain": f"{float(by_chain):.1f}",
+    }
+
+
+def _of_catalogue(result) -> dict[str, str]:
+    """What the text has of the catalogue screw alone."""
+    return {
+        "t_catalogue_efficiency": f"{float(result.efficiency):.3f}",
+        "t_catalogue_back": f"{float(result.back_driving_efficiency):.3f}",
+        "t_catalogue_ideal": f"{float(result.ideal_torque):.2f}",
+        "t_catalogue_hold": f"{float(result.holding_torque):.2f}",
+    }
 
 
 def _of_oils() -> dict[str, str]:
@@ -86,10 +99,11 @@ def _of_oils() -> dict[str, str]:
         ]
         return f"{torques[0] / torques[1]:.2f}"
 
-    grades = {"vg": "ISO VG 100", "m": "M100 paraffinic", "pao": "PAO 100"}
+    grades = {"m": "M100 paraffinic", "pao": "PAO 100"}
     return {
         "t_roelands_own": f"{known / own:.1f}",
         "t_roelands_grade": f"{known / of_grade:.0f}",
+        "t_arana_vg_25": over_constant("ISO VG 100", 25),
         **{
             f"t_arana_{name}_{celsius}": over_constant(grade, celsius)
             for name, grade in grades.items()

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from accuracy_table import printed
 from ballscrew.evidence.validation.entries import DESCRIPTORS, Conditions, trends
-from ballscrew.evidence.validation.rows import ACCURACY_FACTOR, OTHER_FACTORS
+from ballscrew.evidence.validation.rows import ACCURACY_FACTOR
 from ballscrew.physics.components.nut import DoubleNut, OversizeBallNut
 from ballscrew.physics.friction.calibrations import calibrated, calibration, calibrations
 from ballscrew.physics.friction.model import FrictionModel
@@ -256,8 +256,9 @@ example: the vendors contradict each other, and nothing here tells which is clos
 
 HIWIN's stocked double nuts and nuts with an offset, which nothing was chosen on, have twice the drag of the model at a
 preload of 7 % (the middle of what is called medium; none is printed): {stock_double:.2f} and {stock_offset:.2f}. The
-rule of JIS B 1192 meets them there, with {stock_double_jis:.2f} and {stock_offset_jis:.2f}. So two makers of three
-follow that rule, and the third has one of its own.
+rule of JIS B 1192 meets them there, with {stock_double_jis:.2f} and {stock_offset_jis:.2f}; the rule that HIWIN prints
+does not, with {stock_double_hiwin:.2f} and {stock_offset_hiwin:.2f}. So THK's example and HIWIN's list go with JIS B
+1192, Rexroth's tables with a rule of Rexroth's own, and HIWIN's rule and list contradict each other at that preload.
 
 Measured are two things. The rolling torque of balls between rings is {rings} of the measured one. Of the two new screws
 of XJTU, the only measured torques of ball screws found in public, neither size nor nut, wipers nor oil are stated. So
@@ -298,6 +299,8 @@ def vendors_in_words() -> str:
         stock_offset=stock["offset"].mean_ratio,
         stock_double_jis=stock["double"].mean_laws["jis"],
         stock_offset_jis=stock["offset"].mean_laws["jis"],
+        stock_double_hiwin=stock["double"].mean_laws["hiwin"],
+        stock_offset_hiwin=stock["offset"].mean_laws["hiwin"],
     )
     points = (textwrap.fill(point, 130, initial_indent="- ", subsequent_indent="  ") for point in words.split("\n\n"))
     return "".join(f"{point}\n" for point in points)
@@ -364,19 +367,20 @@ def trends_table() -> str:
 
 
 def numbers() -> dict[str, str]:
-    """Numbers that replace the names in double braces in the page."""
+    """The numbers in the text of the page, by their names there."""
     by_key = {(entry.data.name, entry.calibration is not None): entry for entry in _entries()}
     values: dict[str, str] = {}
-    for key, name in (("double", "rexroth-double-nut"), ("single", "rexroth-single-nut"), ("thk", "thk-jis")):
-        for fitted in (False, True):
+    for key, name in (("double", "rexroth-double-nut"), ("single", "rexroth-single-nut")):
+        for who, fitted in (("raw", False), ("calibrated", True)):
             entry = by_key[name, fitted]
-            prefix = f"{key}_{'calibrated' if fitted else 'raw'}"
-            values[f"{prefix}_mean"] = f"{entry.mean_ratio:.2f}"
-            values[f"{prefix}_share"] = _percent(entry.share_in_band)
-            outside = [f"{point.name} ({point.ratio:.2f})" for point in entry.points if point.in_band is False]
-            values[f"{prefix}_outside"] = ", ".join(outside) or "none"
-            above = [apart for apart in entry.upper_limits if apart.ratio > 1]
-            values[f"{prefix}_above"] = f"{len(above)} of {len(entry.upper_limits)}"
+            values[f"{key}_{who}_mean"] = f"{entry.mean_ratio:.2f}"
+            values[f"{key}_{who}_share"] = _percent(entry.share_in_band)
+        outside = [f"{point.name} ({point.ratio:.2f})" for point in by_key[name, True].points if point.in_band is False]
+        values[f"{key}_calibrated_outside"] = ", ".join(outside) or "none"
+    for who, fitted in (("raw", False), ("calibrated", True)):
+        limits = by_key["rexroth-single-nut", fitted].upper_limits
+        values[f"single_{who}_above"] = f"{sum(apart.ratio > 1 for apart in limits)} of {len(limits)}"
+    values["thk_calibrated_mean"] = f"{by_key['thk-jis', True].mean_ratio:.2f}"
     steep, fine = _steep_and_fine(by_key["rexroth-single-nut", True])
     values |= {"single_steep": f"{steep:.2f}", "single_fine": f"{fine:.2f}"}
     balan = by_key["balan-2015", False]
@@ -388,13 +392,10 @@ def numbers() -> dict[str, str]:
     ratings = by_key["hiwin-ratings", False].points
     off = [p for p in ratings if abs(p.ratio - 1) > C_A or abs(p.definitions["static"] - 1) > C_0A]
     rigid = by_key["rexroth-rigidity", False]
-    values |= {"rigidity_mean": _spread(rigid), "rigidity_n": str(len(rigid.counted))}
     values["rigidity_scatter"] = _relative_scatter([point.ratio for point in rigid.points])
     for key, name in (("elastic", "elastic_bodies"), ("rigid", "rigid_bodies")):
         values[f"rigidity_{key}"] = f"{rigid.mean_definitions[name]:.2f}"
     values["rigidity_elastic_scatter"] = _relative_scatter([p.definitions["elastic_bodies"] for p in rigid.points])
-    for factor in OTHER_FACTORS:
-        values[f"rigidity_factor_{100 * factor:.0f}"] = f"{rigid.mean_definitions[f'factor_{factor:g}']:.2f}"
     values["rigidity_factor"] = f"{ACCURACY_FACTOR:g}"
     values["rigidity_highest"] = ", ".join(
         f"{point.name} {point.ratio:.2f}" for point in sorted(rigid.points, key=lambda p: -p.ratio)[:3]
@@ -408,9 +409,7 @@ def numbers() -> dict[str, str]:
         for p in off
     )
     for key, fitted in (("raw", False), ("calibrated", True)):
-        charts = by_key["chart-friction", fitted]
-        values |= {f"chart_{key}": f"{charts.mean_ratio:.2f}", f"chart_{key}_share": _percent(charts.share_in_band)}
-        values[f"xjtu_{key}"] = "{:.2f} to {:.2f}".format(*by_key["xjtu", fitted].range_ratio)
+        values[f"chart_{key}"] = f"{by_key['chart-friction', fitted].mean_ratio:.2f}"
     (low, high) = {(p.band.low, p.band.high) for p in by_key["xjtu", False].points}.pop()
     values |= {"xjtu_low": f"{low:.2f}", "xjtu_high": f"{high:.2f}"}
     for key, name in (("double", "double"), ("sealed", "double, two wipers")):
@@ -420,10 +419,8 @@ def numbers() -> dict[str, str]:
     values |= _numbers_of_stock(by_key["hiwin-stock", False], by_key["hiwin-stock", True])
     bearings = by_key["support-bearings", False].groups
     for maker, group in bearings.items():
-        values[f"bearings_{maker.lower()}"] = _spread(group)
         torques = [point.definitions["torque"] for point in group.points]
         values[f"bearings_{maker.lower()}_torque"] = f"{min(torques):.1f} to {max(torques):.1f}"
-        values[f"bearings_{maker.lower()}_slow"] = f"{group.mean_definitions['torque_at_10_rpm']:.2f}"
     for key, name in (("emps", "emps"), ("actuator", "thk-kr4620a")):
         values[key] = "{:.2f} to {:.2f}".format(*by_key[name, False].range_ratio)
     double = [one.range_ratio for name, one in by_key["emps", False].groups.items() if name.startswith("double")]
@@ -432,18 +429,14 @@ def numbers() -> dict[str, str]:
 
 
 def _numbers_of_stock(raw, calibrated_entry) -> dict[str, str]:
-    """Numbers of HIWIN's stock list by kind of nut."""
+    """Numbers of HIWIN's stock list: its double nuts, and those with an offset."""
     values: dict[str, str] = {}
-    kinds = (("double", "double"), ("offset", "offset"), ("single", "single"), ("spacers", "single, spacer balls"))
-    for key, name in kinds:
-        group = raw.groups[name]
-        values[f"stock_{key}"] = _spread(group)
-        values[f"stock_{key}_share"] = _percent(group.share_in_band)
-        values[f"stock_{key}_own"] = _percent(group.share_in_uncertainty_band)
-        values[f"stock_{key}_jis"] = f"{group.mean_laws['jis']:.2f}"
-        values[f"stock_{key}_calibrated"] = _spread(calibrated_entry.groups[name])
-    for key, name in (("single", "single"), ("spacers", "single, spacer balls")):
-        values[f"stock_{key}_at_5"] = f"{raw.groups[name].mean_definitions['at_5_percent']:.2f}"
+    for kind in ("double", "offset"):
+        group = raw.groups[kind]
+        values[f"stock_{kind}"] = _spread(group)
+        values[f"stock_{kind}_own"] = _percent(group.share_in_uncertainty_band)
+        values[f"stock_{kind}_jis"] = f"{group.mean_laws['jis']:.2f}"
+        values[f"stock_{kind}_calibrated"] = _spread(calibrated_entry.groups[kind])
     return values
 
 

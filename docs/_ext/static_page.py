@@ -10,8 +10,21 @@ import ballscrew
 #: The models and the kinds of nut of that page: ``ballscrew site`` writes all of them.
 MODELS, NUTS = ("reference",), ("row", "single", "double", "oversize-balls", "double+elastic")
 
-
 SOURCES = Path(ballscrew.__file__).parent
+
+#: What the first page has as a file, and what it has built.
+PICTURE = "![The model in your browser](images/static_page.png)\n"
+FRAME = """<iframe src="page/index.html" title="The model in your browser" class="static-page" loading="lazy"></iframe>
+<p><a href="page/index.html">The same on a page of its own</a></p>
+"""
+
+
+def live(app: Any, name: str, source: list[str]) -> None:
+    """Put the page itself where the first page has its picture."""
+    if name == "index" and app.builder.format == "html":
+        if PICTURE not in source[0]:
+            raise ValueError(f"docs/index.md has no line {PICTURE}")
+        source[0] = source[0].replace(PICTURE, FRAME)
 
 
 def written(app: Any, error: Exception | None) -> None:
@@ -31,6 +44,7 @@ def _is_newer_than_sources(page: Path) -> bool:
 
 
 def setup(app: Any) -> dict[str, Any]:
-    """Connect to the end of the build."""
+    """Connect to the reading of a page, and to the end of the build."""
+    app.connect("source-read", live)
     app.connect("build-finished", written)
     return {"parallel_read_safe": True}

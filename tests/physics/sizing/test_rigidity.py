@@ -33,6 +33,13 @@ def test_balls_and_tracks_are_the_rigid_nut_up_to_lift_off():
     assert found().balls_and_tracks == pytest.approx(secant, rel=1e-6)
 
 
+def test_one_half_alone_is_softer_and_stiffens_with_the_load():
+    """At a constant contact angle its tangent is below R_b/t from 2√2 to 6.7 times the preload."""
+    for times, softer in ((2.84, True), (6.6, True), (6.8, False)):
+        loads = ball_loads(screw(), screw().nut, times * PRELOAD, constant_contact_angle=True)
+        assert (float(loads.rigidity) < found().balls_and_tracks) is softer
+
+
 def test_widening_is_that_of_the_nut_that_swells():
     """What swelling adds to the deflection of a small load is F/(R_n/s), but for how bars spread the loads."""
     part, slack = screw(), []

@@ -132,7 +132,10 @@ def rigidity_iso3408(
         )
         if holds_somewhere(load > 2**1.5 * preload):
             assumed.append(
-                translatable("the load is beyond that which relieves one half: there the nut is stiffer than R_nu says")
+                translatable(
+                    "the load is beyond that which relieves one half: "
+                    "there only one half carries, and just beyond that load the nut is softer than R_nu says"
+                )
             )
     elif holds_somewhere(load == 0):
         assumed.append(translatable("no rigidity of the nut: without preload it takes a load"))
