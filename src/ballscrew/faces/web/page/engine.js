@@ -285,7 +285,7 @@ export class Engine {
   /**
    * @param {{
    *   structures: Record<string, Structure>, oils: {file: string, grades: Record<string, Spec>}, solver: string,
-   *   judging: {file: string, checked_as: Record<string, string>},
+   *   judging: {file: string, checked_as: Record<string, string>}, bands: {file: string},
    * }} contents
    * @param {(file: string) => Promise<WebAssembly.Module>} moduleOf the compiled module of a file
    */
@@ -299,7 +299,17 @@ export class Engine {
    * @param {string} structure
    */
   async load(structure) {
-    await Promise.all([this.contents.oils.file, ...this.#filesOf(structure)].map((each) => this.#kernel(each)));
+    await Promise.all(this.filesFor(structure).map((each) => this.#kernel(each)));
+  }
+
+  /** Load a module that is of no structure. @param {string} file */
+  async loadFile(file) {
+    await this.#kernel(file);
+  }
+
+  /** The files of a structure and of the oils. @param {string} structure */
+  filesFor(structure) {
+    return [this.contents.oils.file, ...this.#filesOf(structure)];
   }
 
   /** @param {string} structure */
@@ -349,6 +359,16 @@ export class Engine {
    */
   judge(spec, values) {
     return this.#loaded(this.contents.judging.file).evaluate(spec, values, 1);
+  }
+
+  /**
+   * What a function of the module of bands gives; null is none.
+   * @param {Spec} spec
+   * @param {Values} values
+   * @param {number} count
+   */
+  draw(spec, values, count) {
+    return this.#loaded(this.contents.bands.file).evaluate(spec, values, count);
   }
 
   /** @param {string} file */
