@@ -18,7 +18,7 @@ _ENTRY, _ENGINE = "main.js", "engine.js"
 #: The script that computes bands beside the page.
 _WORKER = "band_worker.js"
 _IMPORT = re.compile(r'^import \{[^}]*\} from "(?:\./|\.\./\.\./web/page/)([\w.]+)";\n', re.MULTILINE)
-_EXPORT = re.compile(r"^export (?=const |let |function |async function |class )", re.MULTILINE)
+_EXPORT = re.compile(r"^export (?=const |let |function\*? |async function |class )", re.MULTILINE)
 #: What no file of the page may have at its top, as the files become one.
 _ELSEWISE = re.compile(r"^(?:import|export)\b", re.MULTILINE)
 

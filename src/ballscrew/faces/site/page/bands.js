@@ -52,17 +52,17 @@ export function uncertainIn(bands, question) {
   const oil = question.grade ? "grade" : "viscosity";
   const found = rows.filter((row) => {
     if (row.oil !== undefined && row.oil !== oil) return false;
-    return row.above === undefined || valueOf(question, row.name) > row.above;
+    return row.above === undefined || centralOf(question, row.name) > row.above;
   });
   const isWithin = found.every(({ name, from, to }) => {
-    const value = valueOf(question, name);
+    const value = centralOf(question, name);
     return (from === undefined || value >= from) && (to === undefined || value <= to);
   });
   return isWithin && Object.hasOwn(bands.sobol, found.length) ? found : undefined;
 }
 
 /** @param {Question} question @param {string} name @returns {number} */
-function valueOf(question, name) {
+function centralOf(question, name) {
   return name === TEMPERATURE ? question.temperature : question.inputs[name];
 }
 
@@ -104,7 +104,7 @@ function drawnOf(engine, bands, question, rows, count) {
   /** @type {Drawn} */
   const found = {};
   rows.forEach(({ name, form, numbers }, place) => {
-    const values = { ...numbers, u: shares[place], value: valueOf(question, name) };
+    const values = { ...numbers, u: shares[place], value: centralOf(question, name) };
     found[name] = engine.draw(bands.functions[form], values, count).drawn;
   });
   const { [TEMPERATURE]: temperatures, ...others } = found;
@@ -159,7 +159,9 @@ export function* bandsOf(engine, bands, question, budget) {
     const names = isFan ? [TORQUE] : bands.outputs;
     const drawn = drawnOf(engine, bands, question, isFan ? rows.filter(({ name }) => name !== SPEED) : rows, count);
     /** @type {Record<string, Float64Array>[]} */
-    const found = speeds.map(() => Object.fromEntries([...names, "valid"].map((name) => [name, new Float64Array(count)])));
+    const found = speeds.map(() =>
+      Object.fromEntries([...names, "valid"].map((name) => [name, new Float64Array(count)])),
+    );
     for (let first = 0; first < count; ) {
       const some = Math.min(count - first, Math.max(1, Math.floor(points / speeds.length)));
       const began = performance.now();
