@@ -96,14 +96,17 @@ export class Banding {
     await this.engine.loadFile(this.contents.bands.file);
     const steps = bandsOf(this.engine, this.contents.bands, question, PAGE_STEP);
     let milliseconds = 0;
-    const idle = globalThis.requestIdleCallback ?? ((/** @type {() => void} */ run) => setTimeout(run, 1));
-    const go = () => {
-      if (own !== this.id) return;
-      const began = performance.now();
-      const { value, done } = steps.next();
-      milliseconds += performance.now() - began;
-      if (done) return;
-      if (value) this.#hear(own, { [value.kind]: value, milliseconds });
+    const idle =
+      globalThis.requestIdleCallback ?? ((/** @type {(idle?: IdleDeadline) => void} */ run) => setTimeout(run, 1));
+    const go = (/** @type {IdleDeadline | undefined} */ deadline) => {
+      do {
+        if (own !== this.id) return;
+        const began = performance.now();
+        const { value, done } = steps.next();
+        milliseconds += performance.now() - began;
+        if (done) return;
+        if (value) this.#hear(own, { [value.kind]: value, milliseconds });
+      } while ((deadline?.timeRemaining() ?? 0) > PAGE_STEP);
       idle(go);
     };
     idle(go);

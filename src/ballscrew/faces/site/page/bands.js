@@ -31,8 +31,8 @@
  */
 /** @typedef {Record<string, Float64Array>} Drawn */
 
-const TORQUE = "screw_torque";
-const SPEED = "screw_speed";
+export const TORQUE = "screw_torque";
+export const SPEED = "screw_speed";
 const TEMPERATURE = "temperature";
 /** Points of a step before it is known how long one takes. */
 const FIRST_POINTS = 16;

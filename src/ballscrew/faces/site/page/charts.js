@@ -1,5 +1,6 @@
 // The charts of the page.
 
+import { SPEED, TORQUE } from "./bands.js";
 import { colourOf, evenly, evenlyLog, rounded, spanOf } from "./plot.js";
 import { inShownUnit, inSiUnit, reasonsIn, View } from "./view.js";
 import { digitsOf, element, plainDigits, say, sayNamed, signOf, withUnit } from "./words.js";
@@ -7,8 +8,6 @@ import { digitsOf, element, plainDigits, say, sayNamed, signOf, withUnit } from 
 /** @typedef {import("./view.js").Columns} Columns */
 /** @typedef {import("./view.js").Scene} Scene */
 
-const TORQUE = "screw_torque";
-const SPEED = "screw_speed";
 const LOAD = "axial_load";
 /** Points along an axis, and the least of them while a slider moves. */
 const POINTS = 161;

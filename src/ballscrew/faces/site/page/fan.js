@@ -1,5 +1,6 @@
 // How far off the numbers of a case may be: the ends between which most samples lie, and a fan over the speed.
 
+import { SPEED, TORQUE } from "./bands.js";
 import { axisOf, BEGIN, endOf, torqueTitle } from "./charts.js";
 import { colourOf, evenly, rounded, spanOf } from "./plot.js";
 import { inShownUnit, inSiUnit, View } from "./view.js";
@@ -8,8 +9,6 @@ import { digitsOf, element, say, signOf } from "./words.js";
 /** @typedef {import("./view.js").Columns} Columns */
 /** @typedef {import("./view.js").Scene} Scene */
 
-const TORQUE = "screw_torque";
-const SPEED = "screw_speed";
 /** Points of the line in the middle, and the least of them while a slider moves. */
 const POINTS_OF_LINE = 81;
 const LEAST_OF_LINE = 9;

@@ -129,6 +129,7 @@ function edit(name, shown) {
 /** Compute the numbers of the operating point at once; the rest is drawn when there is time. */
 function changed() {
   banding.drop();
+  delete document.documentElement.dataset.band;
   compute();
   for (const view of views) view.isDirty = true;
   clearTimeout(restTimer);
@@ -169,6 +170,7 @@ function askBand() {
 /** Show what was found of the band. @param {import("./banding.js").Banded} banded */
 function showBand(banded) {
   /** @type {any} */ (globalThis).ballscrewBand = banded;
+  document.documentElement.dataset.band = banded.isMissing ? "none" : banded.fan ? "fan" : "point";
   headline.writeBand();
   fan.isDirty = true;
   askIdle();
