@@ -10,6 +10,7 @@ import numpy as np
 from ballscrew.cases.case_files import uncertain_inputs
 from ballscrew.engine.uncertainty import bands
 from ballscrew.faces.site import kinds
+from ballscrew.questions.band.compute import of_makers
 from support.judged_in_node import JudgedPage, case_at
 from support.modules_in_node import ENGINE, PAGE
 from support.node import node
@@ -27,7 +28,8 @@ class BandsPage(JudgedPage):
         tables = self.contents["starts"][start]
         oil = {"grade": tables["grade"] or "", "temperature": tables["temperature"] or 313.15}
         inputs = self.inputs(start, structure, **changes)
-        return {"structure": "/".join(structure), "inputs": inputs, **oil, "kept": [], "speeds": list(speeds)}
+        chosen = {"structure": "/".join(structure), "start": start, "kept": list(changes)}
+        return {**chosen, "inputs": inputs, **oil, "speeds": list(speeds)}
 
     def bands(self, questions, step=STEP):
         """What the page finds."""
@@ -40,14 +42,14 @@ class BandsPage(JudgedPage):
 
 
 def arguments_of(start, structure, question):
-    """What :func:`ballscrew.band` is given for the same case, without other laws."""
+    """What :func:`ballscrew.band` is given for the same case, with the calibrations of makers and without other laws."""
     case = case_at(start, structure, question["inputs"])
     if question["grade"]:  # an oil of a grade is uncertain by its temperature
         lubricant = dataclasses.replace(kinds.case_of(start, *structure).lubricant, temperature=question["temperature"])
         case = dataclasses.replace(case, lubricant=lubricant)
     uncertain = {name: one.distribution for name, one in uncertain_inputs.all_of(case).items()}
     parts = {"model": case.model, "screw": case.screw, "lubricant": case.lubricant}
-    return {**parts, "uncertain": uncertain, "axial_load": float(case.operation.axial_load)}
+    return {**parts, "uncertain": uncertain, "axial_load": float(case.operation.axial_load), "alternatives": of_makers(case)}
 
 
 def band_of_program(start, structure, question, samples, outputs):

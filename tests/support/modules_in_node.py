@@ -27,9 +27,11 @@ class Modules:
         made = {pair: modules.module_of_structure(*pair) for pair in structures}
         of_oils, solver = module_of_oils(), module_of_solver()
         judging, banding = module_of_judging(), module_of_banding()
-        for module in (*made.values(), of_oils, solver, judging.module, banding.module):
+        found = {pair: modules.module_of_calibrated(*pair) for pair in structures}
+        calibrated = {pair: module for pair, module in found.items() if module is not None}
+        for module in (*made.values(), *calibrated.values(), of_oils, solver, judging.module, banding.module):
             (folder / module.file).write_bytes(module.code)
-        self.contents = contents(made, of_oils, oils(), solver.file, judging, banding)
+        self.contents = contents(made, of_oils, oils(), solver.file, judging, banding, calibrated)
 
     def evaluate(self, structure, points, one=None):
         """The outputs at points, arrays of one length by name; what is the same at all of them stands in ``one``."""

@@ -36,11 +36,11 @@ def test_the_ends_are_those_of_the_program(page, structure, start):
     band = band_of_program(start, structure, question, found["point"]["count"], outputs)
     assert {"screw_torque", "drive_torque", "efficiency"} <= {*outputs}
     for name, ends in found["point"]["ends"].items():
-        assert (ends["low"], ends["high"]) == pytest.approx(band[name].parameters, rel=TOLERANCE), name
+        assert (ends["low"], ends["high"]) == pytest.approx(band[name].both, rel=TOLERANCE), name
     assert found["point"]["invalid"] == band.invalid_share
     fan = fan_of_program(start, structure, question, found["fan"]["count"])
-    assert found["fan"]["lows"] == pytest.approx(fan.parameters[0], rel=TOLERANCE)
-    assert found["fan"]["highs"] == pytest.approx(fan.parameters[1], rel=TOLERANCE)
+    assert found["fan"]["lows"] == pytest.approx(fan.both[0], rel=TOLERANCE)
+    assert found["fan"]["highs"] == pytest.approx(fan.both[1], rel=TOLERANCE)
 
 
 def test_the_ends_do_not_depend_on_the_steps(page):
@@ -69,17 +69,17 @@ def test_what_is_uncertain_is_as_in_the_program(page, changes):
     assert found["names"] == list(uncertain_inputs.all_of(case_at(kinds.PAPER, structure, question["inputs"])))
     band = band_of_program(kinds.PAPER, structure, question, found["point"]["count"], ["screw_torque"])
     ends = found["point"]["ends"]["screw_torque"]
-    assert (ends["low"], ends["high"]) == pytest.approx(band["screw_torque"].parameters, rel=TOLERANCE)
+    assert (ends["low"], ends["high"]) == pytest.approx(band["screw_torque"].both, rel=TOLERANCE)
 
 
 def test_a_model_with_numbers_that_no_module_reads_has_no_band(page):
     assert banding.uncertain_of("olaru2005", "row") == []
-    assert page.bands([page.question(kinds.PAPER, ("olaru2005", "row"))]) == [{"steps": 0}]
+    assert page.bands([page.question(kinds.PAPER, ("olaru2005", "row"))]) == [{"makers": [], "steps": 0}]
 
 
 def test_a_number_too_near_its_bound_has_no_band(page):
     question = page.question(kinds.PAPER, STRUCTURES[0], screw_conformity=0.9)
-    assert page.bands([question]) == [{"steps": 0}]
+    assert page.bands([question]) == [{"makers": [], "steps": 0}]
 
 
 SHARES = np.concatenate([sobol_sequence(1, 512)[0], 0.5 ** np.arange(1.0, 31.0), 1 - 0.5 ** np.arange(2.0, 31.0)])

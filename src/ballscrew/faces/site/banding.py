@@ -1,13 +1,13 @@
 """The band of the static page: which inputs are uncertain and by how much, and the random numbers, as tables.
 
-All is that of :func:`ballscrew.engine.uncertainty.bands.band` with the default distributions of a case and without
-other laws: the same Sobol' points, so the same samples. Scripts take the points from the direction numbers, a module
-makes values of them, and the module of the model makes torques of these.
+All is that of :func:`ballscrew.engine.uncertainty.bands.band` with the default distributions of a case and the
+calibrations of makers, without other laws: the same Sobol' points, so the same samples. Scripts take the points from
+the direction numbers, a module makes values of them, and the module of the model makes torques of these.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,7 +19,7 @@ from ballscrew.compiler.tracing.merging import merged_program
 from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.tape import Tape
 from ballscrew.engine.evaluation.outputs import inputs_of
-from ballscrew.engine.uncertainty.band_evaluation import tails
+from ballscrew.engine.uncertainty.band_evaluation import DERIVED_OUTPUTS, Sample, tails
 from ballscrew.engine.uncertainty.default_uncertainties import (
     NEAR,
     NORMAL_95,
@@ -27,11 +27,11 @@ from ballscrew.engine.uncertainty.default_uncertainties import (
     default_distributions,
 )
 from ballscrew.engine.uncertainty.distributions import UNREACHED, allowed, standard_normal_share
-from ballscrew.exports.wasm_modules import Function, Module, compiled, described
+from ballscrew.exports.wasm_modules import Function, KeptModule, Module, compiled, described
 from ballscrew.faces.site import kinds
 from ballscrew.faces.site.modules import inputs_of_module
 from ballscrew.physics.components.materials import TEMPERATURE
-from ballscrew.questions.band.compute import LEVEL
+from ballscrew.questions.band.compute import LEVEL, PRESSING, of_makers
 
 #: Samples at the operating point, and at each speed of the fan; powers of two.
 SAMPLES = {"point": 2**12, "fan": 2**9}
@@ -40,6 +40,8 @@ SAMPLES_BY_BALL = {"point": 2**9, "fan": 2**7}
 #: Speeds of the fan.
 SPEEDS, SPEEDS_BY_BALL = 25, 9
 SEED = 0
+#: What is evaluated of each sample, and what its torque is moved by.
+DRAWN = ("screw_torque", "ideal_torque", "drive_torque", "factor")
 #: What has a band on the page, where the module of the nut gives it.
 OUTPUTS = ("screw_torque", "drive_torque", "efficiency", "back_driving_efficiency")
 #: A start whose oil is of a grade; that of the paper is given by its viscosity.
@@ -55,7 +57,10 @@ FORMS: Mapping[str, tuple[str, ...]] = {
 
 
 class Banding(NamedTuple):
-    """The module that makes values of shares, and its function for each form of uncertainty."""
+    """The module that makes values of shares, and its functions.
+
+    There is one for each form of uncertainty, for the ratio of two torques, and for what follows from a torque.
+    """
 
     module: Module
     functions: Mapping[str, Function]
@@ -65,17 +70,33 @@ class Banding(NamedTuple):
 
 
 def module_of_banding() -> Banding:
-    """The module of the quantiles: by form, the value at a share of its distribution about a central value."""
-    programs: list[tuple[str, tuple[str, ...], Program]] = []
-    for form, numbers in FORMS.items():
-        names = ("u", "value", *numbers)
-        tape = Tape(len(names))
-        traced = {name: tape.value(place) for place, name in enumerate(names)}
-        with np.errstate(all="ignore"):
-            drawn = quantile(form, **traced)
-        programs.append((form, names, merged_program(tape, {"drawn": drawn})))
+    """The module of the quantiles: by form, the value at a share of its distribution about a central value.
+
+    Beside them are ``ratio``, by which a calibration moves a torque, and ``derived``, the outputs with it moved.
+    """
+    programs = [
+        _recorded(form, ("u", "value", *numbers), lambda form=form, **given: {"drawn": quantile(form, **given)})
+        for form, numbers in FORMS.items()
+    ]
+    programs += [_recorded("ratio", ("torque", "central"), lambda torque, central: {"ratio": torque / central})]
+    programs += [_recorded("derived", DRAWN, _derived)]
     module = compiled(programs)
     return Banding(module, {function.name: function for function in module.functions})
+
+
+def _recorded(
+    name: str, inputs: tuple[str, ...], of: Callable[..., Mapping[str, Any]]
+) -> tuple[str, tuple[str, ...], Program]:
+    """A function of inputs as a program, with its name and theirs."""
+    tape = Tape(len(inputs))
+    with np.errstate(all="ignore"):
+        found = of(**{one: tape.value(place) for place, one in enumerate(inputs)})
+    return name, inputs, merged_program(tape, found)
+
+
+def _derived(**given: Any) -> dict[str, Any]:
+    drawn = Sample(**given)
+    return {name: DERIVED_OUTPUTS[name](drawn) for name in OUTPUTS}
 
 
 def quantile(form: str, u: Any, value: Any, **numbers: Any) -> Any:
@@ -161,17 +182,26 @@ def _polynomial(x: Any, coefficients: Sequence[float]) -> Any:
 # -- the tables -----------------------------------------------------------------------------------
 
 
-def contents_of_bands(banding: Banding, structures: Sequence[tuple[str, str]]) -> dict[str, Any]:
-    """What the page knows of bands; structures of which some uncertain number is no input have none."""
+def contents_of_bands(
+    banding: Banding, structures: Sequence[tuple[str, str]], calibrated: Mapping[tuple[str, str], KeptModule]
+) -> dict[str, Any]:
+    """What the page knows of bands; structures of which some uncertain number is no input have none.
+
+    ``calibrated`` are the modules of those whose makers ask for other torques.
+    """
     tables = {f"{model}/{kind}": uncertain_of(model, kind) for model, kind in structures}
     tables = {name: table for name, table in tables.items() if table}
-    counts = {d for table in tables.values() for d in dimensions_of(table)}
+    makers = {f"{m}/{kind}/makers": _of_makers(m, kind, module) for (m, kind), module in calibrated.items()}
+    slots = 1 if makers else 0
+    counts = {d + more for table in tables.values() for d in dimensions_of(table) for more in range(slots + 1)}
     return {
         "file": banding.module.file,
-        "functions": {form: described(function) for form, function in banding.functions.items()},
+        "functions": {name: described(function) for name, function in banding.functions.items()},
         "level": LEVEL,
         "tails": tails(LEVEL),
         "outputs": list(OUTPUTS),
+        "drawn": list(DRAWN[:-1]),
+        "makers": makers,
         "samples": {"usual": SAMPLES, "by_ball": SAMPLES_BY_BALL},
         "speeds": {"usual": SPEEDS, "by_ball": SPEEDS_BY_BALL},
         "uncertain": tables,
@@ -201,6 +231,30 @@ def uncertain_of(model: str, kind: str) -> list[dict[str, Any]]:
     places = {name: place for entries in found.values() for place, name in enumerate(one["name"] for one in entries)}
     unique = {(row["name"], row.get("oil")): row for row in rows}
     return sorted(unique.values(), key=lambda row: places[row["name"]])
+
+
+def _of_makers(model: str, kind: str, module: KeptModule) -> dict[str, Any]:
+    """The calibrations that are drawn beside a structure, and its module with their numbers as inputs.
+
+    ``of_starts`` has the names of those of a start where they are not all, and ``values`` those of inputs that say what
+    the balls press with: where one has another, none is drawn.
+    """
+    case = kinds.case_of(kinds.PAPER, model, kind)
+    numbers = {one.name: {_SHARE: float(getattr(one.model.ball_force, _SHARE_OF))} for one in of_makers(case)}
+    names = {start: [one.name for one in of_makers(kinds.case_of(start, model, kind))] for start in kinds.start_tables()}
+    subject = kinds.subject_of(case)
+    pressing = [name for name in inputs_of_module(subject) if name.partition(".")[0] in PRESSING]
+    return {
+        **module.document,
+        "calibrations": numbers,
+        "of_starts": {start: drawn for start, drawn in names.items() if drawn != list(numbers)},
+        "values": {name: float(subject.value_of(name)) for name in pressing},
+    }
+
+
+#: The number that a calibration of a maker sets.
+_SHARE_OF = "share_of_load"
+_SHARE = f"ball_force.{_SHARE_OF}"
 
 
 def _entry(case: Case, name: str, why: DefaultUncertainty) -> dict[str, Any]:

@@ -24,12 +24,13 @@ from ballscrew.physics.sizing.catalogue import catalogue
 
 def contents(
     modules: Mapping[tuple[str, str], KeptModule], oils: Module, grades: tuple[str, ...], solver: str, judging: Judging,
-    banding: Banding,
+    banding: Banding, calibrated: Mapping[tuple[str, str], KeptModule] | None = None,
 ) -> dict[str, Any]:
     """The contents as one JSON document; numbers are in SI.
 
     ``modules`` are those of models and kinds of nut, ``oils`` that of the ``grades``, ``solver`` the file of that of
-    the balls, ``judging`` that of verdicts and checks, ``banding`` that of the values that a band draws.
+    the balls, ``judging`` that of verdicts and checks, ``banding`` that of the values that a band draws, ``calibrated``
+    those of structures as makers' torques ask for them.
     """
     words = vocabulary()
     subjects = {pair: kinds.subject_of(kinds.case_of(kinds.PAPER, *pair)) for pair in modules}
@@ -47,7 +48,7 @@ def contents(
         "solver": solver,
         "oils": {"file": oils.file, "grades": {grade: described(function) for grade, function in of_oils}},
         "judging": contents_of_judging(judging),
-        "bands": contents_of_bands(banding, list(modules)),
+        "bands": contents_of_bands(banding, list(modules), calibrated or {}),
         "fields": _fields(subjects),
         "results": {name: _described(output.quantity) for name, output in known.items() if name in given},
         "mechanisms": words["mechanisms"],

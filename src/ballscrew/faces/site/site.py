@@ -19,7 +19,7 @@ from ballscrew.faces.site import bundle, kinds
 from ballscrew.faces.site.banding import module_of_banding
 from ballscrew.faces.site.contents import contents
 from ballscrew.faces.site.judging import CHECKED_AS, module_of_judging
-from ballscrew.faces.site.modules import module_of_structure
+from ballscrew.faces.site.modules import module_of_calibrated, module_of_structure
 
 #: Files of the folder that are as they are in the package.
 _PLAIN = ("style.css", "icon.svg")
@@ -57,16 +57,20 @@ def site(
     chosen = _chosen(models, nuts)
     total = len(chosen) + 1
     modules: dict[tuple[str, str], KeptModule] = {}
+    calibrated: dict[tuple[str, str], KeptModule] = {}
     for place, pair in enumerate(chosen):
         done(place, total)
         modules[pair] = module_of_structure(*pair)
+        beside = module_of_calibrated(*pair)
+        if beside is not None:
+            calibrated[pair] = beside
     grades = oils()
     of_oils = module_of_oils()
     done(total, total)
     solver, judging, banding = module_of_solver(), module_of_judging(), module_of_banding()
-    all_modules = (*modules.values(), of_oils, solver, judging.module, banding.module)
+    all_modules = (*modules.values(), *calibrated.values(), of_oils, solver, judging.module, banding.module)
     codes = {module.file: module.code for module in all_modules}
-    known = contents(modules, of_oils, grades, solver.file, judging, banding)
+    known = contents(modules, of_oils, grades, solver.file, judging, banding, calibrated)
     return _single(known, codes) if single else _folder(known, codes)
 
 

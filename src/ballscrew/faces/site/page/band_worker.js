@@ -1,7 +1,7 @@
 // Computes bands beside the page, so that nothing waits for them. It is sent modules that are compiled already, and
 // asks for nothing. A later question takes the place of an earlier one.
 
-import { bandsOf } from "./bands.js";
+import { bandsOf, calibratedOf, makersIn } from "./bands.js";
 import { Engine } from "../../web/page/engine.js";
 
 /** Milliseconds of a step: an outdated question is dropped after one. */
@@ -25,6 +25,7 @@ function pause() {
 async function answer(id, question) {
   if (engine === undefined) return;
   await engine.load(question.structure);
+  if (makersIn(known.bands, question).length) await engine.load(calibratedOf(question));
   await engine.loadFile(known.bands.file);
   const began = performance.now();
   for (const band of bandsOf(engine, known.bands, question, STEP)) {

@@ -1,7 +1,7 @@
 // Asks for bands, of a worker where the page has one: a page of one file and one that is opened from a folder have none,
 // as browsers start workers only from where a server sent them. There it goes on in steps while nothing else is to do.
 
-import { bandsOf, uncertainIn } from "./bands.js";
+import { bandsOf, calibratedOf, makersIn, uncertainIn } from "./bands.js";
 
 /** @typedef {import("./bands.js").Question} Question */
 /** @typedef {import("./bands.js").PointBand} PointBand */
@@ -9,7 +9,7 @@ import { bandsOf, uncertainIn } from "./bands.js";
 /**
  * What is known of the band of the case: nothing while it is computed.
  * @typedef {{
- *   point?: PointBand, fan?: FanBand, inputs?: number, isMissing?: boolean, isBeside: boolean, milliseconds: number,
+ *   point?: PointBand, fan?: FanBand, inputs?: number, makers?: string[], isMissing?: boolean, isBeside: boolean, milliseconds: number,
  * }} Banded
  */
 
@@ -53,6 +53,7 @@ export class Banding {
       return;
     }
     this.banded.inputs = rows.length;
+    this.banded.makers = makersIn(this.contents.bands, question);
     try {
       if (this.file) await this.#askWorker(own, question);
       else await this.#askHere(own, question);
@@ -64,19 +65,26 @@ export class Banding {
 
   /** @param {number} own @param {Question} question */
   async #askWorker(own, question) {
-    const files = [...this.engine.filesFor(question.structure), this.contents.bands.file];
-    const wanted = files.filter((file) => !this.sent.has(file));
+    const structures = this.#structuresOf(question);
+    const files = [...structures.flatMap((name) => this.engine.filesFor(name)), this.contents.bands.file];
+    const wanted = files.filter((file, place) => !this.sent.has(file) && files.indexOf(file) === place);
     const modules = await Promise.all(wanted.map(async (file) => [file, await this.moduleOf(file)]));
     if (own !== this.id) return;
-    const { structures, oils, solver, bands } = this.contents;
+    const { oils, solver, bands } = this.contents;
     /** @type {any} */
     const message = { id: own, question, modules };
     if (this.worker === undefined) {
       this.worker = this.#begun();
-      message.contents = { structures, oils, solver, bands }; // what is judged is of no use there
+      message.contents = { structures: this.contents.structures, oils, solver, bands }; // what is judged is of no use there
     }
     this.worker.postMessage(message);
     for (const file of wanted) this.sent.add(file);
+  }
+
+  /** What is evaluated. @param {Question} question */
+  #structuresOf(question) {
+    const { structure } = question;
+    return makersIn(this.contents.bands, question).length ? [structure, calibratedOf(question)] : [structure];
   }
 
   #begun() {
@@ -94,6 +102,7 @@ export class Banding {
   /** @param {number} own @param {Question} question */
   async #askHere(own, question) {
     await this.engine.loadFile(this.contents.bands.file);
+    for (const name of this.#structuresOf(question)) await this.engine.load(name);
     const steps = bandsOf(this.engine, this.contents.bands, question, PAGE_STEP);
     let milliseconds = 0;
     const idle =

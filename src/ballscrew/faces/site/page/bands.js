@@ -12,15 +12,22 @@
 /**
  * @typedef {{
  *   file: string, functions: Record<string, import("../../web/page/engine.js").Spec>, level: number, tails: number[],
- *   outputs: string[], samples: Record<string, Record<string, number>>, speeds: Record<string, number>,
+ *   outputs: string[], drawn: string[], makers: Record<string, Makers>, samples: Record<string, Record<string, number>>, speeds: Record<string, number>,
  *   uncertain: Record<string, Uncertain[]>, sobol: Record<string, { unit: number, first: number[], turns: number[][] }>,
  * }} Bands
  */
 /**
- * What a band is asked of: all inputs in SI, the oil with its temperature in kelvin and the inputs that it does not set,
- * and the speeds of the fan in SI.
+ * What makers' torques ask for, which is drawn beside a model: the inputs that each sets, their names by start where they
+ * are not all, and values of inputs: where one has another, none is drawn.
+ * @typedef {import("../../web/page/engine.js").Structure & {
+ *   calibrations: Record<string, Record<string, number>>, of_starts: Record<string, string[]>, values: Record<string, number>,
+ * }} Makers
+ */
+/**
+ * What a band is asked of: all inputs in SI, the oil with its temperature in kelvin, the inputs that were changed, which
+ * the oil does not set, and the speeds of the fan in SI.
  * @typedef {{
- *   structure: string, inputs: Record<string, any>, grade: string, temperature: number, kept: string[], speeds: number[],
+ *   structure: string, start: string, inputs: Record<string, any>, grade: string, temperature: number, kept: string[], speeds: number[],
  * }} Question
  */
 /** @typedef {{ low: number, high: number }} Ends */
@@ -58,7 +65,56 @@ export function uncertainIn(bands, question) {
     const value = centralOf(question, name);
     return (from === undefined || value >= from) && (to === undefined || value <= to);
   });
-  return isWithin && Object.hasOwn(bands.sobol, found.length) ? found : undefined;
+  const slots = makersIn(bands, question).length ? 1 : 0;
+  return isWithin && Object.hasOwn(bands.sobol, found.length + slots) ? found : undefined;
+}
+
+/** The structure with the numbers of makers. @param {Question} question */
+export function calibratedOf({ structure }) {
+  return `${structure}/makers`;
+}
+
+/**
+ * The names of the calibrations of makers that are drawn beside the model of a case.
+ *
+ * @param {Bands} bands
+ * @param {Question} question
+ */
+export function makersIn(bands, question) {
+  const makers = bands.makers[calibratedOf(question)];
+  if (makers === undefined || !(question.inputs.preload > 0)) return [];
+  if (Object.entries(makers.values).some(([name, value]) => question.inputs[name] !== value)) return [];
+  return makers.of_starts[question.start] ?? Object.keys(makers.calibrations);
+}
+
+/**
+ * By what the calibrations of makers move the torque at each of some speeds, those that are valid where the model is;
+ * the first leaves it as it is.
+ *
+ * @param {import("../../web/page/engine.js").Engine} engine
+ * @param {Bands} bands
+ * @param {Question} question
+ * @param {number[]} speeds
+ * @returns {number[][]}
+ */
+function ratiosOf(engine, bands, question, speeds) {
+  const found = speeds.map(() => [1]);
+  const names = makersIn(bands, question);
+  if (names.length === 0) return found;
+  const here = { ...question.inputs, [SPEED]: speeds };
+  const own = engine.evaluate(question.structure, here, speeds.length);
+  const masks = Object.keys(own).filter((name) => name.startsWith("validity_"));
+  const structure = calibratedOf(question);
+  for (const name of names) {
+    const other = engine.evaluate(structure, { ...here, ...bands.makers[structure].calibrations[name] }, speeds.length);
+    const values = { torque: other[TORQUE], central: own[TORQUE] };
+    const { ratio } = engine.draw(bands.functions.ratio, values, speeds.length);
+    speeds.forEach((_, place) => {
+      const isValid = masks.every((mask) => other[mask][place] === 1 || own[mask][place] !== 1);
+      if (isValid && Number.isFinite(ratio[place]) && ratio[place] > 0) found[place].push(ratio[place]);
+    });
+  }
+  return found;
 }
 
 /** @param {Question} question @param {string} name @returns {number} */
@@ -96,11 +152,11 @@ export function sharesOf({ unit, first, turns }, count) {
  * @param {Bands} bands
  * @param {Question} question
  * @param {Uncertain[]} rows
- * @param {number} count
+ * @param {Float64Array[]} shares
  * @returns {Drawn}
  */
-function drawnOf(engine, bands, question, rows, count) {
-  const shares = sharesOf(bands.sobol[rows.length], count);
+function drawnOf(engine, bands, question, rows, shares) {
+  const count = shares[0].length;
   /** @type {Drawn} */
   const found = {};
   rows.forEach(({ name, form, numbers }, place) => {
@@ -132,6 +188,18 @@ function endsOf(values, tails) {
   return { low, high };
 }
 
+/**
+ * The factor of each sample: one of those in turn, all equally likely.
+ *
+ * @param {number[]} ratios
+ * @param {Float64Array | undefined} shares
+ * @param {number} count
+ */
+function factorsOf(ratios, shares, count) {
+  if (shares === undefined) return new Float64Array(count).fill(1);
+  return shares.map((share) => ratios[Math.min(ratios.length - 1, Math.floor(share * ratios.length))]);
+}
+
 /** The share that is not valid. @param {Float64Array} valid */
 function invalidOf(valid) {
   return valid.filter((value) => value !== 1).length / valid.length;
@@ -157,10 +225,12 @@ export function* bandsOf(engine, bands, question, budget) {
     const count = samples[kind];
     const speeds = isFan ? question.speeds : [question.inputs[SPEED]];
     const names = isFan ? [TORQUE] : bands.outputs;
-    const drawn = drawnOf(engine, bands, question, isFan ? rows.filter(({ name }) => name !== SPEED) : rows, count);
+    const ratios = ratiosOf(engine, bands, question, speeds);
+    const shares = sharesOf(bands.sobol[rows.length + (makersIn(bands, question).length ? 1 : 0)], count);
+    const drawn = drawnOf(engine, bands, question, rows, shares);
     /** @type {Record<string, Float64Array>[]} */
     const found = speeds.map(() =>
-      Object.fromEntries([...names, "valid"].map((name) => [name, new Float64Array(count)])),
+      Object.fromEntries([...bands.drawn, "valid"].map((name) => [name, new Float64Array(count)])),
     );
     for (let first = 0; first < count; ) {
       const some = Math.min(count - first, Math.max(1, Math.floor(points / speeds.length)));
@@ -171,12 +241,16 @@ export function* bandsOf(engine, bands, question, budget) {
       first += some;
       yield;
     }
+    const derived = found.map((one, place) => {
+      const factor = factorsOf(ratios[place], shares[rows.length], count);
+      return engine.draw(bands.functions.derived, { ...one, factor }, count);
+    });
     if (!isFan) {
-      const ends = Object.fromEntries(names.map((name) => [name, endsOf(found[0][name], bands.tails)]));
+      const ends = Object.fromEntries(names.map((name) => [name, endsOf(derived[0][name], bands.tails)]));
       yield { kind, count, ends, invalid: invalidOf(found[0].valid) };
       continue;
     }
-    const ends = found.map((one) => endsOf(one[TORQUE], bands.tails));
+    const ends = derived.map((one) => endsOf(one[TORQUE], bands.tails));
     const [lows, highs] = [ends.map(({ low }) => low), ends.map(({ high }) => high)];
     yield { kind, count, speeds, lows, highs, invalid: found.map(({ valid }) => invalidOf(valid)) };
   }

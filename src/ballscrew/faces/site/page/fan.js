@@ -93,18 +93,26 @@ export class Fan extends View {
   }
 
   #words() {
-    const { point, inputs = 0, isMissing } = this.scene.banded();
+    const { point, inputs = 0, makers = [], isMissing } = this.scene.banded();
     if (isMissing) return say("There is no band here for this model or these numbers: take the case to the program.");
     if (!point) return "";
     const level = levelOf(this.scene);
     const values = { level, count: String(point.count), inputs: String(inputs) };
-    const words = say(
-      "Between the ends lie {level} of {count} samples of {inputs} inputs that are rarely known, by the usual uncertainties of the program. Other laws of friction, which the band of the program has, are left out: that one is wider.",
-      values,
-    );
-    if (point.invalid === 0) return words;
-    const share = `${digitsOf(100 * point.invalid, 2)} %`;
-    return `${words} ${say("Outside the model's validity lie {share} of the samples.", { share })}`;
+    const sentences = [
+      say(
+        "Between the ends lie {level} of {count} samples of {inputs} inputs that are rarely known, by the usual uncertainties of the program.",
+        values,
+      ),
+    ];
+    if (makers.length) {
+      sentences.push(say("Drawn with them is what makers ask for: {names}.", { names: makers.join(", ") }));
+    }
+    sentences.push(say("Other laws, which the program draws as well, are left out: its band is another one."));
+    if (point.invalid > 0) {
+      const share = `${digitsOf(100 * point.invalid, 2)} %`;
+      sentences.push(say("Outside the model's validity lie {share} of the samples.", { share }));
+    }
+    return sentences.join(" ");
   }
 
   numbers() {

@@ -159,6 +159,7 @@ function askBand() {
   const { grade, edits } = shownCase.state;
   banding.ask({
     structure: shownCase.structure,
+    start: shownCase.state.start,
     inputs: scene.inputs,
     grade,
     temperature: grade ? shownCase.temperature() : Number.NaN,
