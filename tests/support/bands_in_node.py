@@ -42,14 +42,19 @@ class BandsPage(JudgedPage):
 
 
 def arguments_of(start, structure, question):
-    """What :func:`ballscrew.band` is given for the same case, with the calibrations of makers and without other laws."""
+    """What the program is given for the same case, with the calibrations of makers and without other laws."""
     case = case_at(start, structure, question["inputs"])
     if question["grade"]:  # an oil of a grade is uncertain by its temperature
         lubricant = dataclasses.replace(kinds.case_of(start, *structure).lubricant, temperature=question["temperature"])
         case = dataclasses.replace(case, lubricant=lubricant)
     uncertain = {name: one.distribution for name, one in uncertain_inputs.all_of(case).items()}
     parts = {"model": case.model, "screw": case.screw, "lubricant": case.lubricant}
-    return {**parts, "uncertain": uncertain, "axial_load": float(case.operation.axial_load), "alternatives": of_makers(case)}
+    return {
+        **parts,
+        "uncertain": uncertain,
+        "axial_load": float(case.operation.axial_load),
+        "alternatives": of_makers(case),
+    }
 
 
 def band_of_program(start, structure, question, samples, outputs):

@@ -7,6 +7,7 @@ the direction numbers, a module makes values of them, and the module of the mode
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -75,11 +76,9 @@ def module_of_banding() -> Banding:
     Beside them are ``ratio``, by which a calibration moves a torque, and ``derived``, the outputs with it moved.
     """
     programs = [
-        _recorded(form, ("u", "value", *numbers), lambda form=form, **given: {"drawn": quantile(form, **given)})
-        for form, numbers in FORMS.items()
+        _recorded(form, ("u", "value", *numbers), functools.partial(_drawn, form)) for form, numbers in FORMS.items()
     ]
-    programs += [_recorded("ratio", ("torque", "central"), lambda torque, central: {"ratio": torque / central})]
-    programs += [_recorded("derived", DRAWN, _derived)]
+    programs += [_recorded("ratio", ("torque", "central"), _ratios), _recorded("derived", DRAWN, _derived)]
     module = compiled(programs)
     return Banding(module, {function.name: function for function in module.functions})
 
@@ -92,6 +91,14 @@ def _recorded(
     with np.errstate(all="ignore"):
         found = of(**{one: tape.value(place) for place, one in enumerate(inputs)})
     return name, inputs, merged_program(tape, found)
+
+
+def _drawn(form: str, **given: Any) -> dict[str, Any]:
+    return {"drawn": quantile(form, **given)}
+
+
+def _ratios(torque: Any, central: Any) -> dict[str, Any]:
+    return {"ratio": torque / central}
 
 
 def _derived(**given: Any) -> dict[str, Any]:
@@ -131,12 +138,25 @@ def quantile(form: str, u: Any, value: Any, **numbers: Any) -> Any:
 #: Coefficients of the quantile of the normal distribution (``ndtri`` of the Cephes library, which SciPy has, too): in
 #: the middle, over the square of u − ½, and in the tails, over 1/√(−2 log u) for u above e⁻³²; highest power first.
 _MIDDLE = (
-    (-59.9633501014107895267, 98.0010754185999661536, -56.6762857469070293439, 13.9312609387279679503, -1.23916583867381258016),
-    (1.0, 1.95448858338141759834, 4.67627912898881538453, 86.3602421390890590575, -225.462687854119370527, 200.260212380060660359, -82.0372256168333339912, 15.9056225126211695515, -1.18331621121330003142),
+    (
+        -59.9633501014107895267, 98.0010754185999661536, -56.6762857469070293439, 13.9312609387279679503,
+        -1.23916583867381258016,
+    ),
+    (
+        1.0, 1.95448858338141759834, 4.67627912898881538453, 86.3602421390890590575, -225.462687854119370527,
+        200.260212380060660359, -82.0372256168333339912, 15.9056225126211695515, -1.18331621121330003142,
+    ),
 )  # fmt: skip
 _TAIL = (
-    (4.05544892305962419923, 31.5251094599893866154, 57.1628192246421288162, 44.0805073893200834700, 14.6849561928858024014, 2.18663306850790267539, -0.140256079171354495875, -0.0350424626827848203418, -0.000857456785154685413611),
-    (1.0, 15.7799883256466749731, 45.3907635128879210584, 41.3172038254672030440, 15.0425385692907503408, 2.50464946208309415979, -0.142182922854787788574, -0.0380806407691578277194, -0.000933259480895457427372),
+    (
+        4.05544892305962419923, 31.5251094599893866154, 57.1628192246421288162, 44.0805073893200834700,
+        14.6849561928858024014, 2.18663306850790267539, -0.140256079171354495875, -0.0350424626827848203418,
+        -0.000857456785154685413611,
+    ),
+    (
+        1.0, 15.7799883256466749731, 45.3907635128879210584, 41.3172038254672030440, 15.0425385692907503408,
+        2.50464946208309415979, -0.142182922854787788574, -0.0380806407691578277194, -0.000933259480895457427372,
+    ),
 )  # fmt: skip
 _OF_TAIL = 0.13533528323661269189
 
@@ -155,8 +175,15 @@ def _normal_quantile(u: Any) -> Any:
 
 #: Coefficients of erfc(x) exp(x²) for x from 1 to 8, of the same library; highest power first.
 _ERROR_TAIL = (
-    (2.46196981473530512524e-10, 0.564189564831068821977, 7.46321056442269912687, 48.6371970985681366614, 196.520832956077098242, 526.445194995477358631, 934.528527171957607540, 1027.55188689515710272, 557.535335369399327526),
-    (1.0, 13.2281951154744992508, 86.7072140885989742329, 354.937778887819891062, 975.708501743205489753, 1823.90916687909736289, 2246.33760818710981792, 1656.66309194161350182, 557.535340817727675546),
+    (
+        2.46196981473530512524e-10, 0.564189564831068821977, 7.46321056442269912687, 48.6371970985681366614,
+        196.520832956077098242, 526.445194995477358631, 934.528527171957607540, 1027.55188689515710272,
+        557.535335369399327526,
+    ),
+    (
+        1.0, 13.2281951154744992508, 86.7072140885989742329, 354.937778887819891062, 975.708501743205489753,
+        1823.90916687909736289, 2246.33760818710981792, 1656.66309194161350182, 557.535340817727675546,
+    ),
 )  # fmt: skip
 
 
@@ -241,7 +268,9 @@ def _of_makers(model: str, kind: str, module: KeptModule) -> dict[str, Any]:
     """
     case = kinds.case_of(kinds.PAPER, model, kind)
     numbers = {one.name: {_SHARE: float(getattr(one.model.ball_force, _SHARE_OF))} for one in of_makers(case)}
-    names = {start: [one.name for one in of_makers(kinds.case_of(start, model, kind))] for start in kinds.start_tables()}
+    names = {
+        start: [one.name for one in of_makers(kinds.case_of(start, model, kind))] for start in kinds.start_tables()
+    }
     subject = kinds.subject_of(case)
     pressing = [name for name in inputs_of_module(subject) if name.partition(".")[0] in PRESSING]
     return {
@@ -320,7 +349,7 @@ _NEAREST = 1.5
 
 
 def dimensions_of(table: Sequence[Mapping[str, Any]]) -> range:
-    """How many inputs of a table may be uncertain at once: fewer where some are at their bound, which switches them off."""
+    """How many inputs of a table may be uncertain at once: fewer where some are at the bound that switches them off."""
     most = max(sum(row.get("oil") in (None, oil) for row in table) for oil in ("grade", "viscosity"))
     return range(max(1, most - sum(row.get("off", False) for row in table)), most + 1)
 

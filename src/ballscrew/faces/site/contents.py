@@ -23,8 +23,13 @@ from ballscrew.physics.sizing.catalogue import catalogue
 
 
 def contents(
-    modules: Mapping[tuple[str, str], KeptModule], oils: Module, grades: tuple[str, ...], solver: str, judging: Judging,
-    banding: Banding, calibrated: Mapping[tuple[str, str], KeptModule] | None = None,
+    modules: Mapping[tuple[str, str], KeptModule],
+    oils: Module,
+    grades: tuple[str, ...],
+    solver: str,
+    judging: Judging,
+    banding: Banding,
+    calibrated: Mapping[tuple[str, str], KeptModule] | None = None,
 ) -> dict[str, Any]:
     """The contents as one JSON document; numbers are in SI.
 

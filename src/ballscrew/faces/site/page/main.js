@@ -88,8 +88,8 @@ const first = new Parts(scene, "over-speed", {
 });
 const fan = new Fan(scene, "fan");
 const others = [
-  fan,
   new Checks(scene, "checks"),
+  fan,
   new BallView(scene, "ball", engine),
   new Parts(scene, "over-load", { over: "axial_load", heading: "The parts over the load", hint: "" }),
   new EfficiencyMap(scene, "map"),
