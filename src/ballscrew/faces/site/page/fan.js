@@ -12,6 +12,8 @@ import { digitsOf, element, say, signOf } from "./words.js";
 /** Points of the line in the middle, and the least of them while a slider moves. */
 const POINTS_OF_LINE = 81;
 const LEAST_OF_LINE = 9;
+/** Digits of an end, which is rounded outwards. */
+const DIGITS = 4;
 /** What has ends at the operating point, as the names of outputs with their words. */
 const WITH_ENDS = [
   ["screw_torque", "friction torque"],
@@ -30,8 +32,18 @@ export function speedsOfFan(scene) {
 export function wordsOfEnds(scene, name, { low, high }) {
   const { factor, offset, shown_in: unit } = scene.case.contents.results[name];
   const isShare = name.endsWith("efficiency");
-  const shown = [low, high].map((value) => digitsOf(((value - offset) / factor) * (isShare ? 100 : 1), 3));
+  const shown = [low, high].map((value, place) => {
+    return digitsOf(outwards(((value - offset) / factor) * (isShare ? 100 : 1), place === 1), DIGITS);
+  });
   return `${say("{low} to {high}", { low: shown[0], high: shown[1] })} ${isShare ? "%" : signOf(unit)}`.trim();
+}
+
+/** A number of so many digits that is not inside of this one. @param {number} value @param {boolean} isHigh */
+function outwards(value, isHigh) {
+  const near = Number(value.toPrecision(DIGITS));
+  if (!Number.isFinite(value) || (isHigh ? near >= value : near <= value)) return near;
+  const [, exponent] = near.toExponential().split("e");
+  return near + (isHigh ? 1 : -1) * Number(`1e${Number(exponent) - DIGITS + 1}`);
 }
 
 /** The level of the ends, such as 95 %. @param {Scene} scene */
