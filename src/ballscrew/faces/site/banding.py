@@ -20,6 +20,7 @@ from ballscrew.compiler.tracing.merging import merged_program
 from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.tape import Tape
 from ballscrew.engine.evaluation.outputs import inputs_of
+from ballscrew.engine.uncertainty import bands
 from ballscrew.engine.uncertainty.band_evaluation import DERIVED_OUTPUTS, Sample, tails
 from ballscrew.engine.uncertainty.default_uncertainties import (
     NEAR,
@@ -34,10 +35,10 @@ from ballscrew.faces.site.modules import inputs_of_module
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.questions.band.compute import LEVEL, PRESSING, of_makers
 
-#: Samples at the operating point, and at each speed of the fan; powers of two.
-SAMPLES = {"point": 2**12, "fan": 2**9}
+#: Samples at the operating point, as many as in the program, and at each speed of the fan; powers of two.
+SAMPLES = {"point": bands.SAMPLES, "fan": 2**9}
 #: The same of nuts whose balls are solved one by one, each sample anew.
-SAMPLES_BY_BALL = {"point": 2**9, "fan": 2**7}
+SAMPLES_BY_BALL = {"point": bands.NUT_SAMPLES, "fan": 2**7}
 #: Speeds of the fan.
 SPEEDS, SPEEDS_BY_BALL = 25, 9
 SEED = 0
