@@ -20,7 +20,6 @@ from typing import Any
 import numpy as np
 
 from ballscrew.engine.evaluation.outputs import OPERATION
-from ballscrew.engine.evaluation.structures import inputs_of_structure
 from ballscrew.exports.wasm_modules import (
     NUT_DIAMETER,
     KeptModule,
@@ -31,8 +30,10 @@ from ballscrew.exports.wasm_modules import (
     outputs_of,
 )
 from ballscrew.faces.site import kinds
+from ballscrew.faces.site.banding import module_of_banding
 from ballscrew.faces.site.contents import contents
 from ballscrew.faces.site.judging import Judging, module_of_judging
+from ballscrew.faces.site.modules import inputs_of_module, varying_of
 
 sys.path.append(str(Path(__file__).parents[1] / "tests"))
 from support.modules_in_node import evaluated
@@ -52,7 +53,7 @@ def points_of(subject: Any, count: int, seed: int = 1) -> dict[str, Any]:
     """All numbers within a tenth of those of a case, loads and speeds of both signs and none."""
     rng = np.random.default_rng(seed)
     found: dict[str, Any] = {}
-    for name in inputs_of_structure(subject):
+    for name in inputs_of_module(subject):
         usual = {"axial_load": 3000.0, "screw_speed": 50.0}.get(name) or float(subject.value_of(name))
         found[name] = np.full(count, usual) if name in WHOLE else usual * (1 + 0.1 * rng.uniform(-1, 1, count))
     for name in OPERATION:
@@ -78,13 +79,13 @@ def row(structure: tuple[str, str], judging: Judging, folder: Path) -> str:
     """The line of a module."""
     subject = kinds.subject_of(kinds.case_of(START, *structure))
     start = time.process_time()
-    module = module_of(subject)
+    module = module_of(subject, varying=varying_of(subject))
     built = time.process_time() - start
     every, solver = module_of_oils(), module_of_solver()
     for each in (module, every, solver, judging.module):
         (folder / each.file).write_bytes(each.code)
     name = "/".join(structure)
-    known = contents({structure: KeptModule.of(module)}, every, oils(), solver.file, judging)
+    known = contents({structure: KeptModule.of(module)}, every, oils(), solver.file, judging, module_of_banding())
     count = POINTS_OF_ELASTIC if subject.nut.one_by_one else POINTS
     points = points_of(subject, count)
     found, _ = evaluated(folder, known, {"structure": name, "one": {NUT_DIAMETER: None}}, points)

@@ -9,6 +9,7 @@ import numpy as np
 import ballscrew
 from ballscrew.exports.wasm_modules import module_of_oils, module_of_solver, oils
 from ballscrew.faces.site import kinds, modules
+from ballscrew.faces.site.banding import module_of_banding
 from ballscrew.faces.site.contents import contents
 from ballscrew.faces.site.judging import module_of_judging
 from support.node import node
@@ -24,10 +25,13 @@ class Modules:
     def __init__(self, folder, structures):
         self.folder = folder
         made = {pair: modules.module_of_structure(*pair) for pair in structures}
-        of_oils, solver, judging = module_of_oils(), module_of_solver(), module_of_judging()
-        for module in (*made.values(), of_oils, solver, judging.module):
+        of_oils, solver = module_of_oils(), module_of_solver()
+        judging, banding = module_of_judging(), module_of_banding()
+        found = {pair: modules.module_of_calibrated(*pair) for pair in structures}
+        calibrated = {pair: module for pair, module in found.items() if module is not None}
+        for module in (*made.values(), *calibrated.values(), of_oils, solver, judging.module, banding.module):
             (folder / module.file).write_bytes(module.code)
-        self.contents = contents(made, of_oils, oils(), solver.file, judging)
+        self.contents = contents(made, of_oils, oils(), solver.file, judging, banding, calibrated)
 
     def evaluate(self, structure, points, one=None):
         """The outputs at points, arrays of one length by name; what is the same at all of them stands in ``one``."""

@@ -192,13 +192,13 @@ def outputs_of(nut: Nut, outputs: Collection[str] = OUTPUTS) -> Mapping[str, Out
     return {n: output for n, output in known.items() if n in outputs or n.startswith(_PARTS)}
 
 
-def module_of(subject: Configuration, outputs: Collection[str] = OUTPUTS) -> Module:
+def module_of(subject: Configuration, outputs: Collection[str] = OUTPUTS, varying: Sequence[str] = ()) -> Module:
     """The module of a configuration whose oil is its numbers alone, with some outputs and with all parts of the torque.
 
-    Outputs that such a nut has not are left out. Raises
-    :class:`~ballscrew.compiler.tracing.tape.CannotRecordError` for what cannot be recorded.
+    Of numbers that are constants elsewhere, those ``varying`` are inputs, too. Outputs that such a nut has not are left
+    out. Raises :class:`~ballscrew.compiler.tracing.tape.CannotRecordError` for what cannot be recorded.
     """
-    names = inputs_of_structure(subject)
+    names = inputs_of_structure(subject, varying)
     program = recorded_structure(subject, outputs_of(subject.nut, outputs), names)
     if subject.nut.one_by_one:
         return _by_ball(subject, names, program)

@@ -5,7 +5,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.engine.evaluation.outputs import OPERATION, known_outputs
-from ballscrew.engine.evaluation.structures import inputs_of_structure, structure_key
+from ballscrew.engine.evaluation.structures import structure_key
 from ballscrew.exports.wasm_modules import BALL, NUT_DIAMETER, KeptModule, module_of, module_of_oils, outputs_of
 from ballscrew.faces.site import kinds, modules
 from support.modules_in_node import Modules, start_of
@@ -34,7 +34,7 @@ def points_of(subject, count, seed=1):
     """All numbers within a tenth of their values, loads and speeds of both signs and none."""
     rng = np.random.default_rng(seed)
     found = {}
-    for name in inputs_of_structure(subject):
+    for name in modules.inputs_of_module(subject):
         usual = AT_POINT[name] if name in AT_POINT else float(subject.value_of(name))
         found[name] = np.full(count, usual) if name in WHOLE else usual * (1 + 0.1 * rng.uniform(-1, 1, count))
     for name in OPERATION:
@@ -84,7 +84,7 @@ def test_a_module_gives_the_numbers_of_elastic_nuts(built, structure):
 def test_a_curve_over_the_speed_solves_the_balls_once_and_is_that_of_the_model(built):
     structure = ELASTIC[0]
     subject = start_of(structure)
-    one = {name: float(subject.value_of(name)) for name in inputs_of_structure(subject) if name not in OPERATION}
+    one = {name: float(subject.value_of(name)) for name in modules.inputs_of_module(subject) if name not in OPERATION}
     one |= {"axial_load": 4000.0, NUT_DIAMETER: 0.07}
     points = {"screw_speed": np.linspace(-60.0, 60.0, 31)}
     found = built.evaluate(structure, points, one)
@@ -102,7 +102,7 @@ def test_a_curve_over_the_speed_solves_the_balls_once_and_is_that_of_the_model(b
 def test_two_builds_are_equal_and_a_kept_one_is_the_same(structure, tmp_path, monkeypatch):
     monkeypatch.setenv("BALLSCREW_CACHE", str(tmp_path))
     made = modules.module_of_structure(*structure)
-    assert made == KeptModule.of(module_of(start_of(structure)))
+    assert made == KeptModule.of(module_of(start_of(structure), varying=modules.varying_of(start_of(structure))))
     assert made == modules.module_of_structure(*structure)  # from the disk
     monkeypatch.setattr(modules, "module_of", None)  # not made again
     assert made == modules.module_of_structure(*structure)
@@ -121,7 +121,7 @@ def test_every_start_has_the_structure_that_its_module_was_made_of(kind):
         keys = set()
         for start in (kinds.PAPER, *list(kinds.start_tables())[::7]):
             subject = start_of((model, kind), start)
-            names = inputs_of_structure(subject)
+            names = modules.inputs_of_module(subject)
             outputs = known_outputs(subject.nut)
             keys.add(structure_key(subject, tuple(outputs), names))
         assert len(keys) == 1

@@ -34,7 +34,7 @@ def test_two_builds_are_the_same_bytes(files):
 
 def test_a_module_has_the_name_of_its_content(files):
     modules = {name: content for name, content in files.items() if name.endswith(".wasm")}
-    assert len(modules) == 5  # two structures, the oils, the solver of elastic nuts, and what is judged
+    assert len(modules) == 6  # two structures, the oils, the solver of elastic nuts, what is judged, and what is drawn
     for name, content in modules.items():
         assert name == f"kernels/{hashlib.sha256(content).hexdigest()[:16]}.wasm"
         script = files[f"{name}.js"].decode()
@@ -96,7 +96,7 @@ def test_a_page_of_somebody_else_stays(files, tmp_path):
 
 def test_another_version_leaves_no_file_of_the_earlier_one(files, tmp_path):
     site.write(tmp_path, files)
-    for name in ("contents", "page"):
+    for name in ("contents", "page", "bands"):
         (tmp_path / f"{name}-0123456789abcdef.js").write_text("")
     site.write(tmp_path, files)
     assert not list(tmp_path.glob("*-0123456789abcdef.js"))
@@ -170,6 +170,7 @@ def test_the_bundle_refuses_what_it_cannot_join(monkeypatch):
 
 def test_names_at_the_top_of_the_scripts_are_unique():
     """They become one script: a name that stands twice is no script at all."""
-    names = re.findall(r"^(?:const|let|class|function|async function) (\w+)", bundle.script(), re.MULTILINE)
-    assert len(names) > 100
-    assert sorted(names) == sorted(set(names))
+    for script, least in ((bundle.script(), 100), (bundle.worker(), 20)):
+        names = re.findall(r"^(?:const|let|class|function\*?|async function) (\w+)", script, re.MULTILINE)
+        assert len(names) > least
+        assert sorted(names) == sorted(set(names))

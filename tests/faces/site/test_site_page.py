@@ -1,6 +1,7 @@
 """The static page: its numbers are those of the model, its case is that of the program, everybody can use it."""
 
 import json
+import math
 import re
 import tomllib
 from importlib import resources
@@ -11,9 +12,11 @@ from urllib.parse import parse_qs, urlencode
 import axe_playwright_python
 import pytest
 
-from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files import case_file, uncertain_inputs
+from ballscrew.engine.uncertainty import bands
 from ballscrew.faces.site import site
 from ballscrew.physics.sizing.catalogue import catalogue
+from ballscrew.questions.band.compute import of_makers
 
 MODELS = ("reference",)
 NUTS = ("row", "double", "double+elastic")
@@ -100,6 +103,50 @@ def test_cases_made_at_random_are_those_of_the_program(visit, kind):
         found = here.state()
         torque = found["outputs"]["screw_torque"]
         assert torque == pytest.approx(torque_of(found["case"]), rel=TOLERANCE, abs=0), found["case"]
+
+
+def band_of(here):
+    """The band that the page has found, when all of it is there."""
+    here.page.wait_for_selector("html[data-band=fan]")
+    return here.page.evaluate("globalThis.ballscrewBand")
+
+
+def ends_of(tables, count):
+    """The ends of the torque of a case with so many samples, computed by the program without other laws."""
+    case = case_file.build(tables, rows=catalogue())
+    operation = case.operation
+    found = bands.band(
+        case.model, case.screw, case.lubricant, samples=count, alternatives=of_makers(case),
+        uncertain={name: one.distribution for name, one in uncertain_inputs.all_of(case).items()},
+        axial_load=float(operation.axial_load), screw_speed=float(operation.screw_speed),
+    )  # fmt: skip
+    return found["screw_torque"].both
+
+
+@pytest.mark.parametrize("fragment", ["", DOUBLE, "#start=paper&kind=double%2Belastic"])
+def test_the_band_is_that_of_the_program(visit, fragment):
+    here = visit().open(fragment)
+    found = band_of(here)
+    ends = ends_of(here.state()["case"], found["point"]["count"])
+    assert found["isBeside"]
+    assert tuple(found["point"]["ends"]["screw_torque"].values()) == pytest.approx(ends, rel=TOLERANCE)
+    low, high = math.floor(1e4 * ends.low) / 1e4, math.ceil(1e4 * ends.high) / 1e4
+    here.page.locator("#fan").scroll_into_view_if_needed()  # it is drawn when it is seen
+    here.rest()
+    for place in ("#band", "#fan"):
+        assert f"{low:.4f} to {high:.4f}" in here.page.locator(place).inner_text()
+
+
+def test_a_band_of_numbers_that_were_changed_is_dropped(visit):
+    here = visit().open(DOUBLE)
+    band_of(here)
+    for load in (900, 1200, 2500):  # the next comes while the band before is computed
+        here.slide("operation.axial_load", load)
+        assert here.page.locator("html").get_attribute("data-band") is None
+        here.rest(200)
+    found = band_of(here)
+    ends = ends_of(here.state()["case"], found["point"]["count"])
+    assert tuple(found["point"]["ends"]["screw_torque"].values()) == pytest.approx(ends, rel=TOLERANCE)
 
 
 def test_a_slider_moves_the_numbers_at_once(visit):
@@ -266,7 +313,7 @@ def english_words():
         found |= set(re.findall(r'\bsay\(\s*"([^"]+)"', text))
         found |= set(re.findall(r'\b(?:heading|hint|words|title): "([^"]+)"', text))
         found |= set(re.findall(r'data-(?:say|label)="([^"]+)"', text))
-        if one.name == "headline.js":
+        if one.name in ("headline.js", "fan.js"):
             found |= set(re.findall(r'\["\w+", "([^"]+)"\]', text))
     return found
 
@@ -288,7 +335,7 @@ def test_the_page_is_german_where_its_visitor_is(visit):
 
 
 def test_there_is_no_formula_in_the_page():
-    allowed = {"max", "min", "PI", "abs", "floor", "round", "log10"}
+    allowed = {"max", "min", "PI", "abs", "floor", "ceil", "round", "log10"}
     for one in PAGE.iterdir():
         if one.name.endswith(".js"):
             text = one.read_text(encoding="utf-8")
@@ -312,6 +359,10 @@ def test_it_opens_from_files(visit, folder, tmp_path, single):
     here = visit(at=page.as_uri()).open()
     found = here.slide("operation.axial_load", 3000)
     assert found["outputs"]["screw_torque"] == pytest.approx(torque_of(found["case"]), rel=TOLERANCE, abs=0)
+    band = band_of(here)
+    assert not band["isBeside"]  # no worker starts from a file
+    ends = ends_of(found["case"], band["point"]["count"])
+    assert tuple(band["point"]["ends"]["screw_torque"].values()) == pytest.approx(ends, rel=TOLERANCE)
 
 
 def test_it_opens_without_a_network_after_the_first_visit(visit):

@@ -49,7 +49,7 @@ class Sample(NamedTuple):
     @property
     def direction(self) -> Values:
         """The sign of the speed, by that of the friction in the torque on the shaft."""
-        return np.sign(self.drive_torque - self.ideal_torque)
+        return directions.direction_of(self.drive_torque - self.ideal_torque)
 
     @property
     def back_driving_efficiency(self) -> Values:

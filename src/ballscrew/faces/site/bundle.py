@@ -15,8 +15,10 @@ from collections.abc import Sequence
 from importlib import resources
 
 _ENTRY, _ENGINE = "main.js", "engine.js"
+#: The script that computes bands beside the page.
+_WORKER = "band_worker.js"
 _IMPORT = re.compile(r'^import \{[^}]*\} from "(?:\./|\.\./\.\./web/page/)([\w.]+)";\n', re.MULTILINE)
-_EXPORT = re.compile(r"^export (?=const |let |function |async function |class )", re.MULTILINE)
+_EXPORT = re.compile(r"^export (?=const |let |function\*? |async function |class )", re.MULTILINE)
 #: What no file of the page may have at its top, as the files become one.
 _ELSEWISE = re.compile(r"^(?:import|export)\b", re.MULTILINE)
 
@@ -31,8 +33,17 @@ def text_of(name: str) -> str:
 @functools.cache
 def script() -> str:
     """The modules of the page as one script."""
-    parts = [_plain(name) for name in modules()]
-    return '"use strict";\n(() => {\n' + "\n".join(parts) + "\n})();\n"
+    return _joined(modules())
+
+
+@functools.cache
+def worker() -> str:
+    """The script of the worker that computes bands, with the modules that it needs."""
+    return _joined(_in_order(_WORKER))
+
+
+def _joined(names: Sequence[str]) -> str:
+    return '"use strict";\n(() => {\n' + "\n".join(map(_plain, names)) + "\n})();\n"
 
 
 def modules() -> list[str]:

@@ -13,7 +13,9 @@ from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.evaluation.structures import inputs_of_structure
 from ballscrew.exports.wasm_modules import NUT_DIAMETER, KeptModule, Module, described
 from ballscrew.faces.site import kinds
+from ballscrew.faces.site.banding import Banding, contents_of_bands
 from ballscrew.faces.site.judging import Judging, contents_of_judging, of_start
+from ballscrew.faces.site.modules import inputs_of_module
 from ballscrew.faces.site.texts import texts
 from ballscrew.faces.web.vocabulary import vocabulary
 from ballscrew.physics.components.materials import TEMPERATURE
@@ -21,12 +23,19 @@ from ballscrew.physics.sizing.catalogue import catalogue
 
 
 def contents(
-    modules: Mapping[tuple[str, str], KeptModule], oils: Module, grades: tuple[str, ...], solver: str, judging: Judging
+    modules: Mapping[tuple[str, str], KeptModule],
+    oils: Module,
+    grades: tuple[str, ...],
+    solver: str,
+    judging: Judging,
+    banding: Banding,
+    calibrated: Mapping[tuple[str, str], KeptModule] | None = None,
 ) -> dict[str, Any]:
     """The contents as one JSON document; numbers are in SI.
 
     ``modules`` are those of models and kinds of nut, ``oils`` that of the ``grades``, ``solver`` the file of that of
-    the balls, ``judging`` that of verdicts and checks.
+    the balls, ``judging`` that of verdicts and checks, ``banding`` that of the values that a band draws, ``calibrated``
+    those of structures as makers' torques ask for them.
     """
     words = vocabulary()
     subjects = {pair: kinds.subject_of(kinds.case_of(kinds.PAPER, *pair)) for pair in modules}
@@ -44,6 +53,7 @@ def contents(
         "solver": solver,
         "oils": {"file": oils.file, "grades": {grade: described(function) for grade, function in of_oils}},
         "judging": contents_of_judging(judging),
+        "bands": contents_of_bands(banding, list(modules), calibrated or {}),
         "fields": _fields(subjects),
         "results": {name: _described(output.quantity) for name, output in known.items() if name in given},
         "mechanisms": words["mechanisms"],
@@ -73,7 +83,7 @@ def _values(subjects: Mapping[tuple[str, str], Configuration], model: str) -> di
     for (of, _), subject in subjects.items():
         if of == model:
             found |= {
-                n: float(subject.value_of(n)) for n in inputs_of_structure(subject) if subject.inputs[n][0] == "model"
+                n: float(subject.value_of(n)) for n in inputs_of_module(subject) if subject.inputs[n][0] == "model"
             }
     return {"values": found}
 

@@ -16,16 +16,17 @@ from ballscrew.basis.errors import Fault, InputError, nearest
 from ballscrew.compiler.kernels import kernel
 from ballscrew.exports.wasm_modules import KeptModule, module_of_oils, module_of_solver, oils
 from ballscrew.faces.site import bundle, kinds
+from ballscrew.faces.site.banding import module_of_banding
 from ballscrew.faces.site.contents import contents
 from ballscrew.faces.site.judging import CHECKED_AS, module_of_judging
-from ballscrew.faces.site.modules import module_of_structure
+from ballscrew.faces.site.modules import module_of_calibrated, module_of_structure
 
 #: Files of the folder that are as they are in the package.
 _PLAIN = ("style.css", "icon.svg")
 _KERNELS = "kernels"
 #: Files of an earlier page, by where they stand in the folder.
 _OLD = {
-    "*": re.compile(r"(?:contents|page)-[0-9a-f]{16}\.js"),
+    "*": re.compile(r"(?:contents|page|bands)-[0-9a-f]{16}\.js"),
     f"{_KERNELS}/*": re.compile(r"[0-9a-f]{16}\.wasm(\.js)?"),
 }
 #: What tells a page of this program from one of somebody else.
@@ -56,15 +57,20 @@ def site(
     chosen = _chosen(models, nuts)
     total = len(chosen) + 1
     modules: dict[tuple[str, str], KeptModule] = {}
+    calibrated: dict[tuple[str, str], KeptModule] = {}
     for place, pair in enumerate(chosen):
         done(place, total)
         modules[pair] = module_of_structure(*pair)
+        beside = module_of_calibrated(*pair)
+        if beside is not None:
+            calibrated[pair] = beside
     grades = oils()
     of_oils = module_of_oils()
     done(total, total)
-    solver, judging = module_of_solver(), module_of_judging()
-    codes = {module.file: module.code for module in (*modules.values(), of_oils, solver, judging.module)}
-    known = contents(modules, of_oils, grades, solver.file, judging)
+    solver, judging, banding = module_of_solver(), module_of_judging(), module_of_banding()
+    all_modules = (*modules.values(), *calibrated.values(), of_oils, solver, judging.module, banding.module)
+    codes = {module.file: module.code for module in all_modules}
+    known = contents(modules, of_oils, grades, solver.file, judging, banding, calibrated)
     return _single(known, codes) if single else _folder(known, codes)
 
 
@@ -141,7 +147,7 @@ def _chosen(models: Sequence[str], nuts: Sequence[str]) -> list[tuple[str, str]]
 def _digest(known: Mapping[str, Any], script: str) -> str:
     """The digest of a page: of what it computes, what it says, and how it looks."""
     files = map(bundle.text_of, ("index.html", "service_worker.js", *_PLAIN))
-    everything = [_json(known), script, bundle.policy(), _json(_manifest()), *files]
+    everything = [_json(known), script, bundle.worker(), bundle.policy(), _json(_manifest()), *files]
     return hashlib.sha256("\n".join(everything).encode()).hexdigest()[:16]
 
 
@@ -149,9 +155,10 @@ def _json(value: Any) -> str:
     return json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
 
 
-def _contents(known: Mapping[str, Any], digest: str, embedded: Mapping[str, str]) -> str:
-    """The script that holds the contents."""
-    return f"globalThis.ballscrewSite={_json({'digest': digest, 'embedded': embedded, 'contents': known})};\n"
+def _contents(known: Mapping[str, Any], digest: str, embedded: Mapping[str, str], worker: str) -> str:
+    """The script that holds the contents; a page of one file has no ``worker``."""
+    held = {"digest": digest, "worker": worker, "embedded": embedded, "contents": known}
+    return f"globalThis.ballscrewSite={_json(held)};\n"
 
 
 def _in_text(code: bytes) -> str:
@@ -169,8 +176,9 @@ def _folder(known: Mapping[str, Any], codes: Mapping[str, bytes]) -> dict[str, b
     texts = {
         **scripts,
         **{name: bundle.text_of(name) for name in _PLAIN},
-        f"contents-{digest}.js": _contents(known, digest, {}),
+        f"contents-{digest}.js": _contents(known, digest, {}, f"bands-{digest}.js"),
         f"page-{digest}.js": script,
+        f"bands-{digest}.js": bundle.worker(),
         "manifest.webmanifest": _json(_manifest()),
     }
     files = {f"{_KERNELS}/{name}": code for name, code in codes.items()} | {n: t.encode() for n, t in texts.items()}
@@ -199,7 +207,7 @@ def _document(policy: str) -> str:
 
 def _single(known: Mapping[str, Any], codes: Mapping[str, bytes]) -> dict[str, bytes]:
     script, style = bundle.script(), bundle.text_of("style.css")
-    held = _contents(known, _digest(known, script), {name: _in_text(code) for name, code in codes.items()})
+    held = _contents(known, _digest(known, script), {name: _in_text(code) for name, code in codes.items()}, "")
     held = held.replace("</", "<\\/")
     icon = f"data:image/svg+xml;base64,{_in_text(bundle.text_of('icon.svg').encode())}"
     document = _document(bundle.policy([held, script], [style]))

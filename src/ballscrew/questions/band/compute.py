@@ -38,6 +38,8 @@ if TYPE_CHECKING:  # its solvers are slow to import
 _POINTS, _NUT_POINTS, _BEYOND = 25, 9, 2.0
 #: Slot of the calibrations of makers among the alternatives of a band.
 OF_MAKERS = "calibration"
+#: What of a model says what the balls press with: who changes it is drawn no calibration beside.
+PRESSING = frozenset({"ball_force", "ball_chain", "ball_to_ball_force"})
 #: Share of the samples in a band by default.
 LEVEL = 0.95
 #: Flags of the command line by the fields in which the analysis finds faults.
@@ -109,7 +111,7 @@ def of_makers(case: Case) -> list[Candidate]:
     factor: so the upper end lies too high, by some 15 % where all makers are drawn.
     """
     nut, model = case.screw.nut, case.model
-    pressed = {"ball_force", "ball_chain", "ball_to_ball_force"} & set(model.changes)
+    pressed = PRESSING & set(model.changes)
     has_boundary = PARAMETERS["boundary_friction_coefficient"].rpartition(".")[2] in coefficients(model.friction)
     if case.calibration is not None or case.fit or pressed or not has_boundary:
         return []

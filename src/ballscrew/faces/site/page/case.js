@@ -30,7 +30,7 @@
  *   oils: { file: string, grades: Record<string, any> },
  *   fields: Record<string, Field>, results: Record<string, Result>,
  *   mechanisms: Record<string, { words: string, colour: string }>, reasons: Record<string, string>,
- *   judging: any, usual_temperature: string, symbols: Record<string, string>, starts: Record<string, Start>, texts?: Record<string, Record<string, string>>,
+ *   judging: any, bands: import("./bands.js").Bands, usual_temperature: string, symbols: Record<string, string>, starts: Record<string, Start>, texts?: Record<string, Record<string, string>>,
  * }} Contents
  */
 /**

@@ -1,5 +1,6 @@
 // The charts of the page.
 
+import { SPEED, TORQUE } from "./bands.js";
 import { colourOf, evenly, evenlyLog, rounded, spanOf } from "./plot.js";
 import { inShownUnit, inSiUnit, reasonsIn, View } from "./view.js";
 import { digitsOf, element, plainDigits, say, sayNamed, signOf, withUnit } from "./words.js";
@@ -7,14 +8,12 @@ import { digitsOf, element, plainDigits, say, sayNamed, signOf, withUnit } from 
 /** @typedef {import("./view.js").Columns} Columns */
 /** @typedef {import("./view.js").Scene} Scene */
 
-const TORQUE = "screw_torque";
-const SPEED = "screw_speed";
 const LOAD = "axial_load";
 /** Points along an axis, and the least of them while a slider moves. */
 const POINTS = 161;
 const LEAST = 15;
 /** Where an axis begins that cannot begin at zero, as a share of its end. */
-const BEGIN = 1 / 400;
+export const BEGIN = 1 / 400;
 /** Rows and columns of the map. */
 const CELLS = 21;
 const SOME_CELLS = 11;
@@ -39,19 +38,19 @@ function signIn(scene, name) {
 }
 
 /** How far an axis goes, in the unit that it is shown in: away from zero on the side of the present number. @param {Scene} scene @param {string} name */
-function endOf(scene, name) {
+export function endOf(scene, name) {
   const { min, max } = scene.range(name);
   return signIn(scene, name) < 0 ? Math.min(min, -max) : Math.max(max, -min);
 }
 
 /** The words of a field on an axis. @param {Scene} scene @param {string} name */
-function axisOf(scene, name) {
+export function axisOf(scene, name) {
   const field = scene.case.contents.fields[name];
   const words = name === SPEED ? say("speed of the screw") : say("axial load");
   return withUnit(words, field.shown_in);
 }
 
-function torqueTitle() {
+export function torqueTitle() {
   return withUnit(say("friction torque"), "N m");
 }
 

@@ -1,5 +1,6 @@
 // The numbers that matter most, and what the model says of them.
 
+import { levelOf, wordsOfEnds } from "./fan.js";
 import { textOf } from "./judgements.js";
 import { reasonsIn } from "./view.js";
 import { byId, digitsOf, element, inPlace, say, signOf } from "./words.js";
@@ -47,6 +48,7 @@ export class Headline {
     const { outputs, inputs } = scene;
     byId("torque").textContent = digitsOf(outputs.screw_torque);
     byId("torque-unit").textContent = signOf("N m");
+    this.writeBand();
     const screwDrives = inputs.axial_load < 0 === inputs.screw_speed < 0;
     for (const [name, place] of this.values) {
       const shown = name === "efficiency" && !screwDrives ? "back_driving_efficiency" : name;
@@ -61,6 +63,13 @@ export class Headline {
     this.said = words;
     byId("verdict").textContent = words;
     byId("headline").classList.toggle("outside", reasons.length > 0);
+  }
+
+  /** Write the band of the torque; nothing stands there while it is computed, as that before is of another case. */
+  writeBand() {
+    const { point, isMissing } = this.scene.banded();
+    const ends = point ? wordsOfEnds(this.scene, "screw_torque", point.ends.screw_torque) : isMissing ? "–" : "…";
+    byId("band").textContent = `${levelOf(this.scene)}: ${ends}`;
   }
 
   /** The verdict on the checks, and those on the operating point; conditions of the model stand below. */

@@ -1,15 +1,18 @@
 // The page: what is chosen, what is computed at once, and what is drawn when.
 
+import { Banding } from "./banding.js";
 import { Case } from "./case.js";
 import { EfficiencyMap, OverSpeed, Parts, Quadrants, Temperatures } from "./charts.js";
 import { Controls } from "./controls.js";
 import { Engine } from "../../web/page/engine.js";
+import { Fan, speedsOfFan } from "./fan.js";
 import { Headline } from "./headline.js";
 import { BallView, Checks } from "./judged.js";
 import { judgedAt, recordsOf, textOf } from "./judgements.js";
 import { keepOffline, moduleOf, site } from "./modules.js";
 import { readColours } from "./plot.js";
 import { Taking } from "./taking.js";
+import { inSiUnit } from "./view.js";
 import { byId, element, inPlace, keep, kept, languageOf, say, sayNamed, speak, useWords } from "./words.js";
 
 /** Milliseconds after the last change that the hand is at rest. */
@@ -22,9 +25,11 @@ const USUAL_PACE = [2, 0.01];
 const SCHEME_KEPT = "ballscrew-site-scheme";
 const SCHEMES = ["light", "dark"];
 
-const { contents, digest } = site();
+const { contents, digest, worker } = site();
 useWords(contents);
-const engine = new Engine(contents, moduleOf);
+/** Modules that are compiled, which the worker is sent, too. @type {Map<string, Promise<WebAssembly.Module>>} */
+const compiled = new Map();
+const engine = new Engine(contents, compiledOf);
 const shownCase = new Case(contents, (grade, kelvin) => engine.oil(grade, kelvin, 1));
 const controls = new Controls(shownCase, edit);
 /** Milliseconds of a point, by structure. @type {Map<string, number>} */
@@ -39,12 +44,14 @@ let restTimer = 0;
 /** Counts what was chosen, so that of two only the later is shown. */
 let choices = 0;
 
+const banding = new Banding(engine, contents, { worker, moduleOf: compiledOf, heard: showBand });
 /** @type {import("./view.js").Scene} */
 const scene = {
   case: shownCase,
   inputs: {},
   outputs: {},
   judged: undefined,
+  banded: () => banding.banded,
   evaluate(changes, count) {
     const began = performance.now();
     const found = engine.evaluate(shownCase.structure, { ...scene.inputs, ...changes }, count);
@@ -79,8 +86,10 @@ const first = new Parts(scene, "over-speed", {
   hint: "Drag the point, or move a slider.",
   hasValues: true,
 });
+const fan = new Fan(scene, "fan");
 const others = [
   new Checks(scene, "checks"),
+  fan,
   new BallView(scene, "ball", engine),
   new Parts(scene, "over-load", { over: "axial_load", heading: "The parts over the load", hint: "" }),
   new EfficiencyMap(scene, "map"),
@@ -102,6 +111,14 @@ const others = [
 ];
 const views = [first, ...others];
 
+/** The compiled module of a file: asked for again where it could not be had. @param {string} file */
+function compiledOf(file) {
+  const made = compiled.get(file) ?? moduleOf(file);
+  compiled.set(file, made);
+  made.catch(() => compiled.delete(file));
+  return made;
+}
+
 /** A number was changed. @param {string} name @param {number} shown */
 function edit(name, shown) {
   shownCase.state.edits[name] = shown;
@@ -111,6 +128,8 @@ function edit(name, shown) {
 
 /** Compute the numbers of the operating point at once; the rest is drawn when there is time. */
 function changed() {
+  banding.drop();
+  delete document.documentElement.dataset.band;
   compute();
   for (const view of views) view.isDirty = true;
   clearTimeout(restTimer);
@@ -133,6 +152,29 @@ function judge() {
   const point = { structure: shownCase.structure, start: shownCase.state.start, inputs, given: shownCase.given() };
   const judged = judgedAt(engine, contents, point);
   scene.judged = { ...recordsOf(contents, judged), derived: judged.derived };
+}
+
+/** Ask for the band of the case as it is. */
+function askBand() {
+  const { grade, edits } = shownCase.state;
+  banding.ask({
+    structure: shownCase.structure,
+    start: shownCase.state.start,
+    inputs: scene.inputs,
+    grade,
+    temperature: grade ? shownCase.temperature() : Number.NaN,
+    kept: Object.keys(edits),
+    speeds: Array.from(inSiUnit(speedsOfFan(scene), contents.fields.screw_speed)),
+  });
+}
+
+/** Show what was found of the band. @param {import("./banding.js").Banded} banded */
+function showBand(banded) {
+  /** @type {any} */ (globalThis).ballscrewBand = banded;
+  document.documentElement.dataset.band = banded.isMissing ? "none" : banded.fan ? "fan" : "point";
+  headline.writeBand();
+  fan.isDirty = true;
+  askIdle();
 }
 
 /** What other programs may read of the page. */
@@ -194,6 +236,7 @@ function rest() {
     for (const view of views) view.isDirty = true;
     askFrame();
   }
+  askBand();
   controls.refresh();
   for (const view of views) if (view.isSeen && !view.isDirty) view.settle();
   first.settle();

@@ -3,7 +3,7 @@
 
 /**
  * What the document was given.
- * @typedef {{digest: string, embedded: Record<string, string>, contents: any}} Site
+ * @typedef {{digest: string, worker: string, embedded: Record<string, string>, contents: any}} Site
  */
 
 /** @returns {Site} */

@@ -274,6 +274,21 @@ export class Plot {
   }
 
   /**
+   * An area that is seen through, with lines at its ends.
+   *
+   * @param {ArrayLike<number>} xs
+   * @param {ArrayLike<number>} lows
+   * @param {ArrayLike<number>} highs
+   * @param {string} colour
+   */
+  band(xs, lows, highs, colour) {
+    this.pen.globalAlpha = 0.2;
+    this.area(xs, lows, highs, colour);
+    this.pen.globalAlpha = 1;
+    for (const row of [lows, highs]) this.line(xs, row, colour, { width: 1 });
+  }
+
+  /**
    * Shade where the model does not hold: stripes, so that it is told from an area.
    *
    * @param {ArrayLike<number>} xs

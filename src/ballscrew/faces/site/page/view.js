@@ -17,6 +17,7 @@ import { digitsOf, element, say, sayNamed } from "./words.js";
  *   change: (name: string, shown: number) => void,
  *   judged: (ReturnType<typeof import("./judgements.js").recordsOf> & { derived: Record<string, any> }) | undefined,
  *   give: (name: string, shown: number | string | undefined) => void,
+ *   banded: () => import("./banding.js").Banded,
  * }} Scene
  */
 /** @typedef {{ caption: string, head: string[], rows: number[][] }} Numbers */

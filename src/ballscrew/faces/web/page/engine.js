@@ -285,7 +285,7 @@ export class Engine {
   /**
    * @param {{
    *   structures: Record<string, Structure>, oils: {file: string, grades: Record<string, Spec>}, solver: string,
-   *   judging: {file: string, checked_as: Record<string, string>},
+   *   judging: {file: string, checked_as: Record<string, string>}, bands: {file: string, makers: Record<string, Structure>},
    * }} contents
    * @param {(file: string) => Promise<WebAssembly.Module>} moduleOf the compiled module of a file
    */
@@ -299,7 +299,17 @@ export class Engine {
    * @param {string} structure
    */
   async load(structure) {
-    await Promise.all([this.contents.oils.file, ...this.#filesOf(structure)].map((each) => this.#kernel(each)));
+    await Promise.all(this.filesFor(structure).map((each) => this.#kernel(each)));
+  }
+
+  /** Load a module that is of no structure. @param {string} file */
+  async loadFile(file) {
+    await this.#kernel(file);
+  }
+
+  /** The files of a structure and of the oils. @param {string} structure */
+  filesFor(structure) {
+    return [this.contents.oils.file, ...this.#filesOf(structure)];
   }
 
   /** @param {string} structure */
@@ -307,11 +317,16 @@ export class Engine {
     return this.#filesOf(structure).every((file) => this.#ready.has(file));
   }
 
+  /** A structure, or one that is drawn beside it in a band. @param {string} name @returns {Structure} */
+  #structure(name) {
+    return this.contents.structures[name] ?? this.contents.bands.makers[name];
+  }
+
   /** @param {string} structure */
   #filesOf(structure) {
     const { structures, solver, judging } = this.contents;
     const [model, kind] = structure.split("/");
-    const { file, by_ball } = structures[structure];
+    const { file, by_ball } = this.#structure(structure);
     const files = [file, ...(by_ball ? [solver] : [])];
     if (judging === undefined) return files; // where the server judges
     const checked = structures[`${model}/${judging.checked_as[kind]}`];
@@ -325,7 +340,7 @@ export class Engine {
    * @param {number} count
    */
   evaluate(structure, values, count) {
-    const one = this.contents.structures[structure];
+    const one = this.#structure(structure);
     const kernel = this.#loaded(one.file);
     if (one.by_ball === undefined) return kernel.evaluate(one, values, count);
     return evaluateByBall(kernel, this.#loaded(this.contents.solver), one.by_ball, values, count);
@@ -349,6 +364,16 @@ export class Engine {
    */
   judge(spec, values) {
     return this.#loaded(this.contents.judging.file).evaluate(spec, values, 1);
+  }
+
+  /**
+   * What a function of the module of bands gives; null is none.
+   * @param {Spec} spec
+   * @param {Values} values
+   * @param {number} count
+   */
+  draw(spec, values, count) {
+    return this.#loaded(this.contents.bands.file).evaluate(spec, values, count);
   }
 
   /** @param {string} file */

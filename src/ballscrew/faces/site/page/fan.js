@@ -1,0 +1,151 @@
+// How far off the numbers of a case may be: the ends between which most samples lie, and a fan over the speed.
+
+import { SPEED, TORQUE } from "./bands.js";
+import { axisOf, BEGIN, endOf, torqueTitle } from "./charts.js";
+import { colourOf, evenly, rounded, spanOf } from "./plot.js";
+import { inShownUnit, inSiUnit, View } from "./view.js";
+import { digitsOf, element, say, signOf } from "./words.js";
+
+/** @typedef {import("./view.js").Columns} Columns */
+/** @typedef {import("./view.js").Scene} Scene */
+
+/** Points of the line in the middle, and the least of them while a slider moves. */
+const POINTS_OF_LINE = 81;
+const LEAST_OF_LINE = 9;
+/** Digits of an end, which is rounded outwards. */
+const DIGITS = 4;
+/** What has ends at the operating point, as the names of outputs with their words. */
+const WITH_ENDS = [
+  ["screw_torque", "friction torque"],
+  ["drive_torque", "drive torque"],
+  ["efficiency", "efficiency"],
+];
+
+/** The speeds of the fan, in the unit that they are shown in. @param {Scene} scene */
+export function speedsOfFan(scene) {
+  const { bands } = scene.case.contents;
+  const end = endOf(scene, SPEED);
+  return evenly(end * BEGIN, end, bands.speeds["by_ball" in scene.case.spec ? "by_ball" : "usual"]);
+}
+
+/** A number with its unit, and two of them. @param {Scene} scene @param {string} name @param {import("./bands.js").Ends} ends */
+export function wordsOfEnds(scene, name, { low, high }) {
+  const { factor, offset, shown_in: unit } = scene.case.contents.results[name];
+  const isShare = name.endsWith("efficiency");
+  const shown = [low, high].map((value, place) => {
+    return digitsOf(outwards(((value - offset) / factor) * (isShare ? 100 : 1), place === 1), DIGITS);
+  });
+  return `${say("{low} to {high}", { low: shown[0], high: shown[1] })} ${isShare ? "%" : signOf(unit)}`.trim();
+}
+
+/** A number of so many digits that is not inside of this one. @param {number} value @param {boolean} isHigh */
+function outwards(value, isHigh) {
+  const near = Number(value.toPrecision(DIGITS));
+  if (!Number.isFinite(value) || (isHigh ? near >= value : near <= value)) return near;
+  const [, exponent] = near.toExponential().split("e");
+  return near + (isHigh ? 1 : -1) * Number(`1e${Number(exponent) - DIGITS + 1}`);
+}
+
+/** The level of the ends, such as 95 %. @param {Scene} scene */
+export function levelOf(scene) {
+  return `${Math.round(100 * scene.case.contents.bands.level)} %`;
+}
+
+export class Fan extends View {
+  /** @param {Scene} scene @param {string} id */
+  constructor(scene, id) {
+    super(scene, id, { heading: "How far off the torque may be", hint: "" });
+    this.xs = new Float64Array();
+    /** @type {Columns} */
+    this.found = {};
+    this.ends = element("dl", { class: "ends" });
+    this.said = element("p", { class: "hint" });
+    this.hint.replaceWith(this.ends);
+    this.section.append(this.said);
+    this.follow(SPEED);
+  }
+
+  paint() {
+    const { scene, plot } = this;
+    if (!plot) return;
+    const { fields, results } = scene.case.contents;
+    const end = endOf(scene, SPEED);
+    this.xs = evenly(end * BEGIN, end, scene.count(POINTS_OF_LINE, LEAST_OF_LINE));
+    this.found = scene.evaluate({ [SPEED]: inSiUnit(this.xs, fields[SPEED]) }, this.xs.length);
+    const torque = inShownUnit(this.found[TORQUE], results[TORQUE]);
+    const { fan } = scene.banded();
+    const rows = fan ? [fan.lows, fan.highs].map((row) => inShownUnit(row, results[TORQUE])) : [];
+    plot.begin(
+      { from: Math.min(0, end), to: Math.max(0, end), title: axisOf(scene, SPEED) },
+      { ...rounded(spanOf(torque, ...rows)), title: torqueTitle() },
+    );
+    plot.inside(() => {
+      if (fan) plot.band(inShownUnit(fan.speeds, fields[SPEED]), rows[0], rows[1], colourOf("accent"));
+      plot.shade(this.xs, this.found.valid);
+    });
+    plot.axes();
+    plot.inside(() => plot.line(this.xs, torque, colourOf("ink")));
+    plot.point(scene.case.shown(SPEED), inShownUnit([scene.outputs[TORQUE]], results[TORQUE])[0]);
+    this.sayShaded(this.found);
+    this.#sayEnds();
+  }
+
+  #sayEnds() {
+    const { scene } = this;
+    const { point, isMissing } = scene.banded();
+    const screwDrives = scene.inputs.axial_load < 0 === scene.inputs[SPEED] < 0;
+    const items = WITH_ENDS.map(([name, words]) => {
+      const shown = name === "efficiency" && !screwDrives ? "back_driving_efficiency" : name;
+      const ends = point?.ends[shown];
+      const text = ends ? wordsOfEnds(scene, shown, ends) : isMissing ? "–" : "…";
+      return element("div", {}, element("dt", {}, say(words)), element("dd", {}, text));
+    });
+    this.ends.replaceChildren(...items);
+    this.said.textContent = this.#words();
+  }
+
+  #words() {
+    const { point, inputs = 0, makers = [], isMissing } = this.scene.banded();
+    if (isMissing) return say("There is no band here for this model or these numbers: take the case to the program.");
+    if (!point) return "";
+    const level = levelOf(this.scene);
+    const values = { level, count: String(point.count), inputs: String(inputs) };
+    const sentences = [
+      say(
+        "Between the ends lie {level} of {count} samples of {inputs} inputs that are rarely known, by the usual uncertainties of the program.",
+        values,
+      ),
+    ];
+    if (makers.length) {
+      sentences.push(say("Drawn with them is what makers ask for: {names}.", { names: makers.join(", ") }));
+    }
+    sentences.push(say("Other laws, which the program draws as well, are left out: its band is another one."));
+    if (point.invalid > 0) {
+      const share = `${digitsOf(100 * point.invalid, 2)} %`;
+      sentences.push(say("Outside the model's validity lie {share} of the samples.", { share }));
+    }
+    return sentences.join(" ");
+  }
+
+  numbers() {
+    const { fan } = this.scene.banded();
+    if (!fan) return undefined;
+    const { fields } = this.scene.case.contents;
+    const level = levelOf(this.scene);
+    return {
+      caption: say(this.words.heading),
+      head: [
+        axisOf(this.scene, SPEED),
+        `${torqueTitle()}, ${say("low end, {level}", { level })}`,
+        `${torqueTitle()}, ${say("high end, {level}", { level })}`,
+      ],
+      rows: Array.from(inShownUnit(fan.speeds, fields[SPEED]), (x, place) => [x, fan.lows[place], fan.highs[place]]),
+    };
+  }
+
+  description() {
+    const ends = this.scene.banded().point?.ends[TORQUE];
+    const heading = say(this.words.heading);
+    return ends ? `${heading}. ${levelOf(this.scene)}: ${wordsOfEnds(this.scene, TORQUE, ends)}` : heading;
+  }
+}
