@@ -10,7 +10,7 @@ import typer
 
 from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, ModelName
 from ballscrew.faces.cli.flags import flags_of
-from ballscrew.faces.cli.select import Need, check_file, objectives_of
+from ballscrew.faces.cli.select import Need, check_file, check_spared, objectives_of
 from ballscrew.questions.optimise.options import OptimiseOptions
 
 _TO = "--to"
@@ -54,6 +54,7 @@ def optimise(
 
     for path in to or []:
         check_file(path)
+    check_spared(to or [], need, settings=settings or [])
     options = read(OptimiseOptions, written)
     asked: dict[str, Any] = {
         "objectives": objectives_of(options.objectives), "population": options.population,
