@@ -680,14 +680,14 @@ def test_the_case_of_another_rank(ballscrew, tmp_path):
     assert tomllib.loads(case.read_text(encoding="utf-8")) == document["candidates"][1]["case"]
     for words, said in (
         (["--rank", "2"], "--rank"),
-        (["--rank", "99", "--to", tmp_path / "b.toml"], "there is no such candidate"),
+        (["--rank", "99", "--to", tmp_path / "made" / "b.toml"], "there is no such candidate"),
         (["--to", need], "is the file of the need"),
         (["--to", tmp_path / "b.docx"], ".toml"),
     ):
         refused = ballscrew("select", need, *words)
         assert refused.returncode == 2
         assert said in refused.stderr
-    assert not (tmp_path / "b.toml").exists()
+    assert not (tmp_path / "made").exists()
 
 
 def test_no_file_that_is_read_is_written_over(ballscrew, tmp_path):

@@ -52,9 +52,9 @@ def optimise(
     from ballscrew.questions.optimise.compute import plan
     from ballscrew.questions.shared.option_values import read
 
+    check_spared(to or [], need, settings=settings or [])
     for path in to or []:
         check_file(path)
-    check_spared(to or [], need, settings=settings or [])
     options = read(OptimiseOptions, written)
     asked: dict[str, Any] = {
         "objectives": objectives_of(options.objectives), "population": options.population,

@@ -70,12 +70,14 @@ def select(
     from ballscrew.questions.shared.option_values import read
 
     options, listed = read(SelectOptions, written), read(ListOptions, written)
-    _check_files(to or [], listed.rank)
+    _check_rank(to or [], listed.rank)
     check_spared(to or [], need, *([] if rows is None else [rows]), settings=settings or [])
     words = options.words or None
     planned = plan(need, rows=rows, words=words, settings=settings or [], keep_going=keep_going)
     if listed.rank is not None and listed.rank > planned.candidates:
         raise _no_such_rank(listed.rank, planned.candidates)
+    for path in to or []:  # last, as it makes folders
+        check_file(path, _CASE)
     with progress("candidates", text.cost(planned)) as done:
         found = selected(
             need,
@@ -110,11 +112,9 @@ def _is_case(path: Path) -> bool:
     return path.suffix.lower() == _CASE
 
 
-def _check_files(to: Sequence[Path], rank: int | None) -> None:
+def _check_rank(to: Sequence[Path], rank: int | None) -> None:
     from ballscrew.basis.errors import Fault, InputError
 
-    for path in to:
-        check_file(path, _CASE)
     if rank is not None and not any(map(_is_case, to)):
         raise InputError(Fault("--rank", "names no file", str(rank), "add --to axis.toml"))
 
