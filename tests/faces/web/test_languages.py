@@ -76,7 +76,7 @@ _WORDS = re.compile(r"[A-Za-z]{2,}[,:;]? [a-z]{2,}")
 _SECTION = re.compile(r"\[[a-z_.]+\]")
 #: Two words that nobody reads: classes of elements, units, selectors, and a defect of the page.
 CODES = {
-    "(prefers-color-scheme: dark)", "card-start whole-width", "chart low", "chart low whole-width",
+    "(prefers-color-scheme: dark)", "chart low", "chart low whole-width",
     "chart whole-width", "field given",
     "field start given",
     "input, select", "kg cm^2", "lbf in", "line thin", "mm rpm",

@@ -13,7 +13,7 @@ import pytest
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.web import bodies, documents, server
 from ballscrew.faces.web.bodies import case_of
-from ballscrew.faces.web.request_queue import RequestQueue
+from ballscrew.faces.web.request_queue import OUT_OF_TIME, RequestQueue
 from ballscrew.questions.curves.compute import curves
 from ballscrew.questions.run import compute as runs
 from support.documents import assert_same
@@ -153,3 +153,28 @@ def test_numbers_are_sent_before_the_charts_are_computed(monkeypatch, paper):
 
     run_scene(scene())
     assert [json.loads(line)["question"] for line in lines] == ["run", "check"]
+
+
+def test_a_curve_out_of_time_comes_with_what_goes_on_with_it(monkeypatch, paper):
+    """As a body of the address ``sweep``, which a job takes."""
+
+    def endless(case, plan, done):
+        while True:
+            done(0, 1)
+
+    monkeypatch.setattr("ballscrew.faces.web.answers_api.sweeps.sweep", endless)
+    found = []
+
+    async def scene():
+        transport = httpx.ASGITransport(server.application(requests=RequestQueue(time_limit=0.2)))
+        async with httpx.AsyncClient(transport=transport, base_url="http://localhost", timeout=LONG) as client:
+            found.append(await client.post("/api/v1/answers", json={"case": paper}))
+
+    run_scene(scene())
+    lines = {line["question"]: line for line in map(json.loads, found[0].text.splitlines())}
+    assert "answer" in lines["run"]
+    wanted = curves(runs.run(case_of(paper)))
+    assert wanted
+    for name, curve in wanted.items():
+        assert [fault["id"] for fault in lines[name]["problem"]["faults"]] == [OUT_OF_TIME]
+        assert lines[name]["sweep"] == {"vary": dict(curve.vary), "outputs": list(curve.outputs)}

@@ -680,14 +680,44 @@ def test_the_case_of_another_rank(ballscrew, tmp_path):
     assert tomllib.loads(case.read_text(encoding="utf-8")) == document["candidates"][1]["case"]
     for words, said in (
         (["--rank", "2"], "--rank"),
-        (["--rank", "99", "--to", tmp_path / "b.toml"], "there is no such candidate"),
+        (["--rank", "99", "--to", tmp_path / "made" / "b.toml"], "there is no such candidate"),
         (["--to", need], "is the file of the need"),
         (["--to", tmp_path / "b.docx"], ".toml"),
     ):
         refused = ballscrew("select", need, *words)
         assert refused.returncode == 2
         assert said in refused.stderr
-    assert not (tmp_path / "b.toml").exists()
+    assert not (tmp_path / "made").exists()
+
+
+def test_no_file_that_is_read_is_written_over(ballscrew, tmp_path):
+    """Neither the need by another way to it, nor the table of rows, nor a file that the need names."""
+    (tmp_path / "out").mkdir()
+    rows, oils, need = tmp_path / "rows.csv", tmp_path / "oils.toml", tmp_path / "need.toml"
+    for file in (rows, oils):
+        file.write_text("kept", encoding="utf-8")
+    need.write_text('force = "4 kN"\n[lubricant]\noil = "Oil"\noil_file = "oils.toml"\n', encoding="utf-8")
+    before = need.read_bytes()
+    around = tmp_path / "out" / ".." / "need.toml"
+    for target, said in ((around, "is the file of the need"), (rows, "is a file"), (oils, "is a file")):
+        refused = ballscrew("select", need, "--rows", rows, "--to", target)
+        assert refused.returncode == 2
+        assert f"--to: {said}" in refused.stderr
+    named = 'need.price_index={file="rows.csv"}'
+    refused = ballscrew("optimise", need, "--set", named, "--to", rows)
+    assert refused.returncode == 2
+    assert "--to: is a file that is read" in refused.stderr
+    assert need.read_bytes() == before
+    assert rows.read_text(encoding="utf-8") == oils.read_text(encoding="utf-8") == "kept"
+
+
+def test_tables_are_written_though_there_is_no_case_to_write(ballscrew, tmp_path):
+    need, case, table = need_file(tmp_path, mass="40000 kg"), tmp_path / "a.toml", tmp_path / "list.csv"
+    refused = ballscrew("select", need, "--holds", "--to", case, "--to", table)
+    assert refused.returncode == 2
+    assert f"--to: there is no candidate to write ({case})" in refused.stderr
+    assert len(table.read_text(encoding="utf-8").splitlines()) >= 1
+    assert not case.exists()
 
 
 def test_the_case_of_a_row_of_ones_own_needs_no_table(ballscrew, tmp_path):
@@ -710,6 +740,7 @@ def test_the_case_of_a_row_of_ones_own_needs_no_table(ballscrew, tmp_path):
     tables = tomllib.loads(case.read_text(encoding="utf-8"))
     assert tables["lubricant"]["oil_file"] == "../oils.toml"
     assert tables["model"]["name"] == "corrected"
+    assert tables["model"] == first["case"]["model"]
     assert "catalogue" not in tables["screw"]
     alone = json.loads(ballscrew("run", case, "--json").stdout)
     assert alone["results"]["screw_torque"] == pytest.approx(first["results"]["screw_torque"], rel=1e-9)

@@ -12,6 +12,7 @@ from ballscrew.axis.motion.states import Numbers
 from ballscrew.axis.thermal.network import Network
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.quantities import Length, Power, Ratio
+from ballscrew.basis.records import Measured
 
 #: Points of the powers among which an equilibrium is looked for.
 _POWERS = 400
@@ -33,6 +34,11 @@ class Equilibrium(ByValue):
     power: Power
     #: Temperatures of shaft cells, nut and bearings, K; NaN where there is no equilibrium.
     temperatures: Numbers
+
+    @property
+    def shown_margin(self) -> Measured:
+        """The margin as messages show it."""
+        return Measured(self.margin, digits=3)
 
     @property
     def nut_temperature(self) -> float:

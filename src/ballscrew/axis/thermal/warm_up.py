@@ -337,7 +337,7 @@ def _records(found: WarmUp) -> list[Record]:
             "stability margin of the thermal loop {margin}, thermal runaway at 0",
             {
                 "temperature": Measured(end.nut_temperature, _TEMPERATURE, 3),
-                "margin": Measured(end.margin, digits=3),
+                "margin": end.shown_margin,
             },
         )
         if end.exists

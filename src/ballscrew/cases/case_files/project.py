@@ -138,6 +138,11 @@ def design_at(path: str | Path) -> dict[str, Any]:
     return dict(found[0].tables)
 
 
+def file_of(path: str | Path) -> Path:
+    """The file of a case, also of the design that ``project.toml#name`` names."""
+    return _parts(path)[0]
+
+
 def _parts(path: str | Path) -> tuple[Path, str]:
     """The file and the name of a design in ``project.toml#name``; a file of that very name comes first."""
     whole = Path(path)

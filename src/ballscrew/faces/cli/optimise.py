@@ -10,7 +10,7 @@ import typer
 
 from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, ModelName
 from ballscrew.faces.cli.flags import flags_of
-from ballscrew.faces.cli.select import Need, check_file, objectives_of
+from ballscrew.faces.cli.select import Need, check_file, check_spared, objectives_of
 from ballscrew.questions.optimise.options import OptimiseOptions
 
 _TO = "--to"
@@ -52,6 +52,7 @@ def optimise(
     from ballscrew.questions.optimise.compute import plan
     from ballscrew.questions.shared.option_values import read
 
+    check_spared(to or [], need, settings=settings or [])
     for path in to or []:
         check_file(path)
     options = read(OptimiseOptions, written)

@@ -36,9 +36,9 @@ def report(
 
     It has checks, results with their bands, drawing, curves, what makes the band, inputs and sources.
 
-    With --beside other designs stand side by side with the first, checks and bands included, then each by itself. A
-    report has up to five pages, two more of a case with a motion, a third for its stiffness with [installation], and
-    one more with [surroundings], for four hours of warming up. The .html is one file that asks for nothing from
+    With --beside other designs stand side by side with the first, checks and bands included, then each by itself. Up
+    to five pages; two more with a motion, one more where that case has an [installation], one more with
+    [surroundings], for four hours of warming up. The .html is one file that asks for nothing from
     outside; the .pdf can be read by machines, too (PDF/UA-1). The same case gives the same bytes: a date stands on it
     only where --date says one.
     """

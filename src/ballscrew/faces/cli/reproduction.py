@@ -27,6 +27,7 @@ from ballscrew.evidence.papers import olaru2005 as paper
 from ballscrew.questions.reproduce import preloaded_nut as nuts
 from ballscrew.questions.reproduce import preloaded_nut_text as nut_words
 from ballscrew.questions.shared.report_blocks import sentence
+from ballscrew.questions.shared.text_tables import markdown_table
 
 Report = Callable[[str, int, int], None]
 
@@ -197,19 +198,13 @@ def claims_table(found: Sequence[paper.Claim] | None = None, keys: Sequence[str]
     rows = [
         (claim.claim, claim.paper, *(claim.findings[name].short for name in _MODELS), _holds(claim)) for claim in chosen
     ]
-    return _table(("claim", "paper", "as printed", "corrected", "holds?"), rows)
+    return markdown_table(("claim", "paper", "as printed", "corrected", "holds?"), rows)
 
 
 def _holds(claim: paper.Claim) -> str:
     """One word if both models agree, else one for each."""
     printed, corrected = (_WORDS[claim.findings[name].verdict] for name in _MODELS)
     return printed if printed == corrected else f"{printed} (corrected: {corrected})"
-
-
-def _table(heading: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """A table in Markdown; bars in cells are escaped."""
-    lines = [heading, ["---"] * len(heading), *rows]
-    return "".join("| " + " | ".join(cell.replace("|", r"\|") for cell in line) + " |\n" for line in lines)
 
 
 def claims_document(
@@ -229,11 +224,11 @@ def claims_document(
         "## Claims\n",
         claims_table(found, None),
         "Numbers in brackets are equations of the paper.\n",
-        _table(("symbol", "meaning"), _SYMBOLS),
+        markdown_table(("symbol", "meaning"), _SYMBOLS),
         "## Claims in detail\n",
         *(_detail(claim) for claim in found),
         "## What the paper leaves open, and what was taken\n",
-        _table(("what", "taken", "why"), [(c.what, c.taken, c.why) for c in paper.CHOICES]),
+        markdown_table(("what", "taken", "why"), [(c.what, c.taken, c.why) for c in paper.CHOICES]),
         "## Other readings of what it leaves open\n",
         "A reading under which all these claims hold is *consistent with* the text. It is not verified by that: "
         "more than one reading can be consistent, and the figures cannot be read off.\n",
@@ -244,7 +239,7 @@ def claims_document(
         _repairs(),
         "## The numbered equations\n",
         "The numbers (22) to (26) occur twice in the paper, so the section belongs to the address.\n",
-        _table(
+        markdown_table(
             ("address", "what", "verdict"),
             [(equation.address, equation.what, equation.verdict) for equation in paper_equations()],
         ),
@@ -310,7 +305,7 @@ def _readings(checks: Sequence[paper.ClosureCheck]) -> str:
         )
         for check in checks
     ]
-    return _table(heading, rows)
+    return markdown_table(heading, rows)
 
 
 def _repairs() -> str:
@@ -321,7 +316,9 @@ def _repairs() -> str:
         )
         for r in paper.repairs()
     ]
-    return _table(("repair", "M_S alone (N m)", "η alone", "M_S with all so far (N m)", "η with all so far"), rows)
+    return markdown_table(
+        ("repair", "M_S alone (N m)", "η alone", "M_S with all so far (N m)", "η with all so far"), rows
+    )
 
 
 def _marked(finding: paper.Finding) -> str:

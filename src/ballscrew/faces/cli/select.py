@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -58,8 +58,8 @@ def select(
     """Rank the screws of the catalogue for a need. Each row counts with its nut, preloads and oils.
 
     Each candidate is judged by the full model and all checks, but for those that their loads alone rule out. The
-    exit code is 0 where none holds, too: the list says what fails, and by how much. With --to FILE.toml one candidate
-    is a case file, with all tables of the need, for duty, axis, warm-up, run and report.
+    exit code is 0 where none holds, too: the list says what fails, and by how much. With --to FILE.toml the case of one
+    candidate is written, with all tables of the need, for duty, axis, warm-up, run and report.
     """
     from ballscrew.basis.output.json_text import as_json as json_text
     from ballscrew.faces.cli.progress import progress
@@ -70,11 +70,14 @@ def select(
     from ballscrew.questions.shared.option_values import read
 
     options, listed = read(SelectOptions, written), read(ListOptions, written)
-    _check_files(to or [], need, listed.rank)
+    _check_rank(to or [], listed.rank)
+    check_spared(to or [], need, *([] if rows is None else [rows]), settings=settings or [])
     words = options.words or None
     planned = plan(need, rows=rows, words=words, settings=settings or [], keep_going=keep_going)
     if listed.rank is not None and listed.rank > planned.candidates:
         raise _no_such_rank(listed.rank, planned.candidates)
+    for path in to or []:  # last, as it makes folders
+        check_file(path, _CASE)
     with progress("candidates", text.cost(planned)) as done:
         found = selected(
             need,
@@ -99,34 +102,34 @@ def select(
         typer.echo(json_text(document))
     else:
         typer.echo(text.text(found, kept, listed.first))
-    for path in to or []:
-        said = _written(path, found, kept, listed.rank, model)
+    for path in sorted(to or [], key=_is_case):  # a case that is missing keeps no table back
+        said = _written(path, found, kept, listed.rank)
         typer.echo(f"{path}: {said}", err=True)
     say_of_rows(found.notes, found.interrupted)
 
 
-def _check_files(to: Sequence[Path], need: Path, rank: int | None) -> None:
+def _is_case(path: Path) -> bool:
+    return path.suffix.lower() == _CASE
+
+
+def _check_rank(to: Sequence[Path], rank: int | None) -> None:
     from ballscrew.basis.errors import Fault, InputError
 
-    for path in to:
-        if path.resolve() == need.resolve():
-            raise InputError(Fault(_TO, "is the file of the need", str(path), "give the case a name of its own"))
-        check_file(path, _CASE)
-    if rank is not None and not any(path.suffix.lower() == _CASE for path in to):
+    if rank is not None and not any(map(_is_case, to)):
         raise InputError(Fault("--rank", "names no file", str(rank), "add --to axis.toml"))
 
 
-def _written(path: Path, found: Selection, kept: Sequence[Ranked], rank: int | None, model: str | None) -> str:
+def _written(path: Path, found: Selection, kept: Sequence[Ranked], rank: int | None) -> str:
     """Write a file of a selection, and return what is in it."""
     from ballscrew.questions.shared import row_tables
 
-    if path.suffix.lower() == _CASE:
+    if _is_case(path):
         from ballscrew.questions.select import case_text
         from ballscrew.questions.select.document import verdict
 
-        chosen = _chosen(found, kept, rank)
+        chosen = _chosen(path, found, kept, rank)
         said = verdict(chosen.candidate)
-        case_text.save(path, found, chosen, said, model)
+        case_text.save(path, found, chosen, said)
         return f"{chosen.candidate.variant.label}, rank {chosen.rank}: {said}"
     if path.suffix.lower() in row_tables.KINDS:
         from ballscrew.questions.select import table as selection_tables
@@ -140,20 +143,22 @@ def _written(path: Path, found: Selection, kept: Sequence[Ranked], rank: int | N
     return f"{len(kept)} candidates"
 
 
-def _chosen(found: Selection, kept: Sequence[Ranked], rank: int | None) -> Ranked:
+def _chosen(path: Path, found: Selection, kept: Sequence[Ranked], rank: int | None) -> Ranked:
     """The candidate of a rank, or the first of those that are listed."""
+    from ballscrew.basis.errors import Fault, InputError
+
     listed = kept if rank is None else [each for each in found.ranked if each.rank == rank]
-    if not listed:
-        raise _no_such_rank(rank, len(found.ranked))
-    return listed[0]
+    if listed:
+        return listed[0]
+    if rank is None:
+        raise InputError(Fault(_TO, "there is no candidate to write", str(path), "leave out --holds and --front"))
+    raise _no_such_rank(rank, len(found.ranked))
 
 
-def _no_such_rank(rank: int | None, candidates: int) -> InputError:
+def _no_such_rank(rank: int, candidates: int) -> InputError:
     from ballscrew.basis.errors import Fault, InputError
     from ballscrew.basis.records import Message
 
-    if rank is None:
-        return InputError(Fault(_TO, "there is no candidate to write", "", "leave out --holds and --front"))
     remedy = Message("there are {candidates}", {"candidates": str(candidates)})
     return InputError(Fault("--rank", "there is no such candidate", str(rank), remedy))
 
@@ -161,6 +166,46 @@ def _no_such_rank(rank: int | None, candidates: int) -> InputError:
 def objectives_of(written: Sequence[str]) -> list[str] | None:
     """The names of objectives, also of those written with a dash; None for those of the need."""
     return [name.replace("-", "_") for name in written] or None
+
+
+def check_spared(to: Sequence[Path], need: Path, *others: Path, settings: Sequence[str] = ()) -> None:
+    """Raise :class:`~ballscrew.basis.errors.InputError` for a file that would be written over one that is read.
+
+    These are the need, whatever file it names, and ``others``.
+    """
+    from ballscrew.basis.errors import Fault, InputError
+    from ballscrew.cases.case_files import case_file, project
+
+    if not any(path.exists() for path in to):
+        return
+    need_file = project.file_of(need)
+    named = [need_file.parent / name for name in _texts(case_file.override(case_file.read(need), settings))]
+    for path in to:
+        if not path.exists():
+            continue
+        if _is_same(path, need_file):
+            raise InputError(Fault(_TO, "is the file of the need", str(path), "choose another name"))
+        if any(_is_same(path, one) for one in (*others, *named)):
+            raise InputError(Fault(_TO, "is a file that is read", str(path), "choose another name"))
+
+
+def _texts(value: Any) -> Iterator[str]:
+    """All texts in tables: any of them may name a file."""
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, Mapping):
+        for item in value.values():
+            yield from _texts(item)
+    elif isinstance(value, list):
+        for item in value:
+            yield from _texts(item)
+
+
+def _is_same(path: Path, other: Path) -> bool:
+    try:
+        return path.samefile(other)
+    except (OSError, ValueError):  # no such file, or no name of one
+        return False
 
 
 def check_file(path: Path, *others: str) -> None:

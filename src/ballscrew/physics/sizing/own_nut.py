@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ballscrew.basis.arrays import ByValue
-from ballscrew.basis.errors import Fault, InputError, accepts_units, measured, shown, shown_in_si
+from ballscrew.basis.errors import Fault, InputError, accepts_units, shown_in_si
 from ballscrew.basis.quantities import (
     Angle,
     Count,
@@ -247,10 +247,11 @@ def _ball(row: CatalogueRow) -> tuple[Estimate, list[Record]]:
 
 def _no_room(row: CatalogueRow, pitch: float) -> Fault:
     """The fault of a lead or of starts that are listed, in place of one of the ball, which is none of the user's."""
-    name, given = ("starts", f"{int(row.starts):,}") if row.starts > 1 else ("lead", shown(row.lead, "m"))
-    remedy = Message(
-        "neighbouring grooves are {apart} apart: give more lead or fewer starts", {"apart": measured(pitch, "m")}
-    )
+    lead, apart = (
+        Measured(size, QUANTITIES["lead"], written=f"{size * 1e3:.4g} mm") for size in (row.lead, pitch)
+    )  # fmt: skip
+    name, given = ("starts", str(int(row.starts))) if row.starts > 1 else ("lead", Message("{lead}", {"lead": lead}))
+    remedy = Message("neighbouring grooves are {apart} apart: give a larger lead or fewer starts", {"apart": apart})
     return Fault(f"{row.name}.{name}", "leaves no room for balls", given, remedy)
 
 

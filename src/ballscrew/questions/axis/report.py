@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from ballscrew.basis import units
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files.case import Case
 from ballscrew.questions.axis import figure as figures
 from ballscrew.questions.axis import text
-from ballscrew.questions.axis.compute import FRICTION, ChainReport, chain_of
+from ballscrew.questions.axis.compute import ChainReport, chain_of
 from ballscrew.questions.shared.chart_svg import named, svg_of
 from ballscrew.questions.shared.report_blocks import Block, Bullets, Paragraph, Picture, Table, sentence
 
@@ -25,13 +24,13 @@ def blocks(report: ChainReport) -> list[Block]:
     """All that a report says of the chain."""
     said = [f"{sentence(record.text)}." for record in report.verdicts]
     words = (
-        "Rigidity between motor and table, share of what gives way, critical speed and buckling load over the place "
+        "Rigidity between motor and table, shares of the compliance, critical speed and buckling load over the place "
         f"of the nut: {text.title(report)}."
     )
     drawn = named(svg_of(lambda: figures.panels(report), "axis"), words)
     caption = (
-        "Rigidity, what gives way, critical speed and buckling load over the place of the nut, from the fixed bearing; "
-        "shaded: its travel."
+        "Rigidity, shares of the compliance, critical speed and buckling load over the place of the nut, from the "
+        "fixed bearing; shaded: its travel."
     )
     return [
         Paragraph(" ".join([f"{sentence(text.title(report))}.", *said]), strong=True),
@@ -44,15 +43,10 @@ def blocks(report: ChainReport) -> list[Block]:
 
 def _places(report: ChainReport) -> Table:
     heads, *rows = text.place_rows(report)
-    known = report.guide_friction == report.guide_friction
-    note = (
-        f"Lost motion by the {units.shown(report.guide_friction, FRICTION)} of the guides; play comes on top."
-        if known
-        else ""
-    )
-    return Table("Over the stroke", heads, rows, note=note)
+    note = text.note_of_lost_motion(report)
+    return Table("Over the stroke", heads, rows, note=f"{sentence(note)}." if note else "")
 
 
 def _springs(report: ChainReport) -> Table:
     heads, *rows = text.spring_rows(report)
-    return Table("What gives way", heads, rows)
+    return Table("Rigidity and shares of the compliance", heads, rows)

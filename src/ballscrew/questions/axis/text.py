@@ -49,10 +49,14 @@ def _places(report: ChainReport) -> list[str]:
     lines = aligned(rows)
     if len(rows[0]) < len(_SHORT):
         return lines
-    return [
-        *lines,
-        f"lost motion from the {units.shown(report.guide_friction, FRICTION)} of the guides; backlash comes on top",
-    ]
+    return [*lines, note_of_lost_motion(report)]
+
+
+def note_of_lost_motion(report: ChainReport) -> str:
+    """What the lost motion of the table is made of; empty where the friction of the guides is not known."""
+    if report.guide_friction != report.guide_friction:
+        return ""
+    return f"lost motion from the {units.shown(report.guide_friction, FRICTION)} of the guides; backlash comes on top"
 
 
 def place_rows(report: ChainReport) -> list[list[str]]:

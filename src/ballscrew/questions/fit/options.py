@@ -41,8 +41,8 @@ class FitOptions:
     temperature_error: Annotated[
         float | None,
         Option(
-            'Uncertainty of the oil temperature of the whole log, half of 95 %: "2 K" where logged, '
-            "or else 10 K.",
+            'Uncertainty of the oil temperature of the whole log, half the width of its 95 % interval, such as "2 K"; '
+            "if left out, 2 K where it is logged, else 10 K.",
             metavar="VALUE", unit="K", at_least=0, is_difference=True,
         ),
     ] = None  # fmt: skip

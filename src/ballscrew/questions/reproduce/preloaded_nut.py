@@ -23,7 +23,7 @@ CASE_FILE = "preloaded_nut.toml"
 #: The operating point without load, as the rules of makers have it.
 UNLOADED = ("operation.axial_load=0 N", "operation.screw_speed=100 rpm")
 #: The same as options of the command line.
-UNLOADED_OPTIONS = " ".join("--set {}='{}'".format(*setting.split("=")) for setting in UNLOADED)
+UNLOADED_OPTIONS = " ".join('--set {}="{}"'.format(*setting.split("=")) for setting in UNLOADED)
 CASE = f"""\
 # A preloaded nut of a catalogue, for the reference model.
 # Under load, with the band:   ballscrew run {CASE_FILE} --band

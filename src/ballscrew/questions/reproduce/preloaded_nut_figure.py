@@ -19,7 +19,8 @@ def band_and_rules(found: PreloadedNut) -> Figure:
     torque = here.band.band["screw_torque"]
     caption = (
         f"{descriptions.title(here.case)}; {descriptions.design(here.case)}. Bar: {words.level(here)} of "
-        f"{here.band.band.count} samples of uncertain inputs and laws. Without seals, as the rules have none."
+        f"{here.band.band.count} samples of uncertain inputs and laws. "
+        "Without seals, because the makers' rules leave them out."
     )
     figure, (panel,) = charts.new_figure(caption, columns=1, height=2.4)
     panel.barh(0, torque.both.high - torque.both.low, _BAR, left=torque.both.low, color=charts.SKY)

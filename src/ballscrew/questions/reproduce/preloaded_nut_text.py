@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
-
 from ballscrew.basis import units
 from ballscrew.basis.output.wrapping import aligned
 from ballscrew.basis.quantities import Quantity
@@ -21,7 +18,7 @@ from ballscrew.questions.reproduce.preloaded_nut import (
 )
 from ballscrew.questions.run.makers import contradiction
 from ballscrew.questions.shared.report_blocks import sentence
-from ballscrew.questions.shared.text_tables import ends_or_dashes, shown_or_dash
+from ballscrew.questions.shared.text_tables import ends_or_dashes, markdown_table, shown_or_dash
 
 _TORQUE = "screw_torque"
 #: The file of the page, and of its picture without the ending.
@@ -33,14 +30,14 @@ DRAG = "drag torque without seals"
 _PAGE = """\
 # The reference model on a preloaded nut
 
-The claims of the paper are checked with its own equations, as printed and corrected. The model to use is another one,
-`reference`, and most machines have a preloaded nut, which the paper has not. Here is that model on one: row `{row}`
-of the catalogue, {nut}. The case is in `{file}`.
+The claims of the paper are checked with its own equations, as printed and corrected. Use the model `reference`, not
+those of the paper. Most machines have a preloaded nut, which the paper has not. Here is the model `reference` on one:
+row `{row}` of the catalogue, {nut}. The case is in `{file}`.
 
 ## Without load
 
 {drag}
-At {point}, without seals, as the rules have none. {contradiction}.
+At {point}, without seals, because the makers' rules leave them out. {contradiction}.
 
 ![The band of the model, and the rules of makers]({picture}.svg)
 
@@ -73,7 +70,7 @@ def lines(found: PreloadedNut) -> list[str]:
         *((f" {_quantity(loaded, name).info.meaning}", *value_and_band(loaded, name)) for name in _SHOWN),
     ]
     return [
-        f"The model to use, reference, on a preloaded nut ({_row(found)}, {nut_text(loaded.case.screw.nut)}):",
+        f"The model reference on a preloaded nut ({_row(found)}, {nut_text(loaded.case.screw.nut)}):",
         *(f"  {line}" for line in aligned(rows)),
         f"  {contradiction_of(found)}",
     ]
@@ -98,10 +95,12 @@ def page(found: PreloadedNut) -> str:
         nut=nut_text(loaded.case.screw.nut),
         file=CASE_FILE,
         picture=PICTURE,
-        drag=_table((DRAG, "value", f"{level(here)} band", "model / rule", "range or tolerance, as stated"), drag),
+        drag=markdown_table(
+            (DRAG, "value", f"{level(here)} band", "model / rule", "range or tolerance, as stated"), drag, numbers=True
+        ),
         point=operating_point(here.case),
         contradiction=sentence(contradiction_of(found)),
-        loaded=_table(("", "value", f"{level(loaded)} band"), of_load),
+        loaded=markdown_table(("", "value", f"{level(loaded)} band"), of_load, numbers=True),
         loaded_point=operating_point(loaded.case),
         counts=units.filled(input_counts(loaded.band)),
         options=UNLOADED_OPTIONS,
@@ -148,9 +147,3 @@ def _row(found: PreloadedNut) -> str:
     row = found.loaded.case.row
     assert row is not None, "the case has a row"
     return row.name
-
-
-def _table(heading: Sequence[str], rows: Sequence[Sequence[Any]]) -> str:
-    """A table in Markdown."""
-    marks = ["---", *["--:"] * (len(heading) - 1)]
-    return "".join("| " + " | ".join(line) + " |\n" for line in (heading, marks, *rows))

@@ -128,9 +128,9 @@ def unloaded_rows(run: Run) -> list[tuple[str, float]]:
 
 
 def drag_label(losses: Sequence[str], *, included: bool) -> str:
-    """``drag torque without seals``; of other losses as well where the nut has some."""
-    others = any(name != "seals" for name in losses)
-    return f"drag torque {'with' if included else 'without'} seals{' and other losses' if others else ''}"
+    """``drag torque without seals``; of a nut with other losses with the names of those that it has."""
+    names = [MECHANISMS.get(name, name).replace("_", " ") for name in losses] or ["seals"]
+    return f"drag torque {'with' if included else 'without'} {' and '.join(names)}"
 
 
 def rules_contradict(run: Run) -> list[str]:

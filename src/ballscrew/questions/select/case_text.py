@@ -22,32 +22,35 @@ from ballscrew.questions.select.need import Need
 _FILES = ("file", "oil_file")
 
 
-def tables(found: Candidate, need: Need) -> dict[str, Any]:
-    """The case file of a candidate; one that moves has its steady travel as operation, for all other questions."""
+def tables(found: Candidate, need: Need, model: str | None = None) -> dict[str, Any]:
+    """The case file of a candidate; one that moves has its steady travel as operation, for all other questions.
+
+    ``model`` is the name of the one that it was judged by, in place of that of the need.
+    """
     known, at = fields_of(OperatingState), found.case.operation
     steady = {name: units.written(getattr(at, name), known[name]) for name in ("axial_load", "screw_speed")}
     made = case_tables(need, found.variant)
-    return {**made, "operation": steady} if need.moves and "operation" not in made else made
+    if need.moves and "operation" not in made:
+        made["operation"] = steady
+    if model is not None:
+        made["model"] = {**made.get("model", {}), "name": model}
+    if found.case.calibration is not None:
+        return {**with_calibration(made, found.case.calibration.name)}
+    return {**with_calibration(made, NO_CALIBRATION)} if "calibration" in made.get("model", {}) else made
 
 
-def save(to: Path, found: Selection, chosen: Ranked, said: str, model: str | None = None) -> None:
-    """Write the case of a candidate; ``said`` is what its checks say, ``model`` the one it was judged by."""
+def save(to: Path, found: Selection, chosen: Ranked, said: str) -> None:
+    """Write the case of a candidate; ``said`` is what its checks say."""
     with atomic_write("--to", to) as path:
-        path.write_text(text(found, chosen, said, model=model, folder=to.parent), encoding="utf-8")
+        path.write_text(text(found, chosen, said, folder=to.parent), encoding="utf-8")
 
 
-def text(found: Selection, chosen: Ranked, said: str, *, model: str | None = None, folder: Path = Path()) -> str:
+def text(found: Selection, chosen: Ranked, said: str, *, folder: Path = Path()) -> str:
     """The case of a candidate as TOML for a file in ``folder``; what was assumed stands in its comments."""
     import tomlkit
 
     candidate, need = chosen.candidate, found.need
-    made = tables(candidate, need)
-    if model is not None:
-        made["model"] = {**made.get("model", {}), "name": model}
-    if candidate.case.calibration is not None:
-        made = {**with_calibration(made, candidate.case.calibration.name)}
-    elif "calibration" in made.get("model", {}):
-        made = {**with_calibration(made, NO_CALIBRATION)}
+    made = tables(candidate, need, found.model)
     if need.folder.resolve() != folder.resolve():
         kept = made.pop(ASIDE, None)  # no command reads it
         made = {**_moved(made, need.folder, folder), **({} if kept is None else {ASIDE: kept})}

@@ -102,6 +102,8 @@ class Selection:
     notes: Sequence[str] = ()
     #: Ctrl-C came before all candidates were judged.
     interrupted: bool = False
+    #: Name of the model that they were judged by, in place of that of the need.
+    model: str | None = None
 
     @property
     def holding(self) -> Sequence[Ranked]:
@@ -178,8 +180,9 @@ def select(
         asked = asked.with_note(filled_text("unsupported length: {words}", words=Message(LENGTH_OF_STROKE)))
     candidates = list(found.found.values())
     return Selection(
-        asked, ready.objectives, ranked(candidates, ready.objectives), [*ready.notes, *found.notes], found.interrupted
-    )
+        asked, ready.objectives, ranked(candidates, ready.objectives), [*ready.notes, *found.notes], found.interrupted,
+        model,
+    )  # fmt: skip
 
 
 def plan(

@@ -45,7 +45,7 @@ def document(found: Selection) -> dict[str, Any]:
         "best": None if best is None else best.variant.label,
         "holding": len(found.holding),
         "ruled_out": sum(not each.candidate.complete for each in found.ranked),
-        "candidates": [candidate_document(each, found.need) for each in found.ranked],
+        "candidates": [candidate_document(each, found.need, found.model) for each in found.ranked],
         "notes": list(found.notes),
         "warnings": documents(next((each.candidate.starved for each in found.ranked if each.candidate.starved), [])),
         "units": {
@@ -98,7 +98,7 @@ def objectives_document(names: Any) -> list[dict[str, Any]]:
     return [declared.document(objective(name)) for name in names]
 
 
-def candidate_document(ranked: Ranked, need: Need) -> dict[str, Any]:
+def candidate_document(ranked: Ranked, need: Need, model: str | None = None) -> dict[str, Any]:
     """One candidate: the document of its check, with its rank, what fails, the numbers compared, and its case file."""
     found = ranked.candidate
     whole: dict[str, Any] = {"results": {}, "verdicts": [], "warnings": [], "assumed": []}
@@ -111,7 +111,7 @@ def candidate_document(ranked: Ranked, need: Need) -> dict[str, Any]:
             # of the cycle, or of the nut without load
             whole["warnings"] = [*documents(found.starved), *whole["warnings"]]
     return {
-        **declared.document(candidate(ranked, verdict(found), case_text.tables(found, need))),
+        **declared.document(candidate(ranked, verdict(found), case_text.tables(found, need, model))),
         "results": whole.pop("results"),
         **({} if found.duty is None else declared.document(of_motion(found.duty))),
         "checks": [check_documents.check_document(check) for check in found.checks],

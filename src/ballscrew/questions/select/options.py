@@ -33,11 +33,15 @@ class ListOptions:
 
     #: Empty for those of the need.
     objectives: Objectives = ()
-    holds: Annotated[bool, Option("Only candidates that pass all checks that are judged.")] = False
+    holds: Annotated[bool, Option("Only candidates without a failed check; some checks may not be judged.")] = False
     front: Annotated[bool, Option("Only members of the Pareto front.")] = False
     first: Annotated[int, Option("Lines shown; 0 for all.", metavar="N", at_least=0)] = 20
     #: None for that of the first one listed.
     rank: Annotated[
         int | None,
-        Option("Of the candidate whose case --to FILE.toml writes; the first listed.", metavar="N", at_least=1),
+        Option(
+            "Rank of the candidate whose case --to FILE.toml writes; the first listed if left out.",
+            metavar="N",
+            at_least=1,
+        ),
     ] = None

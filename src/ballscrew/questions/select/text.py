@@ -110,7 +110,8 @@ def text(found: Selection, ranked: Sequence[Ranked], most: int = USUAL_LINES) ->
     if not ranked:
         lines.append("none is left of these")
     lines += beside_rules(found)
-    named = " and ".join(LABELS[name] for name in found.objectives)
+    *others, last = (LABELS[name] for name in found.objectives)
+    named = f"{', '.join(others)} and {last}" if others else last
     lines += [
         "",
         wrapped(f"*  Pareto front: of the candidates that fail no check, none is better in {named} taken together"),

@@ -53,8 +53,8 @@ def print_service(case: Case, report: ServiceReport) -> None:
     if report.change is not None:
         others = verdicts(case, report)[1:]
         if others:
-            before = "the case's" if report.change.new.fit is None else "the new log's"
-            say(f"\nIf the preload had stayed {before}:", "bold")
+            before = "case" if report.change.new.fit is None else "new log"
+            say(f"\nWith the preload of the {before}:", "bold")
         for record in others:
             say(f"  {record.text}")
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 from rich.table import Table
@@ -36,3 +37,11 @@ def ends_or_dashes(low: Any, high: Any, quantity: Quantity) -> tuple[str, str]:
 def spoken(name: str) -> str:
     """The last part of a name, without underscores."""
     return name.rpartition(".")[2].replace("_", " ")
+
+
+def markdown_table(heading: Sequence[str], rows: Sequence[Sequence[str]], *, numbers: bool = False) -> str:
+    """A table in Markdown; bars in cells are escaped. Columns of ``numbers`` after the first are set to the right."""
+    marks = ["---", *["--:" if numbers else "---"] * (len(heading) - 1)]
+    return "".join(
+        "| " + " | ".join(cell.replace("|", r"\|") for cell in line) + " |\n" for line in (heading, marks, *rows)
+    )

@@ -16,6 +16,7 @@ from ballscrew.questions.warm_up.compute import EQUILIBRIUM, PLACE, SERIES, Warm
 #: Hours of work that a report shows.
 HOURS = 4.0
 _GROWTH = SERIES["shaft_growth"]
+_MARGIN = "stability margin of the thermal loop"
 
 
 def blocks_of(case: Case) -> list[Block]:
@@ -50,7 +51,7 @@ def blocks(report: WarmUpReport) -> list[Block]:
 def _steady(report: WarmUpReport) -> Table:
     end = report.warm_up.equilibrium
     if not end.exists:
-        return Table("The steady state", ("", "value"), [("margin, below zero: there is none", f"{end.margin:.3g}")])
+        return Table("The steady state", ("", "value"), [(f"{_MARGIN}; below 0 there is none", f"{end.margin:.3g}")])
     each = [report, *([] if report.full_bath is None else [report.full_bath])]
     rows = [
         (quantity.info.meaning, *(shown_or_dash(one.equilibrium[name], quantity) for one in each))
@@ -59,7 +60,7 @@ def _steady(report: WarmUpReport) -> Table:
     ]
     margins = [f"{one.warm_up.equilibrium.margin:.3g}" for one in each]
     heads = ("", "value", "in a full bath of oil")[: 1 + len(each)]
-    return Table("The steady state", heads, [*rows, ("stability margin of the thermal loop, of 1", *margins)])
+    return Table("The steady state", heads, [*rows, (f"{_MARGIN} (1: no feedback, 0: thermal runaway)", *margins)])
 
 
 def _drift(report: WarmUpReport) -> Table:

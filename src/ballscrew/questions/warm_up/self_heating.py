@@ -151,15 +151,14 @@ class SelfHeating:
             "warm": Measured(self.torque, _TORQUE),
             "cold": Measured(self.torque_given, _TORQUE),
         }
-        margin = units.as_written(f"{end.margin:z.2f}")
         if end.network.preload_set:
             quantity = EQUILIBRIUM["preload"]
             message = _HEATED_WITH_PRELOAD.of(
-                **numbers, margin=margin, preload=Measured(float(end.preload), quantity),
+                **numbers, margin=end.shown_margin, preload=Measured(float(end.preload), quantity),
                 before=Measured(float(end.network.preload_set), quantity),
             )  # fmt: skip
         else:
-            message = _HEATED.of(**numbers, margin=margin)
+            message = _HEATED.of(**numbers, margin=end.shown_margin)
         return units.record(
             message, id="verdict.self_heating", subject="lubricant.temperature", severity="info", holds=True,
             value=end.oil_temperature, unit="K",

@@ -203,6 +203,13 @@ function after(delay, signal, work) {
 
 /** The line of a curve that took too long for a request. @typedef {Extract<AnswerLine, { problem: unknown }>} Late */
 
+/** What shows an error that nobody waits for, unless its question is over. @param {AbortSignal} signal */
+function fail(signal) {
+  return (/** @type {unknown} */ error) => {
+    if (!signal.aborted) results.fail(results.refusal(linesOf(error)));
+  };
+}
+
 /** Test whether a curve goes on as a job. @param {Late} line */
 function isLate({ problem, sweep }) {
   return Boolean(sweep) && isOutOfTime(new Problem(problem));
@@ -523,7 +530,7 @@ class Answers {
         if (question === "run") this.#showNumbers(/** @type {any} */ (line).answer, asked);
         else if (question === "check") judged = this.#showChecks(body);
         else await this.#charts[question](line, asked);
-        if ("sweep" in line && isLate(line)) this.#goOn(line, asked);
+        if ("sweep" in line && isLate(line)) this.#goOn(line, asked).catch(fail(signal));
         isWarm ||= question === "cold_and_hot";
       }
       if (signal.aborted) return;
@@ -627,9 +634,10 @@ class Answers {
     over_speed: async (line, asked) => {
       await this.#drawn("torque-chart", line, asked, (answer, found) => {
         this.#displayed.alongSpeed = found;
+        this.#showHot();
         return this.#drawTorque(answer);
       });
-      measurePaint("chart", asked.start, asked.signal);
+      if ("answer" in line) measurePaint("chart", asked.start, asked.signal);
       await this.#drawn("film-chart", line, asked, (answer, found) => curves.film(found, answer));
       await this.#drawn("stribeck-chart", line, asked, (answer, found) => stribeck.show(found, answer));
     },
@@ -638,8 +646,7 @@ class Answers {
       return this.#drawn("temperatures", line, asked, (answer, found) => {
         this.#displayed.hotAndCold = found;
         temperatures.show(found, answer);
-        const { body, alongSpeed } = this.#displayed;
-        if (body && alongSpeed) hot.show(body, answer, found, alongSpeed);
+        this.#showHot();
       });
     },
     over_both: (line, asked) =>
@@ -697,6 +704,12 @@ class Answers {
     this.#displayed.asked = asked;
     await showDesigns(found, this.#displayed.starts, vocabulary.mechanisms);
     if (band && designs.length > 1 && !refused.has(body)) this.#addBands(asked);
+  }
+
+  /** Show the curves cold and hot, once the sweeps over the temperature and over the speed are both there. */
+  #showHot() {
+    const { body, answer, hotAndCold, alongSpeed } = this.#displayed;
+    if (body && answer && hotAndCold && alongSpeed) hot.show(body, answer, hotAndCold, alongSpeed);
   }
 
   /** Draw the torque over the speed, with its band where that is there. @param {Run} answer */

@@ -4,6 +4,7 @@ import { operationOf } from "./chart_parts.js";
 import { wordsOf } from "./charts.js";
 import { opened } from "./controls.js";
 import { element, scrolling, table } from "./dom.js";
+import { NARROW } from "./drawing.js";
 import { shape } from "./shapes.js";
 import { text } from "./texts.js";
 import * as units from "./units.js";
@@ -77,6 +78,8 @@ export function powerFlow(answer, mechanisms) {
     ]);
   const headings = [text("power.part"), text("power.direction"), text("power.power"), text("power.share")];
   const numbers = table(text("power.caption"), headings, [...rows("in", sources), ...rows("out", sinks)]);
+  const below = opened(text("chart.numbers"), scrolling(text("power.caption"), numbers));
+  if (NARROW.matches) below.setAttribute("open", ""); // the picture has no room for the names there
   const heat = answer.results.friction_power;
   const given = sources.reduce((all, { power, isLoss }) => all + (isLoss ? power : 0), 0);
   const isApart = typeof heat === "number" && Math.abs(heat - (lost - given)) > APART * Math.abs(heat);
@@ -85,7 +88,7 @@ export function powerFlow(answer, mechanisms) {
     { class: "power-flow" },
     element("p", { class: "small" }, direction),
     picture(found, words, colour, label),
-    opened(text("chart.numbers"), scrolling(text("power.caption"), numbers)),
+    below,
     isApart
       ? element("p", { class: "small" }, text("power.heat", { heat: units.formatted("friction_power", heat) }))
       : null,
