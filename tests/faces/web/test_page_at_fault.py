@@ -24,7 +24,7 @@ def test_a_fault_stands_beside_its_field(visit):
     assert "f-operation-axial_load-fault" in field.locator("input").get_attribute("aria-describedby")
     assert "furlong" not in here.text("#faults")  # each fault once, beside its field
     assert "axial load (Operating point)" in here.text("#faults")
-    assert "of the input before" in here.text("#faults")
+    assert "of the previous input" in here.text("#faults")
     struck = "getComputedStyle(document.querySelector('#numbers data')).textDecorationLine"
     faint = "Number(getComputedStyle(document.querySelector('#torque-chart .plot')).opacity)"
     assert here.page.evaluate(struck) == "line-through"

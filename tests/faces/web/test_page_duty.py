@@ -81,7 +81,7 @@ def test_a_duty_from_an_example_to_a_fault_and_back(visit, server):
     page.locator("#segment-1-speed").fill("fast")
     page.wait_for_selector("#segment-1-speed[aria-invalid=true]")
     assert here.text("#duty td.wrong .fault")
-    assert "of the input before" in here.text("#duty .card-line")
+    assert "of the previous input" in here.text("#duty .card-line")
     assert not page.locator("#results").evaluate("one => one.classList.contains('stale')")
     page.locator("#undo").click()
     answered(here, "duty")

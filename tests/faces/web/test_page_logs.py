@@ -88,7 +88,7 @@ def test_a_log_is_fitted_and_used(visit, server):
     assert used["calibration"]["numbers"] == found["calibrated"]["case"]["calibration"]["numbers"]
     assert used["model"]["friction"] == found["calibrated"]["case"]["model"]["friction"]
     assert server.post("run", {"case": used}).status_code == 200
-    page.wait_for_selector("#calibration .card-line:has-text('of the input before')")
+    page.wait_for_selector("#calibration .card-line:has-text('of the previous input')")
     assert violations(here) == []
     page.locator("#undo").click()
     here.settle()

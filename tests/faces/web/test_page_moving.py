@@ -45,7 +45,7 @@ def test_a_reversal_is_asked_for_and_refused(visit, server):
     page.locator("#reversal details.card-fields > summary").click()
     page.locator("#reversal-travel").fill("-1 mm")
     page.wait_for_selector("#reversal code:has-text('--travel')")
-    assert "of the input before" in here.text("#reversal .card-line")
+    assert "of the previous input" in here.text("#reversal .card-line")
     page.locator("#reversal-start").click()
     page.wait_for_selector("#reversal .fault:has-text('must be positive')")
     page.locator("#reversal-travel").fill("50 um")

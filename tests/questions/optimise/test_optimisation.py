@@ -259,7 +259,7 @@ def test_a_need_that_nothing_fulfils_ends_in_words(tmp_path):
     options = {"population": 8, "generations": 2, "engine": "numpy", "settings": ["optimise.elastic_generations=1"]}
     found = bs.optimise(tables, **options)
     assert found.members == []
-    assert "no design within the bounds holds" in text(found)
+    assert "no design within the bounds passes all checks" in text(found)
     assert json.loads(json.dumps(plain(document(found))))["candidates"] == []
     row_tables.write(tmp_path / "empty.csv", of_optimisation(found.members))
     files.draw(lambda: picture(found), tmp_path / "empty.svg")
