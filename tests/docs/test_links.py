@@ -153,7 +153,7 @@ def test_links_of_the_built_pages_lead_somewhere(built_pages):
 SEARCHED = "L10", "C_a", "backlash", "drag", "preload", "NLGI", "DN", "buckling", "stiffness", "critical", "wiper"
 
 
-def test_the_search_finds_the_words_of_the_glossary(built_pages):
+def test_the_search_of_the_built_pages_finds_the_words_of_the_glossary(built_pages):
     """As the page of the search does: the word's stem in the index, and the pages that have it."""
     stem = snowballstemmer.stemmer("english").stemWord
     written = (BUILT / "searchindex.js").read_text(encoding="utf-8")
