@@ -37,7 +37,7 @@ def test_a_service_survives_a_reload(visit, server):
     for _ in range(2):
         here.page.reload()
         here.page.wait_for_selector("#service [data-name=ratio]")
-        assert "before the page was loaded again" in here.text("#service .card-line")
+        assert "before the page was reloaded" in here.text("#service .card-line")
     ratio = here.page.locator("#service [data-name=ratio]").get_attribute("value")
     found = server.post("service", {**body, "case": case_of(here), "tolerance": 0.1}).json()
     assert float(ratio) == found["results"]["ratio"]["value"]

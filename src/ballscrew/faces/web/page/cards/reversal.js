@@ -39,7 +39,7 @@ function percent(share) {
  * @returns {import("../cards.js").Card}
  */
 export function setUp(holder) {
-  const chart = element("div", { id: CHART, class: "chart low whole-width", hidden: true });
+  const chart = element("div", { id: CHART, class: "chart low", hidden: true });
   const page = documented("howto/reversal", `${text("reversal.how_to")}.`);
   const about = [`${text("reversal.hypothesis")} `, page];
   return askedByButton(holder, "reversal", about, "reversal.start", [chart], ({ results }) => {
