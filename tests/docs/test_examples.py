@@ -13,7 +13,7 @@ from .pages import ROOT, blocks, markers, name, pages
 
 
 def examples(page):
-    return [block for block in blocks(page) if block.info == "python"]
+    return [block for block in blocks(page) if block.info == "python" and not block.written]
 
 
 PAGES = [page for page in pages() if examples(page)]

@@ -96,9 +96,9 @@ def test_a_log_is_fitted_and_used(visit, server):
     page.wait_for_selector("#calibrate-used:text-is('')", state="attached")
     # a fit of another case is not written over this one
     page.evaluate(CHOOSE_AND_USE, [here.id("lubricant.grade"), "ISO VG 220"])
-    page.wait_for_selector("#calibrate-used:has-text('another one')")
+    page.wait_for_selector("#calibrate-used:has-text('has changed since the fit')")
     here.rest(AFTER_AN_EDIT).settle()  # what follows the edit does not take the words away
-    assert "another one" in here.text("#calibrate-used")
+    assert "has changed since the fit" in here.text("#calibrate-used")
     assert case_of(here)["lubricant"]["grade"] == "ISO VG 220"
     here.choose("lubricant.grade", "ISO VG 68").settle()
     page.wait_for_selector("#calibrate-used:text-is('')", state="attached")
