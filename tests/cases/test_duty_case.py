@@ -213,7 +213,9 @@ def test_other_commands_ask_for_an_operating_point_and_a_model():
 
 
 def test_the_schema_knows_the_example_and_no_other_keys():
-    jsonschema_rs = pytest.importorskip("jsonschema_rs")  # not among the oldest packages that are tested
+    jsonschema_rs = pytest.importorskip(
+        "jsonschema_rs", reason="jsonschema_rs is not among the oldest packages that are tested"
+    )
     tables = tomllib.loads((ROOT / "examples" / "vertical_axis.toml").read_text(encoding="utf-8"))
     known = schema.json_schema()
     jsonschema_rs.validate(known, tables)

@@ -51,7 +51,9 @@ def test_the_schema_takes_the_example_and_refuses_another():
     tables = tomllib.loads(TEXT)
     tables["card"]["when"] = tables["card"]["when"].isoformat()  # JSON has no dates
     schema = torque_card.json_schema()
-    jsonschema_rs = pytest.importorskip("jsonschema_rs")  # not among the oldest packages that are tested
+    jsonschema_rs = pytest.importorskip(
+        "jsonschema_rs", reason="jsonschema_rs is not among the oldest packages that are tested"
+    )
     jsonschema_rs.validate(schema, tables)
     del tables["setup"]["wipers"]
     assert not jsonschema_rs.is_valid(schema, tables)

@@ -17,8 +17,8 @@ import ballscrew as bs
 from ballscrew.engine.sweeps import cluster as clusters
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 
-pytest.importorskip("zarr")
-distributed = pytest.importorskip("distributed")
+pytest.importorskip("zarr", reason="zarr is not installed (the extra data)")
+distributed = pytest.importorskip("distributed", reason="distributed is not installed (the extra cluster)")
 
 pytestmark = [
     pytest.mark.skipif(sys.platform == "win32", reason="there is no SIGKILL"),

@@ -22,7 +22,7 @@ from ballscrew.engine.sweeps.store import UnfinishedSweepError
 from ballscrew.engine.sweeps.store_plan import BLOCK_BYTES, Blocks
 from support.stores import AXES, KILLED, KILLED_BLOCKS, MODEL, blocks_of, files, started, stop_at, times
 
-pytest.importorskip("zarr")
+pytest.importorskip("zarr", reason="zarr is not installed (the extra data)")
 
 
 # -- the dataset ----------------------------------------------------------------------------------

@@ -14,7 +14,7 @@ from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.sweeps.store_rows import cells_of, row
 from support.stores import MODEL, SMALL, files, stop_at
 
-pytest.importorskip("zarr")
+pytest.importorskip("zarr", reason="zarr is not installed (the extra data)")
 
 CHUNK = "efficiency/c/2/1/0"
 OTHER = "efficiency/c/3/0/0"

@@ -9,7 +9,7 @@ import ballscrew as bs
 from ballscrew.engine.sweeps.lock import Lock
 from support.stores import files, stop_at
 
-pytest.importorskip("zarr")
+pytest.importorskip("zarr", reason="zarr is not installed (the extra data)")
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="links need rights there")
 
 MINE = "all that I have\n"

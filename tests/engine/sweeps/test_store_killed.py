@@ -12,7 +12,7 @@ import pytest
 
 import ballscrew as bs
 
-pytest.importorskip("zarr")
+pytest.importorskip("zarr", reason="zarr is not installed (the extra data)")
 pytestmark = [pytest.mark.long, pytest.mark.skipif(sys.platform == "win32", reason="there is no SIGKILL")]
 
 POINTS = 20_000_000

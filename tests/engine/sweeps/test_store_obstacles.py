@@ -8,7 +8,7 @@ import pytest
 import ballscrew as bs
 from support.stores import files, stop_at, times
 
-pytest.importorskip("zarr")
+pytest.importorskip("zarr", reason="zarr is not installed (the extra data)")
 
 
 @pytest.fixture

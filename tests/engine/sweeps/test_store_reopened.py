@@ -21,7 +21,7 @@ from ballscrew.engine.sweeps.store import Store
 from ballscrew.engine.sweeps.store_check import count_false
 from support.stores import AXES, MODEL, SMALL, blocks_of, files, started, stop_at, times
 
-pytest.importorskip("zarr")
+pytest.importorskip("zarr", reason="zarr is not installed (the extra data)")
 
 
 # -- what is there already ------------------------------------------------------------------------
@@ -278,7 +278,7 @@ def test_a_lock_left_behind_is_taken_over(text, swept, whole, tmp_path):
 
 
 def test_where_there_are_no_locks_the_process_is_asked_for(swept, whole, tmp_path, monkeypatch):
-    fcntl = pytest.importorskip("fcntl")
+    fcntl = pytest.importorskip("fcntl", reason="this system has no fcntl")
 
     def none(*_):
         raise OSError(errno.ENOLCK, os.strerror(errno.ENOLCK))

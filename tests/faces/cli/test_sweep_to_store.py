@@ -16,7 +16,7 @@ from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
 from ballscrew.questions.sweep import compute as sweeps
 
-pytest.importorskip("zarr")
+pytest.importorskip("zarr", reason="zarr is not installed (the extra data)")
 
 ROOT = Path(__file__).parents[3]
 AXES = ("--vary", "axial_load=10:4000:30 N", "--vary", "screw_speed=1:1000:40 rpm")
@@ -178,7 +178,7 @@ def test_a_scheduler_needs_a_store(example, ballscrew):
 
 
 def test_a_scheduler_that_does_not_answer(example, ballscrew, tmp_path):
-    pytest.importorskip("distributed")
+    pytest.importorskip("distributed", reason="distributed is not installed (the extra cluster)")
     for address in ("tcp://127.0.0.1:1", "nonsense"):
         process = ballscrew("sweep", example, "--to", "map.zarr", "--scheduler", address)
         fault(process, f"--scheduler: no scheduler answers ({address}", "such as tcp://host:8786")
@@ -186,7 +186,7 @@ def test_a_scheduler_that_does_not_answer(example, ballscrew, tmp_path):
 
 
 def test_a_sweep_on_a_cluster(example, ballscrew, tmp_path):
-    distributed = pytest.importorskip("distributed")
+    distributed = pytest.importorskip("distributed", reason="distributed is not installed (the extra cluster)")
     there = {"host": "127.0.0.1", "protocol": "tcp://", "scheduler_port": 0, "dashboard_address": ":0"}
     there |= {"n_workers": 1, "threads_per_worker": 2, "processes": False, "local_directory": tmp_path / "scratch"}
     with distributed.LocalCluster(**there) as cluster:

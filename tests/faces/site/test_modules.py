@@ -10,7 +10,7 @@ from ballscrew.exports.wasm_modules import BALL, NUT_DIAMETER, KeptModule, modul
 from ballscrew.faces.site import kinds, modules
 from support.modules_in_node import Modules, start_of
 
-pytestmark = [pytest.mark.implausible, pytest.mark.filterwarnings("ignore::UserWarning")]
+pytestmark = pytest.mark.implausible
 
 #: Structures of the tests: rigid, elastic and four contacts, of both ends of the models.
 RIGID = (

@@ -6,7 +6,7 @@ import unittest.mock
 
 import pytest
 
-pytest.importorskip("fastapi")
+pytest.importorskip("fastapi", reason="fastapi is not installed (the extra web)")
 import uvicorn
 
 from ballscrew.faces.web import connections

@@ -212,7 +212,7 @@ class ConstantEfficiency(ByValue):
     def __post_init__(self) -> None:
         raise_if_any(faults_of("model", self))
 
-    def along(self, axial_load: Numbers, screw_speed: Numbers, temperature: Numbers) -> ScrewFriction:  # noqa: ARG002 - as Screw
+    def along(self, axial_load: Numbers, screw_speed: Numbers, temperature: Numbers) -> ScrewFriction:  # noqa: ARG002  (as Screw)
         """Friction at loads with their signs."""
         ideal = transmission.ideal_torque(axial_load, self.lead)
         torque = np.abs(ideal) * (1 / self.efficiency - 1)

@@ -68,7 +68,7 @@ class LinearGuide(ByValue):
         self,
         loads: Force,
         speed: Speed = 0.0,
-        temperature: Temperature | None = None,  # noqa: ARG002 - as the guides of an axis are called
+        temperature: Temperature | None = None,  # noqa: ARG002  (as the guides of an axis are called)
     ) -> MakersFriction:
         """Friction where the ``loads`` of the carriages are known, N, one for each along the last axis.
 

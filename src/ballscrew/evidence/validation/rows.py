@@ -1,5 +1,5 @@
 """Evaluations of a model for the rows of each set of data, and the statements of the rows."""
-# ruff: noqa: ARG001 - evaluations of rows have one signature
+# ruff: noqa: ARG001  (evaluations of rows have one signature)
 
 from __future__ import annotations
 

@@ -4,7 +4,7 @@ The drag laws are whole torques of a preloaded nut without load, to hold against
 parasitic laws are terms to add to the friction of the loaded balls, each on its own. By default each of
 them is nothing: no open data gives a number for every nut.
 """
-# ruff: noqa: ARG002, D102 - laws of one slot share one signature, said once
+# ruff: noqa: ARG002, D102  (laws of one slot share one signature, said once)
 
 from __future__ import annotations
 

@@ -57,8 +57,8 @@ class _Checked:
             found = self.law(*arguments)
         except Exception as error:  # named and raised again, whatever it is
             error.add_note(f"raised by the law model.{self.slot} = {name_of(self.law)}")
-            # an attribute of our own on an error of anybody
-            error.raised_by_law = f"model.{self.slot}: {name_of(self.law)}"  # pyright: ignore[reportAttributeAccessIssue]
+            law = f"model.{self.slot}: {name_of(self.law)}"
+            error.raised_by_law = law  # pyright: ignore[reportAttributeAccessIssue]  (ours, on an error of anybody)
             raise
         problem = self._problem(found, arguments)
         if problem is not None:

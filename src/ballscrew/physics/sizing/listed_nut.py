@@ -1,5 +1,5 @@
 """The nut of a row of a catalogue: its kind, and the preload, the seals and the outer diameter that are listed."""
-# ruff: noqa: D102 - members of a protocol are described where a row has them
+# ruff: noqa: D102  (members of a protocol are described where a row has them)
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 """Load ratings of a screw by its geometry."""
-# ruff: noqa: D102 - members of a protocol are described where a row has them
+# ruff: noqa: D102  (members of a protocol are described where a row has them)
 
 from __future__ import annotations
 

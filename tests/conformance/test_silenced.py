@@ -1,0 +1,43 @@
+"""What silences a checker, and what skips a test, says why: CONTRIBUTING.md asks for it."""
+
+import ast
+import re
+
+import pytest
+
+from support.commands import ROOT
+
+FOLDERS = "benchmarks", "docs", "src", "tests", "tools"
+FILES = [
+    path for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*.py")) if "node_modules" not in path.parts
+]
+SILENCED = re.compile(r"# (?:ruff: )?(?:noqa|type: ignore|pyright: ignore)\b(?P<rest>.*)$", re.MULTILINE)
+#: The rules, by name, and then the reason in brackets.
+EXPLAINED = re.compile(r"(?:: [A-Z0-9, ]+|\[[\w, -]+\])  \(.+\)$")
+
+
+def name(path):
+    return path.relative_to(ROOT).as_posix()
+
+
+def test_a_silenced_checker_has_its_rule_and_a_reason():
+    bare = [
+        f"{name(path)}: {found[0]}"
+        for path in FILES
+        for found in SILENCED.finditer(path.read_text(encoding="utf-8"))
+        if path.name != "test_silenced.py" and not EXPLAINED.match(found["rest"])
+    ]
+    assert bare == []
+
+
+def _called(node):
+    return node.func.attr if isinstance(node.func, ast.Attribute) else ""
+
+
+@pytest.mark.parametrize("path", [path for path in FILES if "tests" in path.parts], ids=name)
+def test_a_skipped_test_has_a_reason(path):
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Call) and _called(node) in ("skip", "skipif", "importorskip", "xfail"):
+            said = {keyword.arg for keyword in node.keywords}
+            positional = _called(node) == "skip" and node.args
+            assert positional or "reason" in said, f"{name(path)}:{node.lineno} says no reason"
