@@ -5,7 +5,6 @@ Every command takes it. Bands use the covariance of the numbers, as far as they 
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -19,6 +18,7 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.lubricants import OF_NAMED_OIL
 from ballscrew.cases.case_files.named_calibration import written_out
+from ballscrew.cases.case_files.named_files import moved
 from ballscrew.cases.case_files.provenance import of_case, references
 from ballscrew.engine.uncertainty.distributions import normal_half_width
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
@@ -36,12 +36,7 @@ _DIGITS = 12
 
 def save(to: Path, tables: Mapping[str, Any], folder: Path, case: Case, found: CalibratedModel) -> None:
     """Write the case that ``tables`` from a file in ``folder`` describe, with the fitted numbers in place."""
-    text = text_of(tables, case, found)
-    for section, key in (("screw", "catalogue_file"), ("lubricant", "oil_file")):
-        file = tables.get(section, {}).get(key)
-        if file is not None:
-            moved = os.path.relpath(folder / file, to.parent)
-            text = text.replace(f'{key} = "{file}"', f'{key} = "{Path(moved).as_posix()}"')
+    text = text_of(moved(tables, folder, to.parent), case, found)
     with atomic_write("--to", to) as path:
         path.write_text(text, encoding="utf-8")
 

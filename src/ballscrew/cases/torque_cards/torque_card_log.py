@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-import os
 from pathlib import Path
-from typing import Any
 
 from ballscrew.basis import units
 from ballscrew.basis.atomic_files import atomic_write
 from ballscrew.basis.quantities import fields_of
+from ballscrew.cases.case_files.named_files import moved
 from ballscrew.cases.torque_cards.torque_card import TorqueCard, TorquePoint, case_tables, log_rows
 from ballscrew.physics.components.materials import TEMPERATURE
 
@@ -20,12 +19,7 @@ def write(card: TorqueCard, folder: Path, log: Path, case: Path) -> None:
     """Write the log and the case file of a card from a folder."""
     import tomlkit
 
-    tables: dict[str, Any] = case_tables(card.tables)
-    for section, key in (("screw", "catalogue_file"), ("lubricant", "oil_file")):
-        file = tables[section].get(key)
-        if file is not None:
-            moved = Path(os.path.relpath(folder / file, case.parent)).as_posix()
-            tables[section] = {**tables[section], key: moved}
+    tables = moved(case_tables(card.tables), folder, case.parent)
     head = f"# Of the torque card {card.name}: {card.title}\n"
     with atomic_write("--case", case) as path:
         path.write_text(f"{head}\n{tomlkit.dumps(tables)}", encoding="utf-8")

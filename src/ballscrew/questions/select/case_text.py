@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -12,14 +10,12 @@ from ballscrew.basis.atomic_files import atomic_write
 from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.case_files.case_file import ASIDE
 from ballscrew.cases.case_files.named_calibration import NO_CALIBRATION, with_calibration
+from ballscrew.cases.case_files.named_files import moved
 from ballscrew.cases.schema.case_schema import sections
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.questions.select.candidates import Candidate, case_tables
 from ballscrew.questions.select.compute import Ranked, Selection
 from ballscrew.questions.select.need import Need
-
-#: Fields of a case that name a file beside it.
-_FILES = ("file", "oil_file")
 
 
 def tables(found: Candidate, need: Need, model: str | None = None) -> dict[str, Any]:
@@ -53,7 +49,7 @@ def text(found: Selection, chosen: Ranked, said: str, *, folder: Path = Path()) 
     made = tables(candidate, need, found.model)
     if need.folder.resolve() != folder.resolve():
         kept = made.pop(ASIDE, None)  # no command reads it
-        made = {**_moved(made, need.folder, folder), **({} if kept is None else {ASIDE: kept})}
+        made = {**moved(made, need.folder, folder), **({} if kept is None else {ASIDE: kept})}
     order = [name for name in (*sections(), *made) if name in made]
     ordered = {name: made[name] for name in dict.fromkeys(order)}
     head = [
@@ -69,15 +65,3 @@ def _assumed(candidate: Candidate, need: Need) -> list[str]:
     """What was assumed of the need and of the row, once each."""
     of_run = () if candidate.run is None else candidate.run.assumed
     return [*dict.fromkeys((*need.notes, *of_run))]
-
-
-def _moved(value: Any, old: Path, new: Path) -> Any:
-    """Tables with the files that they name as they lie from another folder."""
-    if isinstance(value, Mapping):
-        return {
-            key: Path(os.path.relpath(old / item, new)).as_posix()
-            if key in _FILES and isinstance(item, str)
-            else _moved(item, old, new)
-            for key, item in value.items()
-        }
-    return [_moved(item, old, new) for item in value] if isinstance(value, list) else value
