@@ -4,8 +4,7 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).parent
-ROOT = HERE.parent
-sys.path[:0] = [str(HERE / "_ext"), str(HERE), str(ROOT / "tests")]
+sys.path[:0] = [str(HERE / "_ext"), str(HERE)]
 
 from ballscrew.basis.version import __version__  # noqa: E402  (after the path of the extensions)
 

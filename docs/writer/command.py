@@ -44,7 +44,7 @@ class Page:
         self.folder = KEPT / name.replace("/", "-")
         self.place: Path | None = None
         self._kept = Kept(KEPT, files)
-        #: All commands so far, what they have read, and the digest of what they made.
+        #: All commands so far, and what they have read.
         self.typed: list[str] = []
         self.read: set[str] = set()
         #: Commands whose output was kept; they run only if a later command needs their files.
@@ -52,8 +52,11 @@ class Page:
 
     def said(self, typed: str, keep: list[str]) -> str:
         """The output of the next command, and the files to keep; kept, or made now."""
-        record = self.at_hand(typed, keep)
-        if record is None:
+        self.typed.append(typed)
+        record = self._kept.found(self._cause(keep))
+        if record is not None and record.made == self._digests(keep):
+            self.waiting.append(typed)
+        else:
             for earlier in self.waiting:
                 self._done(earlier)
             self.waiting.clear()
@@ -62,21 +65,8 @@ class Page:
             for name in keep:
                 shutil.copy(self._place() / name, self.folder)
             record = self._kept.keep(self._cause(keep), said, self._digests(keep), self.read)
-            self._note(record)
-        return record.said
-
-    def at_hand(self, typed: str, keep: list[str]) -> kept.Record | None:
-        """The record of the next command, if it holds and the files of the command are there."""
-        self.typed.append(typed)
-        record = self._kept.found(self._cause(keep))
-        if record is None or record.made != self._digests(keep):
-            return None
-        self.waiting.append(typed)
-        self._note(record)
-        return record
-
-    def _note(self, record: kept.Record) -> None:
         self.read |= set(record.read)
+        return record.said
 
     def _cause(self, keep: list[str]) -> str:
         return self._kept.cause(WIDTH, *self.typed, "kept:", *keep)
