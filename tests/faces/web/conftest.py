@@ -137,6 +137,10 @@ def elastic():
 
 # -- the page in a browser --------------------------------------------------------------------------
 
+#: In the page: what it shows is waited for from now on, before it knows that it has to compute.
+BUSY = "document.querySelector('#results').setAttribute('aria-busy', 'true')"
+_VIEW = re.compile(r"&view=[^&]*")
+
 
 class Visit:
     """Somebody at the page: what they see, and what went wrong behind it."""
@@ -173,6 +177,16 @@ class Visit:
         """Open the page, without the band that comes by itself where no test is about it."""
         self.page.goto(f"{self.address}/{fragment}")
         self.page.wait_for_selector("html[data-ready]")
+        return self.settle()
+
+    def lead(self, fragment: str) -> Visit:
+        """Lead the open page to another case, which is not loaded again."""
+        if not self.page.url.endswith(fragment):
+            before, after = (_VIEW.sub("", one) for one in ("#" + self.page.url.partition("#")[2], fragment))
+            is_look = before == after  # another view of the same case asks for nothing
+            self.page.evaluate(f"{'' if is_look else BUSY}; location.hash = {json.dumps(fragment)}")
+            if is_look:
+                self.page.wait_for_function("(fragment) => location.hash === fragment", arg=fragment)
         return self.settle()
 
     def go(self, view: str) -> Visit:

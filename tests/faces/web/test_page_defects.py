@@ -11,7 +11,7 @@ import pytest
 
 from ballscrew.basis.units import to_digits
 
-from .conftest import Visit, new_page
+from .conftest import BUSY, Visit, new_page
 
 DOUBLE = "rexroth-16x5x3-4-double"
 #: A preloaded nut of rigid bodies, which is computed quickly.
@@ -21,7 +21,6 @@ HARD = (
     f"#A={DOUBLE}&A.operation.axial_load=15+kN&A.operation.screw_speed=3500+rpm&A.limits.running_time=20000+h"
     "&A.installation.unsupported_length=3+m&A.installation.ends=fixed-supported&band=0"
 )
-BUSY = "document.querySelector('#results').setAttribute('aria-busy', 'true')"
 SHIFTS = """window.shift = 0; new PerformanceObserver((list) => {
   for (const one of list.getEntries()) if (!one.hadRecentInput) shift += one.value; })
   .observe({ type: "layout-shift", buffered: true })"""
@@ -46,13 +45,7 @@ def opened(browser, server):
 @pytest.fixture
 def go(opened):
     """Lead the page to another case without loading it again."""
-
-    def to(fragment):
-        if not opened.page.url.endswith(fragment):
-            opened.page.evaluate(f"{BUSY}; location.hash = {json.dumps(fragment)}")
-        return opened.settle()
-
-    return to
+    return opened.lead
 
 
 def answer(server, here, address="run"):
@@ -187,7 +180,7 @@ def test_designs_side_by_side_at_one_load(go, server):
     value = "one => Number(one.querySelector('data').value)"
     assert [torque.nth(place).evaluate(value) for place in (0, 1)] == [first, second]
     assert f"{100 * (second / first - 1):+.3g} %".replace("+-", "-") in torque.nth(1).inner_text()
-    assert "checks hold" in here.text("#compare tr:has(th:text-is('checks at this load and speed, for ever'))")
+    assert "checks hold" in here.text("#compare tr:has(th:text-is('checks at this load and speed, held constant'))")
     assert "4000 N and 600 rpm" in here.text("#compare caption")
     here.page.wait_for_function(
         "() => [...document.querySelectorAll('#compare td')].filter((one) => / to /.test(one.textContent)).length === 2"

@@ -1,7 +1,6 @@
 """Parts of the page, each asked by itself on one page that stays open: what they show of what they are given."""
 
 import json
-import re
 import urllib.parse
 
 import pytest
@@ -10,8 +9,6 @@ from .conftest import Visit, new_page
 from .test_page_operating_point import DIAMOND, DRAWN
 
 PAPER = "#A=paper&band=0"
-VIEW = re.compile(r"&view=[^&]*")
-BUSY = "document.querySelector('#results').setAttribute('aria-busy', 'true')"
 
 
 @pytest.fixture(scope="module")
@@ -31,13 +28,7 @@ def go(opened):
     """Lead the page to another case without loading it again."""
 
     def to(fragment=PAPER):
-        if not opened.page.url.endswith(fragment):
-            before, after = (VIEW.sub("", one) for one in ("#" + opened.page.url.partition("#")[2], fragment))
-            is_look = before == after  # another view of the same case asks for nothing
-            opened.page.evaluate(f"{'' if is_look else BUSY}; location.hash = {json.dumps(fragment)}")
-            if is_look:
-                opened.page.wait_for_function("(fragment) => location.hash === fragment", arg=fragment)
-        return opened.settle()
+        return opened.lead(fragment)
 
     return to
 
