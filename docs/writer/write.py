@@ -34,14 +34,13 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import NamedTuple
 
+import compare
 import kept
 import sources
 from command import DOCS, MADE, Page, chosen, displayed
 from equation import as_markdown
 from kept import ROOT
 from parts import PARTS, Part, numbers_of, part_of
-
-import figures
 
 FIGURES = DOCS / "figures"
 _BLOCK = re.compile(
@@ -249,7 +248,7 @@ def put(names: list[str], write: bool) -> Outcome:
             except _FAULTS as error:
                 failed.append(f"{page.name}: {error}\n")
                 continue
-            if text != page.text:
+            if not compare.same_text(page.text, text):
                 differ.append(_difference(page, text))
                 if write:
                     page.path.write_text(text, encoding="utf-8")
@@ -257,7 +256,7 @@ def put(names: list[str], write: bool) -> Outcome:
                 before, now = FIGURES / name, made.figure(name, page)
                 if not now.is_file():
                     failed.append(f"{page.name}: nothing makes figures/{name}\n")
-                elif not figures.same(before, now):
+                elif not compare.same_figure(before, now):
                     differ.append(f"figures/{name} of {page.name} is another figure\n")
                     if write:
                         before.parent.mkdir(parents=True, exist_ok=True)

@@ -110,6 +110,20 @@ def test_every_figure_is_there_and_shown(writer):
             assert (writer.write.FIGURES / figure).is_file(), f"{name(DOCS / page)}: figures/{figure}: make pages"
 
 
+def test_texts_may_differ_by_rounding(writer):
+    said = "0.0794 0.07940968010062376, 30 degC\nscrew_torque: 0 N m, relative 0"
+    assert writer.compare.same_text(said, said.replace("062376", "062381"))
+    assert writer.compare.same_text(said, said.replace(": 0 N m, relative 0", ": 2.7e-15 N m, relative 5.9e-16"))
+    for one, other in (
+        ("0.0794 ", "0.0795 "),
+        ("0.07940968", "0.07940969"),
+        (" 30 ", " 31 "),
+        ("degC", "K"),
+        ("0 N", "1e-11 N"),
+    ):
+        assert not writer.compare.same_text(said, said.replace(one, other)), other
+
+
 def drawn(path, height):
     figure = Figure(figsize=(2, 2))
     figure.add_subplot().plot(np.linspace(0, 1, 50), height * np.linspace(0, 1, 50) ** 2)
@@ -131,13 +145,13 @@ def test_committed_drawings_may_differ_by_what_nobody_sees(writer, tmp_path):
         paths = [tmp_path / f"{number}_{by}.svg" for by in ("nearly", "other")]
         for path, content in zip(paths, moved, strict=True):
             path.write_text(content, encoding="utf-8")
-        assert [writer.figures.same(one, path) for path in paths] == [True, False], one.name
+        assert [writer.compare.same_figure(one, path) for path in paths] == [True, False], one.name
 
 
 @pytest.mark.parametrize("suffix", [".svg", ".png"])
 def test_figures_may_differ_by_what_nobody_sees(writer, tmp_path, suffix, monkeypatch):
     monkeypatch.setitem(__import__("matplotlib").rcParams, "svg.hashsalt", "the same")
     one = drawn(tmp_path / f"one{suffix}", 1.0)
-    assert writer.figures.same(one, drawn(tmp_path / f"nearly{suffix}", 1.0 + 1e-7))
-    assert not writer.figures.same(one, drawn(tmp_path / f"other{suffix}", 1.1))
-    assert not writer.figures.same(tmp_path / f"none{suffix}", one)
+    assert writer.compare.same_figure(one, drawn(tmp_path / f"nearly{suffix}", 1.0 + 1e-7))
+    assert not writer.compare.same_figure(one, drawn(tmp_path / f"other{suffix}", 1.1))
+    assert not writer.compare.same_figure(tmp_path / f"none{suffix}", one)

@@ -1,4 +1,4 @@
-"""Figures compared: another processor may turn the last digit of a coordinate, which nobody sees."""
+"""Texts and figures compared: another processor turns the last of sixteen digits, and nobody sees it in a figure."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
+#: By how much a number of a text may differ, relative to it, or at all: that of a difference which rounding makes.
+RELATIVE, ROUNDING = 1e-9, 1e-12
 #: By how much a coordinate of a figure may differ, in points; and the pixels of a picture, root of the mean square of
 #: levels from 0 to 255.
 COORDINATES, PIXELS = 0.02, 1.0
@@ -15,7 +17,15 @@ _NUMBER = re.compile(r"(?<![\w#.])-?\d+(?:\.\d+)?(?:e[+-]?\d+)?(?![\w.])")
 _NAMED = re.compile(r'\bid="([^"]+)"')
 
 
-def same(before: Path, now: Path) -> bool:
+def same_text(before: str, now: str) -> bool:
+    """Whether two texts have the same words, and the same numbers but for rounding."""
+    if _NUMBER.sub("0", before) != _NUMBER.sub("0", now):
+        return False
+    first, second = (np.array(_NUMBER.findall(text), dtype=float) for text in (before, now))
+    return bool(np.allclose(first, second, rtol=RELATIVE, atol=ROUNDING))
+
+
+def same_figure(before: Path, now: Path) -> bool:
     """Whether two files show the same figure."""
     if not before.is_file():
         return False
