@@ -11,6 +11,7 @@ import contextlib
 import os
 import re
 import shutil
+import signal
 import statistics
 import subprocess
 import sys
@@ -67,7 +68,9 @@ def first_chart(address: str, fragment: str) -> float:
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         size = "--window-size={},{}".format(*SIZE)
         options = ["--headless", "--no-sandbox", "--remote-debugging-port=0", f"--user-data-dir={profile}", size]
-        process = subprocess.Popen([chromium(), *options, "about:blank"], stderr=subprocess.PIPE, encoding="utf-8")
+        process = subprocess.Popen(
+            [chromium(), *options, "about:blank"], stderr=subprocess.PIPE, encoding="utf-8", start_new_session=True
+        )
         assert process.stderr is not None
         port = next(found[1] for line in process.stderr if (found := re.search(r"127\.0\.0\.1:(\d+)/devtools", line)))
         time.sleep(CALM)
@@ -80,7 +83,7 @@ def first_chart(address: str, fragment: str) -> float:
                 pages = [page for context in browser.contexts for page in context.pages if page.url.startswith(address)]
                 return ends(pages[0], "chart")[0]
         finally:
-            process.terminate()
+            os.killpg(process.pid, signal.SIGTERM)  # the browser may be a script that starts it
             process.wait()
             process.stderr.close()
 
