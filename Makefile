@@ -80,9 +80,9 @@ js: $(READY) $(NODE_READY)
 	cd tools/page && npm run --silent check
 
 # what programs make for the pages, written into them: outputs of commands, tables, figures, numbers, formulas. One page
-# by PAGE=howto/duty; CHECK=1 only compares
+# by PAGE=howto/duty; CHECK=1 only compares; UNLESS_STAMPED=1 does nothing where no file has changed since all were written
 pages: $(READY)
-	OPENBLAS_NUM_THREADS=1 $(BIN)/python docs/writer/write.py $(if $(CHECK),--check) $(PAGE)
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python docs/writer/write.py $(if $(CHECK),--check) $(if $(UNLESS_STAMPED),--unless-stamped) $(PAGE)
 
 # into out/docs, with the static page beside it, which takes most of the time
 # What is written while a build goes on is not whole: out/docs/.built stands from its end to the next

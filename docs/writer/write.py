@@ -17,7 +17,8 @@ So a page reads where it lies, without a build. What is written stands between m
 Decisions are as they were written: no mark in them is followed. A figure is in ``figures/PART`` where a page shows it.
 
 ``python docs/writer/write.py`` writes; ``--check`` only compares, and fails where a page or a figure is not what its
-program makes. Names of pages choose some of them.
+program makes; ``--unless-stamped`` does nothing where no file has changed since all pages were written. Names of pages
+choose some of them.
 """
 
 from __future__ import annotations
@@ -37,6 +38,7 @@ from typing import NamedTuple
 import compare
 import kept
 import sources
+import stamp
 from command import DOCS, MADE, Page, chosen, displayed
 from equation import as_markdown
 from kept import ROOT
@@ -276,7 +278,8 @@ def _difference(page: Written, text: str) -> str:
 def left_over(names: list[str]) -> list[str]:
     """Figures that no page shows."""
     shown = {name for page in names for name in Written(page).figures}
-    return sorted(path.as_posix() for path in FIGURES.rglob("*.*") if path.relative_to(FIGURES).as_posix() not in shown)
+    files = (path for path in FIGURES.rglob("*.*") if path != ROOT / stamp.FILE)
+    return sorted(path.as_posix() for path in files if path.relative_to(FIGURES).as_posix() not in shown)
 
 
 def main(arguments: list[str]) -> int:
@@ -284,7 +287,11 @@ def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(description="write into the pages what programs make for them")
     parser.add_argument("pages", nargs="*", help="such as howto/duty; all, if none is named")
     parser.add_argument("--check", action="store_true", help="only compare; 1 if something differs")
+    parser.add_argument("--unless-stamped", action="store_true", help="nothing, if no file has changed since")
     chosen_by = parser.parse_args(arguments)
+    if chosen_by.unless_stamped and stamp.holds():
+        print("pages are as they were written: no file has changed since")
+        return 0
     try:
         differ, failed = put(chosen_by.pages or pages(), write=not chosen_by.check)
         failed += [] if chosen_by.pages else [f"no page shows {name}\n" for name in left_over(pages())]
@@ -294,7 +301,11 @@ def main(arguments: list[str]) -> int:
     if chosen_by.check and differ:
         print("make pages writes what programs make now")
     sys.stderr.writelines(failed)
-    return int(bool(failed or (chosen_by.check and differ)))
+    if failed or (chosen_by.check and differ):
+        return 1
+    if not (chosen_by.check or chosen_by.pages):
+        stamp.put()
+    return 0
 
 
 if __name__ == "__main__":
