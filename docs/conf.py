@@ -4,7 +4,8 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).parent
-sys.path[:0] = [str(HERE / "_ext"), str(HERE)]
+# the reference has the oracles of the tests, too
+sys.path[:0] = [str(HERE / "_ext"), str(HERE), str(HERE.parent / "tests")]
 
 from ballscrew.basis.version import __version__  # noqa: E402  (after the path of the extensions)
 
