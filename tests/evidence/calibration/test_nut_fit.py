@@ -8,8 +8,10 @@ import pytest
 from scipy.stats import binom
 
 import ballscrew as bs
+from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.evidence.calibration import baselines
 from ballscrew.evidence.calibration import fit as calibration
+from ballscrew.evidence.calibration.response import Response
 from support.strategies import MODELS
 from support.synthetic_logs import OIL
 
@@ -140,3 +142,54 @@ def test_rows_past_lift_off_are_said():
         for r in fit(MODEL, SCREW, OIL, nut_log(WITHOUT_SEALS, 2, 0.0), [PRELOAD]).warning_records
         if "lift_off" in r.id
     ]
+
+
+# -- elastic bodies -----------------------------------------------------------------------------------
+
+ELASTIC = dataclasses.replace(SCREW, nut=bs.DoubleNut(preload=TRUE_PRELOAD, bodies=bs.Bodies()))
+
+
+def test_a_nut_of_elastic_bodies_is_fitted(quick_baselines):
+    """Friction and seals are those of the nut, not those of rigid bodies, which would take the rest as friction."""
+    model = MODELS["reference"]
+    rng = np.random.default_rng(4)
+    load, speed = np.tile([0.0, 3000.0, 9000.0], 20), np.tile(np.repeat([2.0, 8.0, 30.0, 90.0, 200.0], 3), 4)
+    speed = speed * np.repeat([1.0, -1.0, -1.0, 1.0], 15)
+    result = model(ELASTIC, OIL, axial_load=load, screw_speed=np.abs(speed))
+    torque = result.screw_torque + TRUE_SEALS
+    torque = np.sign(speed) * torque * (1.0 + 0.005 * rng.standard_normal(load.size))
+    data = {"axial_load": load, "screw_speed": speed, "torque": torque}
+    free, start = [FRICTION, SEALS], dataclasses.replace(model, friction=dataclasses.replace(
+        model.friction, boundary_friction_coefficient=0.2))  # fmt: skip
+    found = fit(start, ELASTIC, OIL, data, free, kind="friction")
+    true = {FRICTION: model.friction.boundary_friction_coefficient, SEALS: TRUE_SEALS}
+    for name, value in true.items():
+        low, high = found.estimates[name].interval(1 - FALSE_ALARM)
+        assert low < value < high, name
+        assert high - low < 0.2 * value, name
+    rigid = dataclasses.replace(ELASTIC, nut=bs.DoubleNut(preload=TRUE_PRELOAD))
+    other = fit(start, rigid, OIL, data, free, kind="friction")
+    low, high = other.estimates[FRICTION].interval(1 - FALSE_ALARM)
+    assert not low < true[FRICTION] < high
+
+
+def test_slopes_of_a_nut_of_elastic_bodies_are_those_of_the_model():
+    """By differences of the model itself, with a hundred times the step."""
+    model = MODELS["reference"]
+    points = {"axial_load": np.array([0.0, 3000.0, 9000.0]), "screw_speed": np.array([2.0, 30.0, 200.0])}
+    subject = Configuration(model, ELASTIC, OIL)
+    names = ["friction.boundary_friction_coefficient", PRELOAD]
+    response = Response.of(subject, names, points)
+    torques, slopes = response(response.start)
+
+    def friction(changes):
+        made = subject.changed(changes)
+        return made.model(made.screw, made.lubricant, **points).screw_torque
+
+    assert torques[1] == pytest.approx(friction({}), rel=1e-9)
+    for place, (name, value) in enumerate(zip(names, response.start, strict=True)):
+        step = 1e-3 * value
+        expected = (friction({name: value + step}) - friction({name: value - step})) / (2 * step)
+        assert slopes[1, :, place] == pytest.approx(expected, rel=1e-4), name
+    fewer = response.at({name: values[1:] for name, values in points.items()})
+    assert fewer(response.start)[0] == pytest.approx(torques[:, 1:], rel=1e-9)

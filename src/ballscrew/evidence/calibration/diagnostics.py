@@ -95,8 +95,7 @@ def warning_records(found: FitResult) -> list[Record]:
 
 def _starved(found: FitResult) -> list[Record]:
     """Rows of the log at which the fitted model is starved of oil: a full bath would have asked for other numbers."""
-    plan = found.response.evaluation.plan
-    rows = {name: values for name, values in plan.points(slice(0, plan.total)).items() if name in _OF_ROWS}
+    rows = {name: values for name, values in found.response.points.items() if name in _OF_ROWS}
     return found.subject.starvation(rows, _OF_LOG)
 
 

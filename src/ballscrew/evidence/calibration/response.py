@@ -1,9 +1,10 @@
-"""The torque of a log as a model has it, and its exact derivatives by the numbers that are free."""
+"""The torque of a log as a model has it, and its derivatives by the numbers that are free."""
 
 from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -13,18 +14,20 @@ from ballscrew.basis.errors import (
     Fault,
     InputError,
     nearest,
-    raise_if_any,
 )
 from ballscrew.basis.records import Message
-from ballscrew.engine.evaluation.derivatives import slopes_of
+from ballscrew.engine.evaluation.derivatives import Slopes, slopes_of
 from ballscrew.engine.evaluation.engines import Engine
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.outputs import OPERATION
-from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.engine.evaluation.plan import Configuration, Plan
 from ballscrew.physics.components.materials import TEMPERATURE
 
 #: The torques that every reading of a log is made of, in this order.
 TORQUES = ("ideal_torque", "screw_torque")
+#: Relative step of a difference: the cube root of the rounding of a torque, at which its error is least; and the number
+#: that a step is taken of where the value is zero.
+STEP, SCALE_OF_ZERO = 1e-5, 1e-3
 
 
 def resolve_input(subject: Configuration, name: str, section: str = "fit") -> str:
@@ -69,11 +72,14 @@ def initial_value(subject: Configuration, name: str) -> float:
 class Response:
     """Both torques at every row of a log, and their derivatives, for any values of the free numbers.
 
-    The formulas are recorded once, and compiled at most once.
+    The formulas are recorded once, and compiled at most once. Derivatives are exact, but for a nut whose balls are
+    solved one by one: there each is a difference between values :data:`STEP` above and below, all in one evaluation.
     """
 
     names: tuple[str, ...]
     start: NDArray[np.float64]
+    #: The magnitudes of load and speed, and perhaps the temperature, of each row.
+    points: Mapping[str, NDArray[np.float64]]
     evaluation: Evaluation
 
     @classmethod
@@ -86,24 +92,24 @@ class Response:
         engine: Engine | None = None,
         times: int = 1,
     ) -> Response:
-        """``points`` are the magnitudes of load and speed, and perhaps the temperature, all of one length.
+        """``points`` are all of one length. ``times`` says how often the whole will be evaluated.
 
-        ``times`` says how often the whole will be evaluated. Raises :class:`~ballscrew.basis.errors.InputError` for
-        a law that cannot be recorded, and for values that are refused.
+        Raises :class:`~ballscrew.basis.errors.InputError` for a law that cannot be recorded, and for values that are
+        refused.
         """
-        if subject.nut.one_by_one:
-            remedy = "leave out [bodies] and [deviations]: balls that differ are not fitted"
-            raise_if_any([Fault("fit", "knows no nuts whose balls differ", "", remedy)])
         start = np.array([initial_value(subject, name) for name in names])
-        rows = {name: xr.DataArray(values, dims="row") for name, values in points.items()}
-        held = dict(zip(names, start.tolist(), strict=True))
-        plan = slopes_of(subject, TORQUES, list(names), {**rows, **held})
-        return cls(tuple(names), start, Evaluation.of(plan, engine, times, shared=True))
+        if subject.nut.one_by_one:
+            plan = Plan.of(
+                subject, TORQUES, _beside(dict(zip(names, start, strict=True)), points, _steps(start)), "fit"
+            )
+        else:
+            held = dict(zip(names, start.tolist(), strict=True))
+            plan = slopes_of(subject, TORQUES, list(names), {**_in_rows(points), **held})
+        return cls(tuple(names), start, points, Evaluation.of(plan, engine, times, shared=True))
 
     def at(self, points: Mapping[str, NDArray[np.float64]]) -> Response:
         """The same at other rows, which are not checked."""
-        rows = {name: xr.DataArray(held, dims="row") for name, held in points.items()}
-        return dataclasses.replace(self, evaluation=self.evaluation.at(rows))
+        return dataclasses.replace(self, points=points)
 
     def fits(self, values: NDArray[np.float64]) -> bool:
         """Return whether the parts accept these values of the free numbers."""
@@ -119,11 +125,51 @@ class Response:
         All NaN where the numbers do not fit together, such as balls too big for the screw.
         """
         if not self.fits(values):
-            shape = (len(TORQUES), self.evaluation.plan.total)
+            shape = (len(TORQUES), *next(iter(self.points.values())).shape)
             return np.full(shape, np.nan), np.full((*shape, values.size), np.nan)
-        made = self.evaluation.at(dict(zip(self.names, values.tolist(), strict=True)))
-        found = made.empty(made.plan.total)
-        made.fill(found, slice(0, made.plan.total))
+        if isinstance(self.evaluation.plan, Slopes):
+            return self._exact(values)
+        return self._by_differences(values)
+
+    def _exact(self, values: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        found = self._found({**_in_rows(self.points), **dict(zip(self.names, values.tolist(), strict=True))})
         torques = np.stack([found[torque] for torque in TORQUES])
         slopes = [[found[f"d_{torque}_d_{name.replace('.', '_')}"] for name in self.names] for torque in TORQUES]
         return torques, np.moveaxis(np.array(slopes), 1, 2)
+
+    def _by_differences(self, values: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        steps = _steps(np.where(values == 0, self.start, values))
+        found = self._found(_beside(dict(zip(self.names, values, strict=True)), self.points, steps))
+        each = np.stack([found[torque] for torque in TORQUES]).reshape(len(TORQUES), 1 + 2 * values.size, -1)
+        slopes = (each[:, 1::2] - each[:, 2::2]) / (2.0 * steps[:, np.newaxis])
+        return each[:, 0], np.moveaxis(slopes, 1, 2)
+
+    def _found(self, axes: Mapping[str, Any]) -> dict[str, NDArray[np.float64]]:
+        made = self.evaluation.at(axes)
+        found = made.empty(made.plan.total)
+        made.fill(found, slice(0, made.plan.total))
+        return found
+
+
+def _in_rows(points: Mapping[str, NDArray[np.float64]]) -> dict[str, xr.DataArray]:
+    return {name: xr.DataArray(held, dims="row") for name, held in points.items()}
+
+
+def _steps(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """What is added to each number and taken from it."""
+    return STEP * np.where(values == 0, SCALE_OF_ZERO, np.abs(values))
+
+
+def _beside(
+    values: Mapping[str, float], points: Mapping[str, NDArray[np.float64]], steps: NDArray[np.float64]
+) -> dict[str, xr.DataArray]:
+    """All rows with these values, then for each number in turn all rows with it a step above, and a step below."""
+    blocks = 1 + 2 * len(values)
+    count = next(iter(points.values())).size
+    found = {name: np.tile(held, blocks) for name, held in points.items()}
+    for place, (name, value) in enumerate(values.items()):
+        each = np.full(blocks, value)
+        each[1 + 2 * place] += steps[place]
+        each[2 + 2 * place] -= steps[place]
+        found[name] = np.repeat(each, count)
+    return _in_rows(found)

@@ -82,11 +82,11 @@ def condition(
     can be the oil.
 
     Valid for a preloaded nut whose balls are alike. Raises :class:`~ballscrew.basis.errors.InputError` for a nut
-    without preload, balls that differ, fewer tests than ``baseline`` + 1, shares out of (0, 1), and data that cannot
-    be of one nut in one unit.
+    without preload or with elastic bodies, fewer tests than ``baseline`` + 1, shares out of (0, 1), and data that
+    cannot be of one nut in one unit.
     """
     subject = with_preload(Configuration(model, screw, lubricant))
-    raise_if_any(_faults(subject, baseline, false_alarms, tolerance))
+    raise_if_any(_faults(baseline, false_alarms, tolerance))
     known = held_numbers(subject, uncertain)
     if isinstance(tests, list | tuple):
         raise_if_any(_faults_of_count(len(tests), baseline))
@@ -102,11 +102,8 @@ def condition(
     return dataclasses.replace(made, warning_records=tuple(warnings), verdict_records=tuple(verdicts))
 
 
-def _faults(subject: Configuration, baseline: Any, false_alarms: Any, tolerance: Any) -> list[Fault]:
+def _faults(baseline: Any, false_alarms: Any, tolerance: Any) -> list[Fault]:
     faults: list[Fault] = []
-    if subject.nut.one_by_one:
-        remedy = "leave out [bodies] and [deviations]: balls that differ are not solved for a preload"
-        faults.append(Fault("condition", "knows no nuts whose balls differ", "", remedy))
     if not isinstance(baseline, int) or baseline < LEAST_BASELINE:
         remedy = Message(
             "give {least_baseline} or more: the scatter is estimated from them; {baseline} is usual",

@@ -39,6 +39,8 @@ CERTAIN = 0.95
 ONE_DEVIATION = 0.8413447460685429
 #: What a service may fit to each log.
 FREE = PRELOAD, CONSTANT_TORQUE.name
+#: What a nut has to be.
+RIGID = "leave out [bodies] and [deviations]: without load the torque is nearly the same, under load it is another one"
 #: What became of the preload, by the verdict.
 VERDICTS = {
     "lost": Message("preload lost"),
@@ -130,8 +132,8 @@ def preload_change(
     judged by. The answer is made of samples, the same for the same ``seed``. ``done(finished, total)`` is told the
     rounds of the fits, of each log anew.
 
-    Raises :class:`~ballscrew.basis.errors.InputError` for a nut without preload, balls that differ, a tolerance out of
-    (0, 1), one log given twice, and all that a fit raises.
+    Raises :class:`~ballscrew.basis.errors.InputError` for a nut without preload or with elastic bodies, a tolerance out
+    of (0, 1), one log given twice, and all that a fit raises.
     """
     subject = with_preload(Configuration(model, screw, lubricant))
     raise_if_any(_faults_of_options(free, tolerance))
@@ -176,11 +178,19 @@ def _shares(found: Posterior, logarithm: Mixture, nominal: PreloadEstimate | Non
 
 
 def with_preload(subject: Configuration) -> Configuration:
-    """The subject with a nut that is described by its preload. Raises ``InputError`` for one that has none."""
+    """The subject with a nut that is described by its preload.
+
+    Raises ``InputError`` for one that has none, and for balls that are solved one by one: a change of the preload is
+    sampled, and each sample would be thousands of such solutions.
+    """
     nut: Any = subject.nut
     remedy = "choose the type double, oversize or offset, and give its preload, such as 4 kN"
     if not hasattr(nut, "preload"):
         raise InputError(Fault("nut", "has no preload", "a single nut", remedy))
+    if nut.one_by_one:
+        raise InputError(
+            Fault("nut", "has elastic bodies or balls that differ, of which no preload is found", "", RIGID)
+        )
     if nut.preload is None:
         loads = subject.model(subject.screw, subject.lubricant, axial_load=0.0, screw_speed=1.0).loads
         subject = subject.changed({PRELOAD: float(loads.remaining_preload)})

@@ -61,15 +61,12 @@ def preload_of_torque(
     N m) the preload is solved for; numbers with which no preload gives the torque are not those of this screw, and left
     out.
 
-    Raises :class:`~ballscrew.basis.errors.InputError` for a nut without preload, balls that differ, a torque or a speed
-    that is not positive, and a torque that no preload gives.
+    Raises :class:`~ballscrew.basis.errors.InputError` for a nut without preload or with elastic bodies, a torque or a
+    speed that is not positive, and a torque that no preload gives.
     """
     from ballscrew.engine.uncertainty.sampling import Sampler, sobol_sequence  # loads xarray
 
     subject = with_preload(Configuration(model, screw, lubricant))
-    if subject.nut.one_by_one:
-        remedy = "leave out [bodies] and [deviations]: balls that differ are not solved for a preload"
-        raise InputError(Fault("service", "knows no nuts whose balls differ", "", remedy))
     for name, value in {"torque": torque, "screw_speed": screw_speed}.items():
         raise_if_any([Fault(f"service.{name}", "must be positive", f"{value:g}")] if not value > 0 else [])
     if not torque_deviation >= 0:
