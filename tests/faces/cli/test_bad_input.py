@@ -49,6 +49,10 @@ FAULTS = {
         'name = "olaru2005"', 'ball_force = "proportional"\nball_to_ball_force = "1 N"',
         'model.ball_to_ball_force: does not count with ball_force = "proportional" (1 N)',
     ),
+    "force that does not count in the law that the model has": (
+        'name = "olaru2005"', 'name = "reference"\nball_to_ball_force = "1 N"',
+        'model.ball_to_ball_force: does not count with ball_force = "proportional" (1 N)',
+    ),
     "turns for balls": ("loaded_balls = 56", 'loaded_balls = "4 turns"', "about turns · pi · pitch_circle_diameter"),
     "kinematic viscosity": ('"0.1 Pa s"', '"100 cSt"', "lubricant.viscosity: wrong unit (100 cSt)"),
 }  # fmt: skip

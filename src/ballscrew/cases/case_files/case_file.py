@@ -334,7 +334,9 @@ def _model(sections: Sections, chosen: str | None, faults: list[Fault], code: Pa
         faults.append(Fault("model.name", "unknown model", name, nearest(name, MODELS)))
     preset = MODELS.get(name) if isinstance(name, str) else None
     changes = _laws(table, preset or MODELS[DEFAULT_MODEL], faults, code) if isinstance(table, dict) else {}
-    force = changes.get("ball_force")
+    # a model that only the command line chose may leave aside what the case says for its own
+    preset_force = preset.ball_force if preset is not None and name == named else None
+    force = changes.get("ball_force", preset_force)
     if not traits_of(force).uses_imposed_force and "ball_to_ball_force" in table:
         problem = Message('does not count with ball_force = "{law}"', {"law": name_of_law("ball_force", force)})
         remedy = (_IMPOSE if not coefficients(force) else _SET_OR_IMPOSE).of(
