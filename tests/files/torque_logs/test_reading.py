@@ -148,7 +148,7 @@ KEEP_GOING = ", or leave such rows out: --keep-going"
 
 def test_faults_of_columns_of_the_users_own_keep_their_names(read):
     (line,) = lines_of(read, "n [rpm],F [N],M_x\n1,2,ERR\n", columns={"torque": "M_x [N m]"})
-    assert line == 'log.csv row 2, column "M_x": is not a number (ERR) · write a number in N m, or leave such rows out: --keep-going'
+    assert line == f'log.csv row 2, column "M_x": is not a number (ERR) · write a number in N m{KEEP_GOING}'
 
 
 def test_a_column_of_the_users_own_without_a_unit_is_asked_for_by_its_own_heading(read):
