@@ -41,7 +41,7 @@ def test_a_screw_without_a_make_has_none():
         "pitch_circle_diameter": "41.4 mm", "lead": "10 mm", "ball_diameter": "6.35 mm", "loaded_balls": 75,
         "contact_angle": "45 deg", "screw_conformity": 0.54, "nut_conformity": 0.54,
     }  # fmt: skip
-    with pytest.raises(InputError, match=r"--calibration: there is none of this make \(none\)"):
+    with pytest.raises(InputError, match="--calibration: the make of this nut is not given · take a row of"):
         case("by-make", screw=plain)
 
 

@@ -392,3 +392,14 @@ def test_outer_diameters_of_nuts_say_where_they_are_from(ballscrew, tmp_path):
         (tmp_path / "own.csv").write_text(f"d0 [mm],Ph [mm],Dw [mm],i,{heading}\n40,10,6,4,63\n", encoding="utf-8")
         process = ballscrew("catalogue", "list", "--rows", tmp_path / "own.csv", "--json")
         assert json.loads(process.stdout)["rows"][0]["row"]["nut_outer_diameter"] == pytest.approx(0.063)
+
+
+def test_the_head_of_a_case_calls_a_preload_an_example_only_where_it_is_one():
+    listed = ROWS["hiwin-40-20k4"]
+    examples = "# The screw of a catalogue row; preload, oil and operating point are examples."
+    others = "# The screw of a catalogue row; oil and operating point are examples."
+    assert others in people.case_text(listed)
+    double = dataclasses.replace(listed, nut="double")
+    assert examples in people.case_text(double)
+    assert others in people.case_text(dataclasses.replace(double, preload=2400.0))
+    assert others in people.case_text(dataclasses.replace(double, preload_share=0.05))

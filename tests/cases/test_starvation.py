@@ -332,7 +332,7 @@ def test_the_readme_of_an_export_says_that_its_range_is_starved_of_oil(target):
         made = bs.hand_over(model, case.screw, case.lubricant, target, **options)
         said = [record for record in made.warnings if record.id == "lubricant.starved"]
         assert bool(said) == starved
-        words = b"in a full bath of oil; which of them a ball screw has is not measured"
+        words = b"in a full bath of oil; no measurement on a ball screw decides between them"
         assert any(words in content for content in made.files.values()) == starved
 
 

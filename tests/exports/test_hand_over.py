@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
+from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
 from ballscrew.exports import hand_over as frame
-from ballscrew.exports import requests
+from ballscrew.exports import requests, targets
 from ballscrew.exports.export import Export
 from ballscrew.exports.targets import TARGETS, export_of
 from ballscrew.exports.worst_error import worst_errors
@@ -32,6 +33,19 @@ def test_an_unknown_target_is_refused_with_the_list(ballscrew, example, tmp_path
     assert done.stderr.startswith("hand_over.to: unknown target (fortran)")
     assert all(name in done.stderr for name in TARGETS)
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("name", "target"), [("simulink", "matlab"), ("Octave", "matlab"), ("dymola", "modelica"), ("csv", "table")]
+)
+def test_a_program_named_for_a_target_is_answered_with_the_target(name, target):
+    with pytest.raises(InputError, match=rf'unknown target \({name}\) · write "{target}", whose files {name} takes'):
+        export_of(name)
+
+
+def test_every_program_is_named_with_a_target():
+    assert {*targets._TAKEN_BY.values()} <= {*TARGETS}
+    assert not {*targets._TAKEN_BY} & {*TARGETS}
 
 
 def test_the_recorded_model_is_the_model(handed):

@@ -179,7 +179,7 @@ def test_a_motor_that_fits_and_one_that_does_not():
     slow = dataclasses.replace(fits, largest_speed=0.9 * fastest)
     _, beyond, _ = MotorCheck(found, slow).checks
     assert math.isinf(beyond.utilisation)
-    needed, ends = (f"{speed * 30 / math.pi:.4g} rpm" for speed in (fastest, 0.9 * fastest))
+    needed, ends = (f"{float(f'{speed * 30 / math.pi:.4g}'):g} rpm" for speed in (fastest, 0.9 * fastest))
     assert beyond.text == f"the motor has no torque above {ends}, where its curve ends; the cycle needs {needed}"
     heated = dataclasses.replace(fits, torque_constant=0.5, resistance=2.0)
     cycle = found.states.cycle_time

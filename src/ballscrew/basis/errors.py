@@ -238,6 +238,11 @@ def shown_in_si(one: Measured) -> str:
     return one.written or shown(one.value, "1" if one.quantity is None else one.quantity.unit)
 
 
+def shown_to_digits(one: Measured) -> str:
+    """As :func:`shown_in_si`, with no more digits than the number of the message has."""
+    return shown_in_si(dataclasses.replace(one, value=float(f"{one.value:.{one.digits}g}")))
+
+
 def measured(value: Any, unit: str = "1", digits: int = 6) -> Measured:
     """A number of a message in a room that knows no display units."""
     return Measured(as_float(value), None if unit == "1" else Quantity("", unit, Info("", "")), digits)

@@ -152,6 +152,8 @@ def written(value: Any, quantity: Quantity) -> str:
 
 #: Significant digits of a number for people, with a band as without; zeros at the end are left out.
 DIGITS = 4
+#: From where on a large number has an exponent, whatever its significant digits.
+_WITH_EXPONENT = 1e6
 #: Digits beyond which a number is that of its rounding errors.
 _EXACT = 12
 
@@ -175,10 +177,12 @@ def to_digits(number: float, digits: int = DIGITS, toward: int = 0) -> str:
 
     The ends of a band are rounded outward: what is written holds no less than what was computed.
     """
-    if not toward or not math.isfinite(number):
-        return f"{number:.{digits}g}"
-    context = decimal.Context(digits, decimal.ROUND_CEILING if toward > 0 else decimal.ROUND_FLOOR)
-    return f"{float(context.create_decimal(f'{number:.{_EXACT}g}')):.{digits}g}"
+    if toward and math.isfinite(number):
+        context = decimal.Context(digits, decimal.ROUND_CEILING if toward > 0 else decimal.ROUND_FLOOR)
+        number = float(context.create_decimal(f"{number:.{_EXACT}g}"))
+    text = f"{number:.{digits}g}"
+    # as the page has it: 24000, not 2.4e+04
+    return f"{float(text):.0f}" if "e+" in text and abs(float(text)) < _WITH_EXPONENT else text
 
 
 def label(quantity: Quantity) -> str:

@@ -50,14 +50,25 @@ TARGETS: Mapping[str, Target] = {
 }
 
 
+#: Programs and formats that people ask for by name, and the target whose files they take.
+_TAKEN_BY: Mapping[str, str] = {
+    **dict.fromkeys(("simulink", "simscape", "octave", "mat"), "matlab"),
+    **dict.fromkeys(("dymola", "openmodelica", "mo"), "modelica"),
+    **dict.fromkeys(("csv", "json", "netcdf", "parquet", "excel", "xlsx", "lookup"), "table"),
+    **dict.fromkeys(("twincat", "isg"), "beckhoff"),
+    **dict.fromkeys(("sdf", "usd", "gazebo", "ros", "isaac"), "urdf"),
+    **dict.fromkeys(("c99", "cpp", "c++"), "c"),
+}
 _MEANT, _KNOWN = Message('did you mean "{meant}"? known: {known}'), Message("known: {known}")
+_WRITTEN_FOR = Message('write "{meant}", whose files {name} takes; known: {known}')
 
 
 def target_module(name: str) -> Any:
     """The module of a target. Raises :class:`~ballscrew.basis.errors.InputError` for an unknown one."""
     if name not in TARGETS:
-        meant, known = closest(name, TARGETS), ", ".join(TARGETS)
-        remedy = (_MEANT if meant else _KNOWN).of(meant=meant, known=known)
+        named, known = _TAKEN_BY.get(str(name).casefold(), ""), ", ".join(TARGETS)
+        meant = named or closest(name, TARGETS)
+        remedy = (_WRITTEN_FOR if named else _MEANT if meant else _KNOWN).of(meant=meant, name=str(name), known=known)
         raise InputError(Fault("hand_over.to", "unknown target", str(name), remedy))
     return importlib.import_module(f".{TARGETS[name].module}", _FOLDER)
 

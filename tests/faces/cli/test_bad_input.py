@@ -12,6 +12,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
+from ballscrew.cases.case_files.case_text import tables_in
 from support.commands import with_small_files
 
 FAULTS = {
@@ -94,6 +95,24 @@ def test_faults_on_the_command_line(name, tmp_path, example, ballscrew):
     single_line_fault(ballscrew("run", path), expected)
     single_line_fault(ballscrew("sweep", path, "--to", tmp_path / "map.csv"), expected)
     assert sorted(tmp_path.iterdir()) == before
+
+
+@pytest.mark.parametrize(
+    ("line", "remedy"),
+    [
+        ("lead = 10,0 mm", 'put the value in quotes: lead = "10,0 mm"'),
+        ("screw.lead=10 mm  # of one turn", 'put the value in quotes: screw.lead = "10 mm"'),
+        ("grade = ISO VG 100\r", 'put the value in quotes: grade = "ISO VG 100"'),
+        ("set_at_rest = True", "write set_at_rest = true"),
+        ("a = = b", 'start from "ballscrew catalogue show'),
+        ('lead = "10" mm', 'start from "ballscrew catalogue show'),
+        ("lead = [10 mm]", 'start from "ballscrew catalogue show'),
+    ],
+)
+def test_a_value_without_quotes_is_shown_with_them(line, remedy):
+    with pytest.raises(InputError, match="is not TOML") as caught:
+        tables_in(f"# a case\n{line}\n".encode(), "case.toml")
+    assert f" · {remedy}" in str(caught.value)
 
 
 def test_files_that_are_no_case(tmp_path, ballscrew):

@@ -193,7 +193,7 @@ def test_every_example(path, tmp_path, ballscrew):
         process = ballscrew(command, path)
         assert process.returncode == 0, process.stderr
         # an example whose range is cold says so
-        assert [line for line in process.stderr.splitlines() if not line.startswith("beware  starved: ")] == []
+        assert [line for line in process.stderr.splitlines() if not line.startswith("beware  starvation: ")] == []
     text = path.read_text(encoding="utf-8")
     uncommented = re.sub(r"^# (\[model\]|[\w.]+ = )", r"\1", text, flags=re.MULTILINE)
     assert uncommented.count("=") > text.count("\n#") > 0

@@ -365,6 +365,8 @@ def test_the_inertia_takes_its_share_of_the_torque(fit, log):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
+        (["--free", "constant_torqe"], '--free: unknown name (constant_torqe) · did you mean "constant_torque"?'),
+        (["--free", "nothing"], "--free: unknown name (nothing) · known: constant_torque, axial_load"),
         (["--free", "boundary_friction"], "--free: unknown name (boundary_friction) · did you mean"),
         (["--free", "axial_load"], "--free: is given by the log (axial_load)"),
         (["--free", "loaded_balls"], "--free: is a whole number"),

@@ -168,3 +168,22 @@ def test_a_length_below_a_nucleus_is_shown_as_none():
     assert units.shown(2e-15, quantity) == "2e-09 µm"
     assert units.shown(8.47e-22, fields_of(OperatingState)["axial_load"]) == "8.47e-22 N"
     assert units.shown(math.nan, quantity) == "nan µm"
+
+
+@pytest.mark.parametrize(
+    ("number", "digits", "toward", "expected"),
+    [
+        (24_000.0, 2, 0, "24000"),
+        (-40_334.0, 4, 0, "-40330"),
+        (999_999.0, 4, 0, "1e+06"),
+        (123_456.0, 3, 1, "124000"),
+        (123_456.0, 3, -1, "123000"),
+        (1e6, 4, 0, "1e+06"),
+        (1.25e-4, 3, 0, "0.000125"),
+        (1.25e-5, 3, 0, "1.25e-05"),
+        (123.456789, 9, 0, "123.456789"),
+        (float("inf"), 4, 0, "inf"),
+    ],
+)
+def test_numbers_of_every_day_have_no_exponent(number, digits, toward, expected):
+    assert units.to_digits(number, digits, toward) == expected

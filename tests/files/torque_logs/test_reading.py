@@ -142,9 +142,24 @@ def test_columns_of_the_users_own_names(read):
     ]
 
 
+#: The end of a line on a cell, where its row may be left out.
+KEEP_GOING = ", or leave such rows out: --keep-going"
+
+
 def test_faults_of_columns_of_the_users_own_keep_their_names(read):
     (line,) = lines_of(read, "n [rpm],F [N],M_x\n1,2,ERR\n", columns={"torque": "M_x [N m]"})
-    assert line == 'log.csv row 2, column "M_x": is not a number (ERR) · write a number in N m'
+    assert line == f'log.csv row 2, column "M_x": is not a number (ERR) · write a number in N m{KEEP_GOING}'
+
+
+def test_a_column_of_the_users_own_without_a_unit_is_asked_for_by_its_own_heading(read):
+    text = "Stand 3,2024-05-01\nNo,n [rpm],F [N],Kanal 4\n1,1,2,0.4\n"
+    (line,) = lines_of(read, text, columns={"torque": "Kanal 4"})
+    assert line == (
+        'log.csv column "Kanal 4": needs a unit · write "Kanal 4 [N m]", or give --column torque="Kanal 4 [N m]"'
+    )
+    assert read(text, columns={"torque": "Kanal 4 [N m]"}).torque.tolist() == [0.4]
+    (line,) = lines_of(read, text, columns={"torque": "Kraft [N m]"})  # the line of the logger is no heading
+    assert line.endswith("is not a column of the file (Kraft [N m]) · known: No, n [rpm], F [N], Kanal 4")
 
 
 def test_what_is_the_same_in_every_row(read):
@@ -179,12 +194,13 @@ def test_faults_of_columns_of_the_users_own(columns, expected, read):
         (
             "n [rpm],F [N]",
             ['log.csv: has no column "torque [N m]" · it may also be called T, M, Md, or name it: '
-             '--column torque="your heading [N m]"'],
+             '--column torque="your heading [N m]"; headings of the file: n [rpm], F [N]'],
         ),
         (
             "n [rpm],Presskraft [kN],M [N m]",
             ['log.csv: has no column "axial_load [N]" · it may also be called F, Fa, F_ax, or name it: '
-             '--column axial_load="your heading [N]"; if it is the same in every row, --column axial_load="0 N"'],
+             '--column axial_load="your heading [N]"; if it is the same in every row, --column axial_load="0 N"; '
+             'headings of the file: n [rpm], Presskraft [kN], M [N m]'],
         ),
         (
             "n,F,M [N m]",
@@ -354,7 +370,7 @@ def test_text_in_numbers(cell, expected, read):
     assert in_display_units(log) == [EXPECTED[0], EXPECTED[2]]
     assert log.left_out == {"a value cannot be read": 1}
     assert log.rows == 3
-    assert log.notes == (line,)
+    assert log.notes == (line.removesuffix(KEEP_GOING),)
 
 
 def test_an_error_in_the_first_column_is_no_comment(read):
@@ -371,7 +387,7 @@ def test_ten_lines_at_most(read):
     assert lines[0].startswith("log.csv row 2, ")
     assert lines[-1] == "and 3 more"
     log = read(text, keep_going=True)
-    assert log.notes == tuple(lines)
+    assert log.notes == tuple(line.removesuffix(KEEP_GOING) for line in lines)
     assert log.left_out == {"a value cannot be read": 12}
 
 

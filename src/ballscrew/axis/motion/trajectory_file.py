@@ -67,7 +67,7 @@ def read_trajectory(path: Path) -> Trajectory:
                 decimals.evidence(texts), "", unused(first, good, body[:WITHIN]), frozenset(),
             )  # fmt: skip
             _check_columns(path, layout)
-            cells = NumberReader(layout, keep_going=False)
+            cells = NumberReader(layout, keep_going=False, may_keep_going=False)
             parts: list[dict[str, Numbers]] = []
             lines: list[np.ndarray] = []
             for piece in source.pieces(layout, _CHUNK):

@@ -28,6 +28,10 @@ _START = 'start from "ballscrew catalogue show hiwin-40-20k4 --case"'
 _TWICE = "is given twice"
 _HEADER = re.compile(r"\s*\[([^\[\]]+)\]\s*(?:#.*)?")
 _KEY = re.compile(r"\s*([^=#\[]+?)\s*=")
+#: A line with a value of a few words without quotes, perhaps with a comment behind it.
+_BARE_VALUE = re.compile(
+    r"""\s*(?P<key>[\w.-]+)\s*=\s*(?P<value>[^\s"'#\[\]{}=\\][^"'#\[\]{}=\\]{0,59}?)\s*(?:\#.*)?"""
+)
 #: Strings of TOML, and what begins with # outside them; keys of too many parts, and other words. Its possessive parts
 #: keep the time in proportion to the text, also where a string has no end.
 _TOKEN = re.compile(
@@ -206,8 +210,23 @@ def _bare(key: str) -> str:
     return re.sub(r"[\s\"']", "", key)
 
 
+def _unquoted(error: str, text: str) -> Message | None:
+    """The remedy of a line whose value stands without quotes, as in ``lead = 10,0 mm``; None for any other line."""
+    at = re.match(r"(?:Expected newline|Invalid value).*\(at line (\d+)", error)
+    lines = text.split("\n")  # as tomllib counts them
+    found = _BARE_VALUE.fullmatch(lines[int(at[1]) - 1]) if at and int(at[1]) <= len(lines) else None
+    if found is None:
+        return None
+    key, value = found["key"], found["value"]
+    if value.casefold() in ("true", "false"):
+        return Message("write {setting}", {"setting": f"{key} = {value.casefold()}"})
+    return Message("put the value in quotes: {setting}", {"setting": f'{key} = "{value}"'})
+
+
 def _remedy(error: str, text: str) -> str | Message:
-    """Remedy: most often a law is given by name and with coefficients."""
+    """Remedy: most often a value has no quotes, or a law is given by name and with coefficients."""
+    if (unquoted := _unquoted(error, text)) is not None:
+        return unquoted
     line = re.search(r"Cannot overwrite a value \(at line (\d+)", error)
     if line is None:
         return _START

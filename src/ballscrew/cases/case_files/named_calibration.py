@@ -49,7 +49,8 @@ def of_make(tables: Mapping[str, Any], row: CatalogueRow | None, faults: list[Fa
     if found is None:
         known = either(dict.fromkeys(one.maker for one in calibrations().values()))
         remedy = Message("take a row of {known}, or the name of a calibration", {"known": known})
-        faults.append(Fault("model.calibration", "there is none of this make", make or "none", remedy))
+        problem = "there is none of this make" if make else "the make of this nut is not given"
+        faults.append(Fault("model.calibration", problem, make, remedy))
         return _without_calibration(tables)
     return {**tables, "model": {**table, "calibration": found.name}}
 

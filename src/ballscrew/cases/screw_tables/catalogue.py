@@ -306,8 +306,8 @@ def case_text(row: CatalogueRow, estimates: Sequence[Estimate] = ()) -> str:
     )
     lines = [
         f"# {row.name}: {row.source}",
-        "# The screw of a catalogue row; preload, oil and operating point are examples."
-        + (f" Nut: {row.nut}." if row.nut else ""),
+        f"# The screw of a catalogue row; {'preload, ' if _has_example_preload(row) else ''}oil and operating point "
+        "are examples." + (f" Nut: {row.nut}." if row.nut else ""),
         "",
         "[screw]",
         *(_setting(name, _written(getattr(screw, name), fields[name]), comments.get(name, "")) for name in names),
@@ -346,6 +346,11 @@ def _comment(one: Estimate) -> str:
     return f"estimated, {band}: {units.filled(one.source)}".replace("\N{MICRO SIGN}", "u")
 
 
+def _has_example_preload(row: CatalogueRow) -> bool:
+    """Test whether the nut of a row needs a preload that the row does not list."""
+    return not lists_preload(row) and "preload" in fields_of(NUTS[row.nut or "single"])
+
+
 def _nut(row: CatalogueRow) -> list[str]:
     """The nut of a row, with a preload as an example where its kind has one."""
     kind = row.nut or "single"
@@ -356,7 +361,7 @@ def _nut(row: CatalogueRow) -> list[str]:
         )
     elif lists_preload(row):
         lines += _listed_part(row, "preload", "preload")
-    elif "preload" in fields_of(NUTS[kind]):
+    elif _has_example_preload(row):
         comment = "of the dynamic load rating" + ("" if row.dynamic_load_rating else ", computed from the geometry")
         lines.append(_setting("preload", f'"{EXAMPLE_PRELOADS[kind]}"', f"an example: {comment}"))
     return [*lines, *(["spacer_balls = true"] if row.spacer_balls else [])]

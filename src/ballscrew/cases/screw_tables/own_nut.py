@@ -7,7 +7,6 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.basis.records import Message
 from ballscrew.cases.screw_tables.catalogue import COLUMNS
@@ -29,7 +28,8 @@ _COLUMNS = {
     for column in COLUMNS
     if column.name != "log"
 }
-_NEEDED = ("nominal_diameter", "lead", "turns")
+#: The numbers that no nut can do without, as people may write them.
+_EXAMPLES = {"nominal_diameter": "d0=40 mm", "lead": "lead=10 mm", "turns": "turns=2x2.5"}
 
 
 def own_nut_of(numbers: Mapping[str, Any]) -> OwnNut:
@@ -59,8 +59,8 @@ def own_nut_of(numbers: Mapping[str, Any]) -> OwnNut:
             faults.append(value)
         else:
             values[column.name] = value
-    missing = [name for name in _NEEDED if name not in values and not any(_is_of(fault, name) for fault in faults)]
-    faults += [Fault(f"{WHERE}.{name}", "is missing", "", _example(_COLUMNS[name])) for name in missing]
+    missing = [name for name in _EXAMPLES if name not in values and not any(_is_of(fault, name) for fault in faults)]
+    faults += [Fault(f"{WHERE}.{name}", "is missing", "", _example(name)) for name in missing]
     raise_if_any(faults)
     try:
         return completed(_fields(values))
@@ -97,7 +97,7 @@ def _value(where: str, given: Any, text: str, column: Column, decimal: frozenset
     """A number in SI, a text, or the fault in it."""
     if isinstance(given, bool):
         given = text = column_names.YES if given else column_names.NO
-    heading = Heading(column.name, column, 0)
+    heading = Heading(column.name, column, 0, in_table=False)
     if column.quantity is None:
         return text_of(where, text, heading)
     return value_of(where, given, text, heading, decimal)
@@ -127,6 +127,5 @@ def _here(fault: Fault) -> Fault:
     return dataclasses.replace(fault, where=f"{WHERE}.{fault.where.rpartition('.')[2]}")
 
 
-def _example(column: Column) -> Message:
-    assert column.quantity is not None
-    return Message("write {example}", {"example": units.example_of(column.quantity)})
+def _example(name: str) -> Message:
+    return Message("give it, for example {example}", {"example": _EXAMPLES[name]})

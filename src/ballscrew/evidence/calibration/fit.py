@@ -173,9 +173,8 @@ def fit(
 
 def _asked(subject: Configuration, free: Sequence[str]) -> dict[str, str]:
     """The inputs that are fitted, by the names that they were given."""
-    asked = {
-        name: CONSTANT_TORQUE.name if name == CONSTANT_TORQUE.name else resolve_input(subject, name) for name in free
-    }
+    constant = CONSTANT_TORQUE.name
+    asked = {name: constant if name == constant else resolve_input(subject, name, beside=(constant,)) for name in free}
     raise_if_any(
         [
             Fault("fit.free", "names one number twice", f"{name} and {other}", "leave one out")

@@ -30,10 +30,11 @@ TORQUES = ("ideal_torque", "screw_torque")
 STEP, SCALE_OF_ZERO = 1e-5, 1e-3
 
 
-def resolve_input(subject: Configuration, name: str, section: str = "fit") -> str:
+def resolve_input(subject: Configuration, name: str, section: str = "fit", beside: Sequence[str] = ()) -> str:
     """The input of that name: its own, that of a coefficient without its law, or either with its section.
 
-    Raises :class:`~ballscrew.basis.errors.InputError` for what no input or more than one is called.
+    ``beside`` are names that may be given and are no inputs. Raises :class:`~ballscrew.basis.errors.InputError` for
+    what no input or more than one is called.
     """
     known = subject.inputs
     bare = name.removeprefix("model.").removeprefix("screw.").removeprefix("lubricant.")
@@ -48,7 +49,7 @@ def resolve_input(subject: Configuration, name: str, section: str = "fit") -> st
             )
         )
     if not found:
-        raise InputError(Fault(f"{section}.free", "unknown name", name, nearest(bare, known)))
+        raise InputError(Fault(f"{section}.free", "unknown name", name, nearest(bare, [*beside, *known])))
     if found[0] in OPERATION or found[0] == TEMPERATURE.name:
         raise InputError(Fault(f"{section}.free", "is given by the log", name, "leave it out"))
     if known[found[0]][1].info.whole:

@@ -21,6 +21,7 @@ from ballscrew.files.tables.headings import (
     checked,
     fits,
     headings_in,
+    likely_headings,
     spelt,
     unused,
 )
@@ -30,7 +31,9 @@ from ballscrew.files.torque_logs.columns import (
     WITHIN,
     Layout,
     are_units,
+    as_in_file,
     dates_in,
+    headings_of,
     of_text,
     texts_in,
     with_option,
@@ -97,7 +100,7 @@ def moving_layout(path: Path, found: Sequence[Record], flags: Mapping[str, str])
     rows, written = _renamed(found, flags)
     columns = _wanted({_known(name) for name in flags})
     start, headings = headings_in(path, rows, columns, WITHIN)
-    headings = _chosen(headings)
+    headings = as_in_file(_chosen(headings), start, written)
     body = rows[start + 1 :]
     below = bool(body) and are_units(headings, body[0])
     if below:
@@ -108,10 +111,12 @@ def moving_layout(path: Path, found: Sequence[Record], flags: Mapping[str, str])
     try:
         good = checked(path, headings, rows[start], body, columns)
     except InputError as error:
-        raise InputError(*(with_option(fault, headings, _BY_NAME, constants=False) for fault in error.faults)) from None
+        there = headings_of(found[start])
+        raise InputError(
+            *(with_option(fault, headings, _BY_NAME, there, constants=False) for fault in error.faults)
+        ) from None
     _check_needed(path, good)
     rest = unused(found[start], good, body[:WITHIN])
-    good = [dataclasses.replace(one, written=written.get((start, one.place), one.written)) for one in good]
     above = [found[start], found[start + 1]] if below else [found[start]]
     words = frozenset(cell for record in above for cell in record.cells if isinstance(cell, str) and cell)
     named = {heading.column.name: heading for heading in good}
@@ -159,10 +164,8 @@ def _renamed(found: Sequence[Record], flags: Mapping[str, str]) -> tuple[list[Re
             if isinstance(cell, str) and cell and bare(cell) in {bare(text), bare(wanted), bare(f"{wanted} {unit}")}
         ]
         if not places:
-            texts = [cell for record in found[:WITHIN] for cell in record.cells if isinstance(cell, str) and cell]
-            raise InputError(
-                Fault(f"--column {name}", "is not a column of the file", text, nearest(wanted, texts[:20]))
-            )
+            there = headings_of(likely_headings(found[:WITHIN], COLUMNS))
+            raise InputError(Fault(f"--column {name}", "is not a column of the file", text, nearest(wanted, there)))
         number, place = min(places, key=lambda at: str(found[at[0]].cells[at[1]]) not in {text, wanted})
         written[number, place] = str(found[number].cells[place])
         cell = str(found[number].cells[place])

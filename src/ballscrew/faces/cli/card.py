@@ -7,9 +7,7 @@ from typing import Annotated
 
 import typer
 
-app = typer.Typer(
-    help="Torque cards: measured screws as files that others can compute.", no_args_is_help=True, rich_markup_mode=None
-)
+app = typer.Typer(help="Torque cards: measured screws in files to share.", no_args_is_help=True, rich_markup_mode=None)
 
 
 @app.command()
@@ -17,7 +15,10 @@ def check(
     cards: Annotated[list[Path], typer.Argument(metavar="PATH", help="Torque cards (TOML), or folders of them.")],
     as_json: Annotated[bool, typer.Option("--json", help="One JSON list, SI units.")] = False,
 ) -> None:
-    """Check cards: all faults of all of them, or a line for each with what is not stated."""
+    """All faults of cards, or what each does not state.
+
+    A card without a fault has one line, with what it does not state.
+    """
     from ballscrew.basis.output import json_text
     from ballscrew.cases.torque_cards import torque_card
     from ballscrew.questions.card import document as documents
@@ -43,7 +44,10 @@ def log(
     to: Annotated[Path, typer.Option("--to", "-o", metavar="FILE", help="The log to write, .csv.")],
     case: Annotated[Path, typer.Option("--case", metavar="FILE", help="The case file to write, .toml.")],
 ) -> None:
-    """Write a card as a log and a case file, as ballscrew fit takes them."""
+    """Write a card as a log and a case file for a fit.
+
+    Both are as ballscrew fit takes them.
+    """
     from ballscrew.cases.torque_cards import torque_card, torque_card_log
 
     found = torque_card.read(card)

@@ -84,7 +84,9 @@ def own(
     as_json: AsJson = False,
     as_case: Annotated[bool, typer.Option("--case", help="A case file, ready for ballscrew run.")] = False,
 ) -> None:
-    """A nut of your own from the few numbers of its catalogue page: what is estimated, and a case file.
+    """A nut of your own from a few catalogue numbers.
+
+    It says what is estimated, and makes a case file of it.
 
     Needed are d0, lead and turns (all circuits of one nut body); each of Ca, C0a, ball, dp, dr, starts, nut, preload,
     D1 that is given makes the rest better.

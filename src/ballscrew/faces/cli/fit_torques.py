@@ -51,11 +51,13 @@ def fit_torques(
 
             steady, assumed = warm_log(case, steady, options.kind)
         report = dataclasses.replace(compute.fit(case, steady, options), assumed=assumed)
-    _show(case, report, shown)
     if shown.to is not None:
         from ballscrew.cases.case_files import fitted_case
 
+        # before anything is printed: whoever reads the output may stop after its first lines
         fitted_case.save(shown.to, tables, path.parent, case, report.model)
+    _show(case, report, shown)
+    if shown.to is not None:
         typer.echo(f"{shown.to}: the calibrated model", err=shown.as_json)
     if shown.picture is not None:
         from ballscrew.questions.fit import figure as figures  # matplotlib is slow to import

@@ -38,7 +38,10 @@ def show(
     file: File = None,
     as_json: AsJson = False,
 ) -> None:
-    """One oil: what its data sheet states, and its viscosity from -40 to 120 degC."""
+    """One oil: its data sheet, and its viscosities.
+
+    The viscosities are from -40 to 120 degC.
+    """
     from ballscrew.basis.output import json_text
     from ballscrew.cases.case_files import oil_library as oils
     from ballscrew.questions.oils import document as documents

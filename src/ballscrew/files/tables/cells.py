@@ -12,6 +12,11 @@ from ballscrew.basis.records import Measured, Message, Value
 from ballscrew.files.tables import decimals
 from ballscrew.files.tables.headings import PERCENT, Heading
 
+#: The kind of fault of a cell that is a word where a number is to stand.
+NOT_A_NUMBER = "not_a_number"
+#: The remedies of a number without its unit.
+_OF_TABLE = Message('write "{text} {shown_in}"{share}, or the unit in the heading')
+_OF_ONE_NUMBER = Message('write "{text} {shown_in}"{share}')
 #: Marks of a number, at the begin of a cell.
 _DIGITS = tuple("0123456789.,+-−")
 _PRODUCT = re.compile(r"([\d.,]+)\s*[x×*]\s*([\d.,]+)", re.IGNORECASE)
@@ -123,16 +128,14 @@ def _parsed(where: str, text: str, heading: Heading, decimal: frozenset[str]) ->
         if quantity.unit == "1"
         else Message("write a number in {value}", {"value": heading.unit or quantity.shown_in})
     )
-    return Fault(where, "is not a number", text, remedy)
+    return Fault(where, "is not a number", text, remedy, id=NOT_A_NUMBER)
 
 
 def _converted(where: str, number: float, text: str, heading: Heading) -> float | Fault:
     quantity = heading.quantity
     if quantity is not None and quantity.unit != "1" and not heading.unit:
         share = "" if heading.column.share is None else f' or "{text} {PERCENT}"'
-        remedy = Message(
-            'write "{text} {shown_in}"{share}, or the unit in the heading',
-            {"text": text, "shown_in": quantity.shown_in, "share": share},
-        )
+        remedy = _OF_TABLE if heading.in_table else _OF_ONE_NUMBER
+        remedy = remedy.of(text=text, shown_in=quantity.shown_in, share=share)
         return Fault(where, "needs a unit", text, remedy)
     return heading.offset + heading.scale * number

@@ -117,6 +117,8 @@ class Heading:
     unit: str = ""
     offset: float = 0.0
     scale: float = 1.0
+    #: Whether it stands in a table; False for the name of one number by itself.
+    in_table: bool = True
 
     @property
     def quantity(self) -> Quantity | None:
@@ -228,19 +230,26 @@ def headings_in(
             best = number, known
     if not best[1]:
         needed = ", ".join(column.example for column in columns if column.required)
+        row = likely_headings(found[:within], columns)
         raise InputError(
             Fault(
                 str(path),
                 "has no heading that is known",
-                _listed(found[0].cells),
+                ", ".join(f'"{cell}"' for cell in row.cells if cell != ""),
                 Message("begin with a row like: {needed}", {"needed": needed}),
             )
         )
     return best
 
 
-def _listed(cells: Sequence[Any]) -> str:
-    return ", ".join(f'"{cell}"' for cell in cells if cell != "")
+def likely_headings(found: Sequence[Record], columns: Sequence[Column]) -> Record:
+    """The row that has most known headings, or else most cells: what a logger writes above it about itself has few."""
+
+    def rank(record: Record) -> tuple[int, int]:
+        known = [known_heading_of(cell, place, columns) for place, cell in enumerate(record.cells)]
+        return sum(heading is not None for heading in known), sum(cell != "" for cell in record.cells)
+
+    return max(found, key=rank)
 
 
 def checked(

@@ -30,12 +30,15 @@ from ballscrew.files.tables.headings import (
     heading_of,
     headings_in,
     known_heading_of,
+    likely_headings,
     spelt,
     unused,
 )
 from ballscrew.files.tables.sheets import Record
 from ballscrew.files.torque_logs.log_rows import Kind, quantities, within
 
+#: Headings of a file that a message lists at most.
+_LISTED = 20
 #: The headings stand within this many rows: loggers write about themselves first.
 WITHIN = 60
 
@@ -193,6 +196,7 @@ def layout(path: Path, found: Sequence[Record], flags: Mapping[str, str]) -> Lay
     columns = _wanted(given)
     start, headings = headings_in(path, rows, columns, WITHIN)
     columns, headings = _chosen(columns, headings, constants)
+    headings = as_in_file(headings, start, named)
     body = rows[start + 1 :]
     units_below = bool(body) and are_units(headings, body[0])
     without_load = _has_no_load(rows[start], body[0] if units_below else None, headings, constants)
@@ -207,11 +211,11 @@ def layout(path: Path, found: Sequence[Record], flags: Mapping[str, str]) -> Lay
     try:
         good = checked(path, headings, rows[start], body, columns)
     except InputError as error:
-        raise InputError(*(with_option(fault, headings, _BY_NAME, constants=True) for fault in error.faults)) from None
+        there = headings_of(found[start])
+        raise InputError(
+            *(with_option(fault, headings, _BY_NAME, there, constants=True) for fault in error.faults)
+        ) from None
     rest = unused(found[start], good, body[:WITHIN])
-    good = [
-        dataclasses.replace(heading, written=named.get((start, heading.place), heading.written)) for heading in good
-    ]
     above = [found[start], found[start + 1]] if units_below else [found[start]]
     return Layout(
         path.name,
@@ -327,9 +331,19 @@ def _constant(one: _GivenColumn, found: Sequence[Record]) -> float:
         if isinstance(value, Fault):
             raise InputError(value)
         return value
-    texts = (cell for record in found[:WITHIN] for cell in record.cells if isinstance(cell, str) and cell)
-    headings = [text for text in texts if not re.match(r"[-+]?[.,]?\d", text)]
-    raise InputError(Fault(where, "is not a column of the file", one.written, nearest(one.name, headings[:20])))
+    headings = headings_of(likely_headings(found[:WITHIN], COLUMNS))
+    raise InputError(Fault(where, "is not a column of the file", one.written, nearest(one.name, headings)))
+
+
+def headings_of(record: Record) -> list[str]:
+    """The headings in a row of a file, those that a message has room for."""
+    texts = [cell for cell in record.cells if isinstance(cell, str) and cell]
+    return [text for text in texts if not re.match(r"[-+]?[.,]?\d", text)][:_LISTED]
+
+
+def as_in_file(headings: Sequence[Heading], start: int, written: Mapping[tuple[int, int], str]) -> list[Heading]:
+    """Headings as the file has them, where the user named their columns: messages are about what stands there."""
+    return [dataclasses.replace(one, written=written.get((start, one.place), one.written)) for one in headings]
 
 
 def _wanted(given: Sequence[_GivenColumn]) -> tuple[Column, ...]:
@@ -411,19 +425,26 @@ def texts_in(headings: Sequence[Heading], body: Sequence[Record]) -> list[str]:
     return [cell for cell in cells if isinstance(cell, str)]
 
 
-_NAMED = Message('{remedy}, or name it: --column {name}="your heading [{unit}]"')
+_NAMED = Message('{remedy}, or name it: --column {name}="your heading [{unit}]"; headings of the file: {headings}')
 _NAMED_OR_CONSTANT = Message(
     '{remedy}, or name it: --column {name}="your heading [{unit}]"; '
-    'if it is the same in every row, --column {name}="0 {unit}"'
+    'if it is the same in every row, --column {name}="0 {unit}"; headings of the file: {headings}'
 )
 _WITH_UNIT = Message('{remedy}, or give --column {name}="{heading} [{unit}]"')
 _CHOSEN = Message('give --column {name}="{heading}" for the one that is meant')
 
 
-def with_option(fault: Fault, headings: Sequence[Heading], columns: Mapping[str, Column], *, constants: bool) -> Fault:
+def with_option(
+    fault: Fault,
+    headings: Sequence[Heading],
+    columns: Mapping[str, Column],
+    there: Sequence[str],
+    *,
+    constants: bool,
+) -> Fault:
     """A fault of a column, with the option of the command line that resolves it.
 
-    ``constants``: whether a value may stand for a column; of a torque none may.
+    ``there`` are the headings of the file. ``constants``: whether a value may stand for a column; of a torque none may.
     """
     column = columns.get(fault.column)
     if column is None or column.quantity is None:
@@ -433,7 +454,7 @@ def with_option(fault: Fault, headings: Sequence[Heading], columns: Mapping[str,
     remedy, common = message_of(fault.remedy), dict[str, Value](name=name, unit=UnitName(unit))
     if fault.id == NO_COLUMN:
         constant = constants and name != "torque"
-        remedy = (_NAMED_OR_CONSTANT if constant else _NAMED).of(remedy=remedy, **common)
+        remedy = (_NAMED_OR_CONSTANT if constant else _NAMED).of(remedy=remedy, headings=", ".join(there), **common)
     elif heading is not None and fault.id == NEEDS_UNIT:
         parts = BRACKETS.fullmatch(heading.written)
         remedy = _WITH_UNIT.of(remedy=remedy, heading=parts["name"] if parts else heading.written, **common)

@@ -12,7 +12,8 @@ import pandas
 from numpy.typing import NDArray
 
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.files.tables.cells import shown, value_of
+from ballscrew.basis.records import Message, message_of
+from ballscrew.files.tables.cells import NOT_A_NUMBER, shown, value_of
 from ballscrew.files.tables.number_columns import column_numbers, is_missing
 from ballscrew.files.tables.sheets import is_error
 from ballscrew.files.torque_logs.columns import CLOCK, Layout
@@ -30,6 +31,8 @@ class NumberReader:
 
     layout: Layout
     keep_going: bool
+    #: Whether faulty rows can be left out: then the remedy of a fault says how.
+    may_keep_going: bool = True
     faults: list[Fault] = dataclasses.field(default_factory=list[Fault])
     #: Rows with a fault.
     bad_rows: int = 0
@@ -94,12 +97,19 @@ class NumberReader:
             else:
                 value = value_of(where, cell, shown(cell), heading, self.layout.decimal)
                 if isinstance(value, Fault):
-                    faults.append((place, value))
+                    faults.append((place, self._with_option(value)))
                 else:
                     values[place] = value
             if len(faults) >= _MAXIMUM_FAULTS and not self.keep_going:
                 break
         return faults
+
+    def _with_option(self, fault: Fault) -> Fault:
+        """A fault of a word among the numbers, with the option that leaves its row out."""
+        if fault.id != NOT_A_NUMBER or self.keep_going or not self.may_keep_going:
+            return fault
+        remedy = Message("{remedy}, or leave such rows out: --keep-going", {"remedy": message_of(fault.remedy)})
+        return dataclasses.replace(fault, remedy=remedy)
 
     def _of_words(
         self, name: str, cells: Any, places: NDArray[np.int64], line: NDArray[np.int64]

@@ -21,8 +21,8 @@ RATING_CONFORMITY = 0.52
 PRELOAD_SHARES = (1e-3, 1.0)
 _RATING = Quantity("dynamic_load_rating", "N", Info("C_a", "dynamic load rating", "kN"))
 _ODD = Message(
-    "preload {preload} is {percent} % of the dynamic load rating {rating} of this geometry; nuts have 2 % to 10 %: "
-    "check the number and its unit"
+    "preload {preload} is {percent} % of the dynamic load rating {rating}, computed from the geometry; "
+    "nuts have 2 % to 10 %: check the number and its unit"
 )
 _PRELOAD = Quantity("preload", "N", PRELOAD)
 

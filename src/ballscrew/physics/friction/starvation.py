@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ballscrew.basis.arrays import as_array
-from ballscrew.basis.errors import shown_in_si
+from ballscrew.basis.errors import shown_to_digits
 from ballscrew.basis.quantities import Quantity
 from ballscrew.basis.records import Measured, Message, Record
 from ballscrew.physics.components.screw import BallScrew
@@ -29,12 +29,12 @@ NEARLY_ALL = 0.92
 
 #: The sentence of an answer that has one number.
 OF_ONE_NUMBER = Message(
-    "starved: {given} if oil this thick comes back into the track too late, as in bearings; "
-    "{flooded} in a full bath of oil; which of them a ball screw has is not measured"
+    "starvation: friction is {given} if oil this thick comes back into the track too late, as formulas for bearings "
+    "say, and {flooded} in a full bath of oil; no measurement on a ball screw decides between them"
 )
 _SEVERAL = Message(
-    "starved: {given} if oil this thick comes back into the track too late, as in bearings; "
-    "in a full bath of oil {flooded}; which of them a ball screw has is not measured"
+    "starvation: {given} if oil this thick comes back into the track too late, as formulas for bearings say, and "
+    "{flooded} in a full bath of oil; no measurement on a ball screw decides between them"
 )
 
 
@@ -104,7 +104,7 @@ def records(numbers: Sequence[BothTorques], remark: Message | None = None) -> li
         Record(
             id=STARVED,
             subject=first.quantity.name,
-            text=message.filled(shown_in_si),
+            text=message.filled(shown_to_digits),
             severity="warning",
             holds=False,
             value=first.flooded,

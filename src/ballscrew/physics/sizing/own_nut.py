@@ -66,9 +66,9 @@ BY_RULE = Message(
 BY_NOMINAL = Message("as large as the nominal diameter; those that a catalogue lists are 1.5 to 5 % larger")
 BY_ROOT = Message("from the diameter at the bottom of the groove, good to about 0.01")
 BY_DEFAULT = Message("most root diameters of a catalogue imply 0.54, some 0.56; good to about 0.01")
-BY_HABIT = Message("the usual one; no catalogue that was read prints it")
+BY_HABIT = Message("the usual value; no catalogue consulted prints it")
 BY_SURFACE = Message("balls have 0.02 to 0.1 um; the usual one stands for what no catalogue prints")
-BY_GRINDING = Message("ground races have 0.2 to 0.4 um, rolled ones more; no catalogue that was read prints it")
+BY_GRINDING = Message("ground races have 0.2 to 0.4 um, rolled ones more; no catalogue consulted prints it")
 BY_ROOM = Message(
     "whole balls that find room in a turn, {count}, times {loaded} of {turns} turns: 0.24 turns without load fit the "
     "ratings of nuts with long circuits; those of circuits of 2.5 turns fit 23 % fewer balls"

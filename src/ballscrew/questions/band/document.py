@@ -123,8 +123,8 @@ def _narrowing(report: BandReport, case: Case, quantity: Quantity) -> list[Recor
         known = Configuration(case.model, case.screw, case.lubricant).inputs
         cause = Message(known[found.name][1].info.meaning)
     message = Message(
-        "what would narrow it the most is {cause}: known, and as the model has it, it would end at {low} and {high}, "
-        "{percent} % as wide",
+        "the band would narrow the most, to {percent} % of its width ({low} to {high}), if this were known and as the "
+        "model has it: {cause}",
         {
             "cause": cause,
             "low": Measured(found.low, quantity, toward=-1),

@@ -43,11 +43,11 @@ def print_fit(case: Case, report: FitReport) -> None:
         say(f"{verdict}\n", "bold red")
     log, (name, _) = model.rows.log, model.rows.log.source or ("log", "")
     say(f"{name}: {len(log)} of {log.rows} rows used, {model_text(case)}\n", "bold")
-    for line in (*(f"left out: {count} rows, {reason}" for reason, count in log.left_out.items()), *log.notes):
+    for line in (*(f"left out: {_rows(count)}, {reason}" for reason, count in log.left_out.items()), *log.notes):
         say(line, "dim")
     say(f"torque read as: {model.rows.convention.description}", "dim")
     if model.rows.outlying.any():
-        say(f"outliers: {int(model.rows.outlying.sum())} rows, not counted", "dim")
+        say(f"outliers: {_rows(int(model.rows.outlying.sum()))}, not counted", "dim")
     for line in report.assumed:
         say(f"assumed: {line}", "dim")
     console.print()
@@ -65,6 +65,10 @@ def print_fit(case: Case, report: FitReport) -> None:
         console.print()
         for line in describe_next_test(report.next_test, model):
             say(units.filled(line))
+
+
+def _rows(count: int) -> str:
+    return f"{count} row" if count == 1 else f"{count} rows"
 
 
 def _estimates(model: CalibratedModel) -> Table:
@@ -113,7 +117,7 @@ def interval(estimate: Estimate) -> str:
 
 def _number(estimate: Estimate, value: float, digits: int = 4) -> str:
     """A value of an estimate in the unit people think in, without the unit."""
-    return f"{units.from_si(value, estimate.quantity):.{digits}g}"
+    return units.to_digits(units.from_si(value, estimate.quantity), digits)
 
 
 def trade_off(model: CalibratedModel) -> Message:

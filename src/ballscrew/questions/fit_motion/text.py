@@ -25,7 +25,9 @@ def print_motion_fit(case: Case, found: MotionFit) -> None:
 
     log, equation = found.equation.log, found.equation
     say(f"{log_name(found)}: {equation.used.size} rows of {log.rows} used, {model_text(case)}\n", "bold")
-    left_out = [f"left out: {count} rows, {reason}" for reason, count in equation.left_out.items()]
+    left_out = [
+        f"left out: {count} {'row' if count == 1 else 'rows'}, {reason}" for reason, count in equation.left_out.items()
+    ]
     for line in (*left_out, *log.notes, *filter_lines(found)):
         say(line, "dim")
     console.print()
@@ -84,7 +86,7 @@ def interval(estimate: MotionEstimate) -> str:
 
 
 def _number(estimate: MotionEstimate, value: float, digits: int = 4) -> str:
-    return f"{units.from_si(value, estimate.quantity):.{digits}g}"
+    return units.to_digits(units.from_si(value, estimate.quantity), digits)
 
 
 def exponent_lines(found: MotionFit) -> list[str]:

@@ -18,7 +18,8 @@ _LINE = Message("drag torque without seals {torque}; by the rules of makers: {ru
 _OWN = Message("{rule}, its maker, {torque} (model / rule {ratio})")
 _OTHER = Message("{rule} {torque} (model / rule {ratio})")
 _CONTRADICTION = Message(
-    "the rules of makers contradict each other here by a factor of {factor}; none of them knows oil, speed or balls"
+    "the rules of makers contradict each other here by a factor of {factor}; "
+    "none of them accounts for oil, speed or balls"
 )
 
 

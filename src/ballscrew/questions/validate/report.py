@@ -241,7 +241,7 @@ def _rows(entry: Entry) -> list[Block]:
     quantity = entry.data.quantity
 
     def shown(value: float | None) -> str:
-        return "–" if value is None or not math.isfinite(value) else f"{units.from_si(value, quantity):.4g}"
+        return "–" if value is None or not math.isfinite(value) else units.rounded(value, quantity)
 
     def line(point: Point) -> list[str]:
         low, high = point.band.low, point.band.high

@@ -198,7 +198,7 @@ def _apart(entries: Sequence[Entry]) -> list[str]:
 
 
 def _shown(value: float | None, quantity: Quantity) -> str:
-    return "–" if value is None or not math.isfinite(value) else f"{units.from_si(value, quantity):.4g}"
+    return "–" if value is None or not math.isfinite(value) else units.rounded(value, quantity)
 
 
 def _number(value: float | None, form: str) -> str:
