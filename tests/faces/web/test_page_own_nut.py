@@ -22,7 +22,7 @@ def test_few_numbers_become_a_design(visit):
     assert (value, low, high) == ("5.696 mm", "5.24 mm", "7.063 mm")
     assert "ISO 3408-5" in source
     page.click("#own-nut-use")
-    page.wait_for_selector("#own-nut >> text=40x10 is a design now.")
+    page.wait_for_selector("#own-nut >> text=Added as design A: 40x10.")
     # the form of the design, which is made anew after the words are there
     page.wait_for_function("[...document.querySelectorAll('input')].some((one) => one.value === '5.696')")
 

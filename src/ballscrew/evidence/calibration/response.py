@@ -10,6 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ballscrew.basis.errors import (
+    ONE_BY_ONE,
     Fault,
     InputError,
     nearest,
@@ -93,7 +94,7 @@ class Response:
         """
         if subject.nut.one_by_one:
             remedy = "leave out [bodies] and [deviations]: balls that differ are not fitted"
-            raise_if_any([Fault("fit", "knows no nuts whose balls differ", "", remedy)])
+            raise_if_any([Fault("fit", "knows no nuts whose balls differ", "", remedy, id=ONE_BY_ONE)])
         start = np.array([initial_value(subject, name) for name in names])
         rows = {name: xr.DataArray(values, dims="row") for name, values in points.items()}
         held = dict(zip(names, start.tolist(), strict=True))

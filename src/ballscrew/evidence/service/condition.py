@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, accepts_units, raise_if_any
+from ballscrew.basis.errors import ONE_BY_ONE, Fault, accepts_units, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, MomentOfInertia, Temperature
 from ballscrew.basis.records import Message
 from ballscrew.engine.evaluation.plan import Configuration
@@ -106,7 +106,7 @@ def _faults(subject: Configuration, baseline: Any, false_alarms: Any, tolerance:
     faults: list[Fault] = []
     if subject.nut.one_by_one:
         remedy = "leave out [bodies] and [deviations]: balls that differ are not solved for a preload"
-        faults.append(Fault("condition", "knows no nuts whose balls differ", "", remedy))
+        faults.append(Fault("condition", "knows no nuts whose balls differ", "", remedy, id=ONE_BY_ONE))
     if not isinstance(baseline, int) or baseline < LEAST_BASELINE:
         remedy = Message(
             "give {least_baseline} or more: the scatter is estimated from them; {baseline} is usual",

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, InputError, accepts_units, raise_if_any
+from ballscrew.basis.errors import ONE_BY_ONE, Fault, InputError, accepts_units, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, Temperature, Torque
 from ballscrew.basis.records import Message
 from ballscrew.engine.evaluation.plan import Configuration
@@ -69,7 +69,7 @@ def preload_of_torque(
     subject = with_preload(Configuration(model, screw, lubricant))
     if subject.nut.one_by_one:
         remedy = "leave out [bodies] and [deviations]: balls that differ are not solved for a preload"
-        raise InputError(Fault("service", "knows no nuts whose balls differ", "", remedy))
+        raise InputError(Fault("service", "knows no nuts whose balls differ", "", remedy, id=ONE_BY_ONE))
     for name, value in {"torque": torque, "screw_speed": screw_speed}.items():
         raise_if_any([Fault(f"service.{name}", "must be positive", f"{value:g}")] if not value > 0 else [])
     if not torque_deviation >= 0:

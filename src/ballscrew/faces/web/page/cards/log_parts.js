@@ -13,6 +13,8 @@ import { text } from "../texts.js";
 const MOST_BYTES = 3_000_000;
 /** Letters that a shell reads also within quotes, and those that need quotes. */
 const OF_SHELLS = /[$\u0060]/g;
+/** The kind of a fault of a nut whose balls differ. */
+const ONE_BY_ONE = "one_by_one";
 const SPECIAL = /[^\w@%+=:,./-]/;
 
 /** @typedef {{ name: string, text?: string, base64?: string }} SentFile */
@@ -115,8 +117,14 @@ export function faultLines(faults) {
         button(words, () => jump(fault.where)),
       );
     }
-    return element("p", { class: "fault" }, withPlace(fault));
+    const isOfBalls = fault.id === ONE_BY_ONE;
+    return element("p", { class: "fault" }, withPlace(fault), ...(isOfBalls ? [" ", rigidButton()] : []));
   });
+}
+
+/** A button that takes elastic bodies and deviations of balls out of the design; the button Undo brings them back. */
+function rigidButton() {
+  return button(text("log.rigid"), () => designs.setTables({ bodies: null, deviations: null }));
 }
 
 /**
@@ -126,7 +134,8 @@ export function faultLines(faults) {
  */
 export function commandLine(words) {
   const quoted = words.map((word) => (SPECIAL.test(word) ? JSON.stringify(word).replaceAll(OF_SHELLS, "\\$&") : word));
-  return element("p", { class: "small" }, `${text("log.command")} `, element("code", {}, quoted.join(" ")));
+  const intro = text("log.command", { pane: text("view.hand-over.report") });
+  return element("p", { class: "small" }, `${intro} `, element("code", {}, quoted.join(" ")));
 }
 
 /** The name of the case file that belongs to a command. */
