@@ -1,5 +1,24 @@
 """The card of a nut of one's own: few numbers in, estimates with their bands beneath, and a design of them."""
 
+from pathlib import Path
+
+import pytest
+
+from .test_page_duty import case_of
+
+EXAMPLES = Path(__file__).parents[3] / "examples"
+#: Contrast of the words of an element and its ground, by WCAG 2.
+CONTRAST = """(selector) => {
+  const style = getComputedStyle(document.querySelector(selector));
+  const light = (colour) => {
+    const parts = colour.match(/[\\d.]+/g).slice(0, 3).map((one) => one / 255);
+    const [r, g, b] = parts.map((one) => (one <= 0.04045 ? one / 12.92 : ((one + 0.055) / 1.055) ** 2.4));
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  };
+  const [low, high] = [light(style.color), light(style.backgroundColor)].sort((a, b) => a - b);
+  return (high + 0.05) / (low + 0.05);
+}"""
+
 
 def opened(here, **typed):
     here.go("start.own")
@@ -41,3 +60,44 @@ def test_numbers_that_do_not_go_together_are_named(visit):
     page.fill("#own-nut-ball_diameter", "60")
     page.wait_for_selector("#own-nut .fault")
     assert page.locator("#own-nut-use").is_disabled()
+
+
+def test_the_first_view_says_that_it_shows_an_example(visit):
+    here = visit().open("#view=start.have&band=0").settle()
+    assert here.text("#example").endswith("the screw of Olaru et al. (2005).")
+    page = opened(here, nominal_diameter="40", lead="10", turns="5", dynamic_load_rating="52.7", name="my nut")
+    page.click("#own-nut-use:enabled")
+    page.wait_for_selector("#example", state="hidden")
+    here.go("torque")
+    assert page.locator("#start option:checked").inner_text() == "my nut"
+
+
+def test_a_fit_of_elastic_bodies_offers_rigid_ones(visit):
+    """The fault has a button that takes the bodies out, and the form a box that has them back."""
+    here = visit().open("#A=paper&band=0")
+    here.expected = ("status of 422",)
+    page = opened(here, nominal_diameter="40", lead="10", turns="5", dynamic_load_rating="52.7")
+    page.click("#own-nut-use:enabled")
+    page.wait_for_selector("#own-nut >> text=Added as design A")
+    here.go("measure.fit").settle()
+    page.set_input_files("#calibrate-log", EXAMPLES / "rig_log.csv")
+    page.click("#calibrate-fit:enabled", timeout=20_000)
+    page.click("#calibration .fault button", timeout=20_000)
+    page.wait_for_selector("#calibration .fault", state="detached", timeout=20_000)
+    here.settle()
+    assert "bodies" not in case_of(here)
+    here.go("torque").reveal("bodies.nut_outer_diameter")
+    assert not page.is_checked("#elastic")
+    page.check("#elastic")
+    here.settle()
+    assert case_of(here)["bodies"] == {}
+    page.uncheck("#elastic")
+    here.settle()
+    assert "bodies" not in case_of(here)
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_a_button_that_is_disabled_can_be_read(visit, scheme):
+    here = visit(scheme=scheme).open("#A=paper&band=0").go("start.own")
+    here.page.wait_for_selector("#own-nut-use:disabled")
+    assert here.page.evaluate(CONTRAST, "#own-nut-use") >= 4.5
