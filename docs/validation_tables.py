@@ -220,8 +220,8 @@ def agreement_table() -> str:
             stock["offset"],
         ],
         "THK's worked example: no-load torque of a double nut": [of["thk-jis"]],
-        "measured: rolling torque of balls between rings; torque of two new screws (XJTU), against "
-        f"{len(screws.counted)} sizes that could be theirs": [of["balan-2015"], screws],
+        "measured: rolling torque of balls between rings; torque of two new screws whose size is not stated "
+        f"(XJTU): {len(screws.counted)} catalogue screws that could be these": [of["balan-2015"], screws],
         "Rexroth's tables: rigidity of preloaded double nuts": [of["rexroth-rigidity"]],
     }
     lines = [["compared with", "values", "model / stated value"], ["---"] * 3]

@@ -31,6 +31,8 @@ LONGEST_VALUE = 200
 BOUND = "bound"
 #: The kind of fault of a key or a section that is not known.
 UNKNOWN = "unknown"
+#: The kind of a fault of a nut whose balls differ, which rigid and equal parts mend.
+ONE_BY_ONE = "one_by_one"
 #: The problem of a field that is not given.
 MISSING = "missing"
 #: A fault in one line, by whether there is a value given, and a remedy.

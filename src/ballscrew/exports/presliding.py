@@ -26,8 +26,10 @@ _SPEED = Quantity("presliding_speed", "rad/s", Info(r"\omega", "speed of the rev
 #: Choices of the targets that have it.
 OPTIONS: Mapping[str, Option] = {
     "presliding": Option(0, "Maxwell-slip elements, 1 to 4, of the friction after a reversal, as a state; 0: none"),
-    "presliding_load": Option(math.nan, "axial load of that reversal; that of the case", _LOAD),
-    "presliding_speed": Option(math.nan, "speed of the screw in that reversal, a slow one; that of the case", _SPEED),
+    "presliding_load": Option(math.nan, "axial load of the reversal (default: that of the case)", _LOAD),
+    "presliding_speed": Option(
+        math.nan, "speed of the screw at the reversal, a slow one (default: that of the case)", _SPEED
+    ),
 }
 _HYPOTHESIS = Message(
     "friction that comes back over the angle of the screw after a reversal is a hypothesis; it is fitted at {load} and "

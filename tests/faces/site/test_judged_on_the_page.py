@@ -333,6 +333,8 @@ def test_the_panel_is_german_where_its_visitor_is(visit):
     words = here.page.locator("#checks").inner_text()
     assert "Prüfungen" in words
     assert "statische Tragzahl" in words
+    assert "nicht geführt" not in words  # said once, by the word before
+    assert "10⁶ Umdrehungen" in words
     assert "“Laufzeit”" in words  # what is to be given, by the name of its field
     assert "Vorspannung aufgehoben" in here.page.locator("#verdicts").inner_text()
     here.page.locator("#ball").scroll_into_view_if_needed()

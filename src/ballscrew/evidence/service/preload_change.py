@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from ballscrew.basis.errors import Fault, InputError, accepts_units, nearest, raise_if_any
+from ballscrew.basis.errors import ONE_BY_ONE, Fault, InputError, accepts_units, nearest, raise_if_any
 from ballscrew.basis.quantities import Force, MomentOfInertia
 from ballscrew.basis.records import Message, Record
 from ballscrew.engine.evaluation.outputs import OPERATION
@@ -188,9 +188,8 @@ def with_preload(subject: Configuration) -> Configuration:
     if not hasattr(nut, "preload"):
         raise InputError(Fault("nut", "has no preload", "a single nut", remedy))
     if nut.one_by_one:
-        raise InputError(
-            Fault("nut", "has elastic bodies or balls that differ, of which no preload is found", "", RIGID)
-        )
+        problem = "has elastic bodies or balls that differ, of which no preload is found"
+        raise InputError(Fault("nut", problem, "", RIGID, id=ONE_BY_ONE))
     if nut.preload is None:
         loads = subject.model(subject.screw, subject.lubricant, axial_load=0.0, screw_speed=1.0).loads
         subject = subject.changed({PRELOAD: float(loads.remaining_preload)})

@@ -70,6 +70,7 @@ export class Headline {
     const { point, isMissing } = this.scene.banded();
     const ends = point ? wordsOfEnds(this.scene, "screw_torque", point.ends.screw_torque) : isMissing ? "–" : "…";
     byId("band").textContent = `${levelOf(this.scene)}: ${ends}`;
+    byId("band-laws").style.visibility = isMissing ? "hidden" : "";
   }
 
   /** The verdict on the checks, and those on the operating point; conditions of the model stand below. */

@@ -4,7 +4,7 @@ import { ballAt, drawBall } from "./ball.js";
 import { textOf } from "./judgements.js";
 import { colourOf } from "./plot.js";
 import { View } from "./view.js";
-import { digitsOf, element, inPlace, numberIn, plainDigits, say, sayNamed, signOf, spaced } from "./words.js";
+import { digitsOf, element, inPlace, numberIn, plainDigits, powerOf, say, sayNamed, signOf, spaced } from "./words.js";
 
 /** @typedef {import("./judgements.js").JudgedRecord} JudgedRecord */
 /** @typedef {{ factor: number, offset: number, shown_in: string }} Shown */
@@ -42,12 +42,27 @@ function labelOfGiven(name) {
   return sayNamed(`field.${path}.label`, spaced(name));
 }
 
+/** What is said of a check that is not judged, beside the word that says so. @type {Record<string, string>} */
+const OF_OPEN = {
+  "not checked: give {input}": "give {input}",
+  "not judged: give {input}": "give {input}",
+  "not judged: at rest": "at rest",
+};
+/** The check whose value is a number of turns. */
+const LIFE = "check.life";
+
+/** A number of turns, a large one with a power of ten. @param {number | null} turns */
+function turnsIn(turns) {
+  if (turns === null || !Number.isFinite(turns)) return "–";
+  return `${powerOf(turns)} ${say("revolutions")}`;
+}
+
 /** In the panel what is to be given has the name of its field there. */
 const IN_PANEL = {
   ...inPlace,
   say: (/** @type {string} */ template) => {
     const name = template === "installation" ? ASKED[0] : template;
-    return ASKED.includes(name) ? `“${labelOfGiven(name)}”` : inPlace.say(template);
+    return ASKED.includes(name) ? `“${labelOfGiven(name)}”` : inPlace.say(OF_OPEN[template] ?? template);
   },
 };
 
@@ -121,7 +136,7 @@ export class Checks extends View {
         element("td", {}, value),
         element("td", {}, limit),
         element("td", {}, ...barOf(used, title)),
-        element("td", { class: "said" }, element("strong", {}, say(STATES[state])), ` ${words}`),
+        element("td", { class: "said" }, element("strong", {}, say(STATES[state])), `${MARKS[state] ?? ""} ${words}`),
       ),
     );
     this.table.replaceChildren(element("thead", {}, element("tr", {}, ...head)), element("tbody", {}, ...rows));
@@ -143,11 +158,12 @@ export class Checks extends View {
   #line(record) {
     const { contents } = this.scene.case;
     const quantity = contents.judging.shown[record.id];
+    const written = record.id === LIFE ? turnsIn : (/** @type {number | null} */ value) => shownIn(value, quantity);
     const { title } = contents.judging.tables.checks.find((/** @type {any} */ row) => row.id === record.id);
     return {
       title: inPlace.say(title),
-      value: shownIn(record.value, quantity),
-      limit: shownIn(record.limit, quantity),
+      value: written(record.value),
+      limit: written(record.limit),
       used: record.utilisation,
       state: record.holds === null ? "open" : record.holds ? "holds" : "fails",
       words: textOf(contents, record.message, IN_PANEL),
@@ -157,6 +173,8 @@ export class Checks extends View {
 
 /** @type {Record<string, string>} */
 const STATES = { open: "not judged", holds: "holds", fails: "fails" };
+/** @type {Record<string, string>} */
+const MARKS = { open: ":" };
 
 /** @param {string} words @param {string} id @param {HTMLElement} field @param {string} unit */
 function labelled(words, id, field, unit) {

@@ -13,6 +13,9 @@ const GREEK = {
   sigma: "σ",
   epsilon: "ε",
 };
+const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+/** From here on a number has a power of ten. */
+const LARGE = 1e5;
 const LANGUAGE_KEPT = "ballscrew-site-language";
 
 /** The German words by the English ones, or by the name of what they are of. @type {Record<string, string>} */
@@ -100,6 +103,17 @@ export function digitsOf(number, digits = 4) {
   const text = number.toPrecision(digits);
   const plain = text.includes("e") ? String(Number(text)) : text;
   return localised(plain).replace("-", "−");
+}
+
+/**
+ * A number of three digits, a large one with a power of ten: 9.56 · 10⁶.
+ *
+ * @param {number} number
+ */
+export function powerOf(number) {
+  if (Math.abs(number) < LARGE) return digitsOf(number, 3);
+  const [digits, power] = number.toExponential(2).split("e+");
+  return `${localised(digits)} · 10${[...power].map((one) => RAISED[Number(one)]).join("")}`;
 }
 
 /** A number without needless digits, for axes and fields. @param {number} number */

@@ -4,6 +4,7 @@ import * as schema from "./schema.js";
 import { get } from "./server.js";
 import * as states from "./state.js";
 import { store } from "./store.js";
+import { text } from "./texts.js";
 import { vocabulary } from "./vocabulary.js";
 
 /** Sections that belong to the use of a screw, not to the screw. */
@@ -296,9 +297,32 @@ export function useTable(table) {
 
 // -- files and several designs ----------------------------------------------------------------------
 
+/**
+ * What a design of no row has its screw from: its file, or its own tables; nothing where that is its start.
+ *
+ * @param {states.FrozenDesign} design
+ */
+export function ownScrewOf({ name, file, start, tables }) {
+  if (isRow(start)) return undefined;
+  return file ?? (tables?.screw ? name || text("form.own_screw") : undefined);
+}
+
+/**
+ * The start whose screw a design has as it is: an example, where it is no row of the catalogue.
+ *
+ * @param {states.FrozenDesign} design
+ */
+export function exampleOf(design) {
+  const { start, changes, tables } = design;
+  const changed = [...Object.keys(changes), ...Object.keys(tables ?? {})].map((path) => path.split(".")[0]);
+  const isOwn = design.file !== undefined || changed.some((section) => states.OF_SCREW.includes(section));
+  return isRow(start) || isOwn ? undefined : start;
+}
+
 /** What people call a design: its name, and what it starts from. @param {states.FrozenDesign} design */
-export function titleOf({ name, file, start }) {
-  const from = isRow(start) ? start : (file ?? start);
+export function titleOf(design) {
+  const { name, start } = design;
+  const from = ownScrewOf(design) ?? start;
   return name && name !== from ? `${name}: ${from}` : from;
 }
 

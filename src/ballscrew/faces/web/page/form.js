@@ -1,6 +1,6 @@
 // The form, made from the JSON Schema of the case file. It shows the texts of the state and reports what is typed.
 
-import { isOfFile, setAside } from "./designs.js";
+import { current, isOfFile, ownScrewOf, setAside, setTables, tablesOf } from "./designs.js";
 import { byId, element, within } from "./dom.js";
 import { inWords, labelOf } from "./messages.js";
 import { choiceField, labelIn, numberField, showEffective } from "./fields.js";
@@ -52,6 +52,7 @@ export function build(source) {
       title,
       { open: isFirst ? openFirst.includes(name) : open.has(name) },
       HINTS[name] ? element("p", { class: "small" }, HINTS[name]) : null,
+      name === "bodies" ? elasticBox() : null,
       ...fieldsOfSection(name, title, open, source),
     ),
   );
@@ -60,8 +61,9 @@ export function build(source) {
   const helping = help.placeIn(form);
   while (form.children.length > 1) form.lastChild?.remove();
   form.append(...parts, helping);
-  const { start, changes, file } = state.designs[state.show];
-  showStart(start, Object.hasOwn(vocabulary.starts, start) ? file : undefined);
+  const { start, changes } = state.designs[state.show];
+  showStart(start, ownScrewOf(state.designs[state.show]));
+  showElastic();
   byId("reset").hidden = !Object.keys(changes).length;
   for (const path of Object.keys(changes)) mark(path, true);
 }
@@ -109,6 +111,18 @@ function section(name, title, attributes, ...children) {
   );
 }
 
+/** The box that gives the design elastic bodies of the usual sizes, or takes its bodies out. */
+function elasticBox() {
+  const box = element("input", { type: "checkbox", id: "elastic" });
+  box.addEventListener("change", () => setTables({ bodies: box.checked ? {} : null }));
+  return element("p", { class: "small" }, element("label", {}, box, " ", text("form.elastic")));
+}
+
+function showElastic() {
+  const box = /** @type {HTMLInputElement} */ (byId("elastic"));
+  box.checked = tablesOf(current()).bodies !== undefined;
+}
+
 /**
  * Mark a field that differs from the start.
  *
@@ -116,6 +130,7 @@ function section(name, title, attributes, ...children) {
  * @param {boolean} differs
  */
 export function mark(path, differs) {
+  showElastic();
   const field = fieldAt(path);
   if (!field) return;
   field.classList.toggle("changed", differs);
@@ -175,7 +190,7 @@ function startField({ onChange }) {
 }
 
 /**
- * Show what a design starts from: a case to start from, a row, or its file where that has a screw of its own.
+ * Show what a design starts from: a case to start from, a row, or what it has a screw of its own from.
  *
  * @param {string} start
  * @param {string | undefined} file

@@ -6,7 +6,7 @@ import { byId, element, keepFocus } from "./dom.js";
 import * as form from "./form.js";
 import { LETTERS, valueAt } from "./state.js";
 import { store } from "./store.js";
-import { text } from "./texts.js";
+import { text, textOr } from "./texts.js";
 import * as units from "./units.js";
 import { vocabulary } from "./vocabulary.js";
 
@@ -66,6 +66,7 @@ export async function show(answer) {
     form.build({ state, given, lawOf, onChange: change });
     byId("form").dataset.laws = lawsOf(answer);
     form.showValues(effective(answer));
+    showExample();
     showTabs();
   };
   keepFocus(rebuild, () => byId(`design-${LETTERS[store.state.show]}`));
@@ -76,6 +77,17 @@ export function mark(path) {
   const { changes } = designs.current();
   form.mark(path, path in changes);
   byId("reset").hidden = !Object.keys(changes).length;
+  showExample();
+}
+
+/** Say on the first view that its numbers are of an example, as long as no other screw was chosen. */
+function showExample() {
+  const example = designs.exampleOf(designs.current());
+  const place = byId("example");
+  place.hidden = example === undefined;
+  if (example === undefined) return;
+  const name = textOr(`start.${example}`, vocabulary.starts[example].title);
+  place.textContent = text("have.shown", { name });
 }
 
 /**

@@ -42,7 +42,7 @@ function moduleOf(file) {
 }
 
 /**
- * Everything in tables by its path, as JSON.
+ * Everything in tables by its path, as JSON. An empty table counts, too: ``bodies`` without sizes is elastic.
  *
  * @param {Record<string, unknown>} tables
  * @param {string} [above]
@@ -51,7 +51,8 @@ function moduleOf(file) {
 function textsOf(tables, above = "", found = new Map()) {
   for (const [name, value] of Object.entries(tables)) {
     const isTable = value !== null && typeof value === "object" && !Array.isArray(value);
-    if (isTable) textsOf(/** @type {Record<string, unknown>} */ (value), `${above}${name}.`, found);
+    if (isTable && Object.keys(value).length)
+      textsOf(/** @type {Record<string, unknown>} */ (value), `${above}${name}.`, found);
     else found.set(`${above}${name}`, JSON.stringify(value));
   }
   return found;

@@ -13,6 +13,8 @@ import { text } from "../texts.js";
 const MOST_BYTES = 3_000_000;
 /** Letters that a shell reads also within quotes, and those that need quotes. */
 const OF_SHELLS = /[$\u0060]/g;
+/** The kind of a fault of a nut whose balls differ. */
+const ONE_BY_ONE = "one_by_one";
 const SPECIAL = /[^\w@%+=:,./-]/;
 
 /** @typedef {{ name: string, text?: string, base64?: string }} SentFile */
@@ -107,6 +109,7 @@ export function exampleButton(name, take) {
  */
 export function faultLines(faults) {
   return faults.map((fault) => {
+    if (fault.id === ONE_BY_ONE) return elasticLine(fault);
     if (schema.fieldOf(fault.where)) {
       const words = `${labelOf(fault.where)}: ${inWords(fault)}`;
       return element(
@@ -120,13 +123,30 @@ export function faultLines(faults) {
 }
 
 /**
+ * A line with a button that takes elastic bodies and deviations of balls out of the design; Undo brings them back.
+ *
+ * @param {FaultLine} fault
+ */
+function elasticLine(fault) {
+  const line = element("p", { class: "fault" }, withPlace(fault), " ");
+  line.append(
+    button(text("log.rigid"), () => {
+      line.remove();
+      designs.setTables({ bodies: null, deviations: null });
+    }),
+  );
+  return line;
+}
+
+/**
  * The command that does the same as a card.
  *
  * @param {string[]} words
  */
 export function commandLine(words) {
   const quoted = words.map((word) => (SPECIAL.test(word) ? JSON.stringify(word).replaceAll(OF_SHELLS, "\\$&") : word));
-  return element("p", { class: "small" }, `${text("log.command")} `, element("code", {}, quoted.join(" ")));
+  const intro = text("log.command", { pane: text("view.hand-over.report") });
+  return element("p", { class: "small" }, `${intro} `, element("code", {}, quoted.join(" ")));
 }
 
 /** The name of the case file that belongs to a command. */

@@ -75,7 +75,8 @@ function controlOf(option, take) {
   }
   /** @param {string} typed */
   const read = (typed) => take(typed.trim() ? fromText(option, typed.trim()) : undefined);
-  return textField("", read, { placeholder: units.inLanguage(String(option.default ?? "")) });
+  const usual = typeof option.default === "object" ? "" : String(option.default ?? ""); // a table is empty by default
+  return textField("", read, { placeholder: units.inLanguage(usual) });
 }
 
 /** What was typed, as the body of a request has it. @param {Option} option @param {string} typed */

@@ -4,6 +4,7 @@ import * as designs from "../designs.js";
 import { element } from "../dom.js";
 import { ownNut } from "../own_nut.js";
 import { LETTERS } from "../state.js";
+import { store } from "../store.js";
 import { text } from "../texts.js";
 
 /** @param {HTMLElement} holder */
@@ -15,7 +16,7 @@ export function setUp(holder) {
     const left = designs.add([await designs.ofCase(tables, { name })]);
     words.textContent = left
       ? text("open.no_room", { names: name, most: LETTERS.length })
-      : text("own_nut.done", { name });
+      : text("own_nut.done", { name, letter: LETTERS[store.state.show] });
   });
   return { follow };
 }
