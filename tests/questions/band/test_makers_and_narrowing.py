@@ -42,7 +42,8 @@ def test_whose_calibrations_are_drawn():
     assert drawn(case(nut=OVERSIZE)) == ["rexroth-2006-rubbing"]  # the others are of two contacts
     assert drawn(case(nut={**DOUBLE, "spacer_balls": True})) == drawn(case(nut={"type": "single"})) == []
     assert drawn(case(model={"calibration": "hiwin"})) == drawn(case(model={"name": "corrected"}, nut=DOUBLE)) == []
-    for told in ({"ball_to_ball_force": "0.02 N"}, {"ball_force": {"law": "proportional", "share_of_load": 0.01}}):
+    imposed = {"ball_force": "imposed", "ball_to_ball_force": "0.02 N"}
+    for told in (imposed, {"ball_force": {"law": "proportional", "share_of_load": 0.01}}):
         assert drawn(case(model=told)) == []
 
 

@@ -28,6 +28,8 @@ const AS_WRITTEN = {
 };
 /** Digits beyond which a plain number has none. */
 const PLAIN = 10;
+/** From where on a large number has an exponent, whatever its significant digits. */
+const WITH_EXPONENT = 1e6;
 
 /** The first of each array. @param {Record<string, ArrayLike<number>>} found @param {number} place @returns {Numbers} */
 function at(found, place) {
@@ -263,7 +265,18 @@ function inUnit({ judging }, { value, unit, shown_in: shownIn, digits, decimals 
   if (decimals !== undefined) return Number.isFinite(value) ? value.toFixed(decimals) : general(value, PLAIN);
   if (unit === "1") return general(Number(general(value, digits)), PLAIN);
   const { factor, offset } = judging.units[`${unit}|${shownIn}`];
-  return `${general((value - offset) / factor, digits)} ${sign(shownIn)}`;
+  return `${toDigits((value - offset) / factor, digits)} ${sign(shownIn)}`;
+}
+
+/**
+ * A number with so many significant digits for people: a large one has an exponent from {@link WITH_EXPONENT} only.
+ *
+ * @param {number} number
+ * @param {number} digits
+ */
+function toDigits(number, digits) {
+  const text = general(number, digits);
+  return text.includes("e+") && Math.abs(Number(text)) < WITH_EXPONENT ? Number(text).toFixed(0) : text;
 }
 
 /**
