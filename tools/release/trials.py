@@ -220,7 +220,10 @@ def main() -> int:
     if len(wheels) != 1:
         print(f"trials: dist/: needs one wheel ({len(wheels)} there): make dist", file=sys.stderr)
         return 2
-    uv = shutil.which(given.uv) or os.fspath((ROOT / given.uv).resolve())
+    uv = shutil.which(given.uv) or shutil.which(ROOT / given.uv)
+    if uv is None:
+        print(f"trials: --uv: no program {given.uv}: make trials, which gets one, or --uv PATH", file=sys.stderr)
+        return 2
     lines = [
         "| environment | seconds to install | commands that work | that say what to install | otherwise |",
         "|---|---|---|---|---|",
