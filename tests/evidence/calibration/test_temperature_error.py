@@ -133,7 +133,7 @@ def test_samples_of_the_posterior_have_it_too():
     )  # fmt: skip
     del few["time"]
     found = fit(PAPER, SCREW, VG_100, few, [FRICTION], holdout=0.0, temperature_error=30.0)
-    samples, solution = found.posterior(400, seed=1), found.solution
+    samples, solution = found.posterior(200, seed=1), found.solution
     u = np.minimum((solution.residuals / solution.scatter / 4.685) ** 2, 1)
     bend, pull = (1 - u) * (1 - 5 * u), solution.residuals / solution.scatter * (1 - u) ** 2
     warm = found.temperature_error.deviation * found.temperature_error.torque_per_kelvin

@@ -21,6 +21,7 @@ from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.physics.sizing.checks import ratings_of
 from ballscrew.questions.validate import compute as validation
+from support.validation_sets import every_set
 
 DATA = Path(__file__).parents[2] / "data"
 RPM = math.pi / 30
@@ -29,9 +30,7 @@ RPM = math.pi / 30
 @pytest.fixture(scope="module")
 def found():
     """All sets, as the command evaluates them: set, then calibration."""
-    asked = validation.request()
-    entries = [entry for one, _ in validation.evaluate(asked) for entry in one]
-    return {(entry.data.name, entry.calibration): entry for entry in entries}
+    return {(entry.data.name, entry.calibration): entry for entries in every_set() for entry in entries}
 
 
 # -- the rows shipped -----------------------------------------------------------------------------

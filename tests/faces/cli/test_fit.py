@@ -402,7 +402,7 @@ def test_several_faults_are_told_at_once(fit, log):
 
 
 def test_a_nut_of_elastic_bodies_is_fitted(fit, log, tmp_path):
-    process = fit(log(), "--to", tmp_path / "fitted.toml", case=EXAMPLES / "catalogue_screw.toml")
+    process = fit(log(columns(20)), "--to", tmp_path / "fitted.toml", case=EXAMPLES / "catalogue_screw.toml")
     assert process.returncode == 0, process.stderr
     assert "[bodies]" in (tmp_path / "fitted.toml").read_text(encoding="utf-8")
 

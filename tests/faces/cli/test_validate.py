@@ -21,6 +21,7 @@ from ballscrew.questions.validate import document as validation_documents
 from ballscrew.questions.validate import figure as figures
 from ballscrew.questions.validate import text as validation_text
 from support.documents import assert_same
+from support.validation_sets import every_set
 
 HEADINGS = (
     "nominal_diameter_mm,lead_mm,ball_diameter_mm,circuits,dynamic_load_rating_N,static_load_rating_N,"
@@ -62,8 +63,7 @@ def own(tmp_path):
 
 @pytest.fixture(scope="module")
 def every():
-    asked = validation.request()
-    return plain(validation_documents.documents([e for entries, _ in validation.evaluate(asked) for e in entries]))
+    return plain(validation_documents.documents([entry for entries in every_set() for entry in entries]))
 
 
 def test_a_list_uncalibrated_first_calibrated_last(every):
@@ -342,7 +342,7 @@ def test_picture(ballscrew, tmp_path):
 
 def test_picture_shows_axes_case_and_all_ratios():
     asked = validation.request()
-    found = [entries for entries, _ in validation.evaluate(asked)]
+    found = [list(entries) for entries in every_set()]
     with charts.house_style():
         figure = figures.ratios(
             found,

@@ -1,6 +1,5 @@
 """The API against its own OpenAPI description, by schemathesis."""
 
-import json
 import re
 from collections import Counter
 
@@ -13,14 +12,16 @@ from schemathesis import GenerationMode
 from schemathesis.specs.openapi.checks import positive_data_acceptance
 from schemathesis.specs.openapi.definitions import OPENAPI_31
 
+from ballscrew.basis.output.json_text import plain
 from ballscrew.cases.schema.case_schema import json_schema
-from ballscrew.faces.web import api, memory, problems
+from ballscrew.faces.web import memory, problems
 from ballscrew.faces.web.files import plotly_address
 from ballscrew.faces.web.request_queue import RequestQueue
 from ballscrew.faces.web.server import (
     application,
 )
-from ballscrew.questions.validate import compute as validation
+from ballscrew.questions.validate import document as validation_documents
+from support.validation_sets import every_set
 
 #: A job is a process: what it may be asked is in ``test_jobs.py``.
 JOBS = "/api/v1/jobs/"
@@ -132,7 +133,7 @@ def test_the_bodies_to_try_follow_their_schema():
 def test_whatever_may_be_null_is_described():
     """A field that the description does not name may be anything: of null, a client learns from its description."""
     # all sets at once, without a server
-    entries = json.loads(api._validated(tuple(validation.SETS)))
+    entries = plain(validation_documents.documents([entry for entries in every_set() for entry in entries]))
     parts = schema.raw_schema["components"]["schemas"]
     for name, tables in (("ValidationEntry", entries), ("ValidationRow", [row for e in entries for row in e["rows"]])):
         null = {field for table in tables for field, value in table.items() if value is None}
