@@ -454,6 +454,7 @@ def _converted(where: str, number: float, unit: str, quantity: Quantity, given: 
         if quantity.name == "viscosity":
             remedy = _KINEMATIC.of(remedy=remedy)
         return Fault(where, "wrong unit", given, remedy)
-    except (pint.PintError, ValueError, ArithmeticError, TypeError):  # pint's own errors are of several kinds
+    # errors of pint are of several kinds; a unit to the power of none is a KeyError
+    except (pint.PintError, ValueError, ArithmeticError, TypeError, LookupError):
         meant = _similar_unit(unit[:_LONGEST_UNIT], quantity)
         return Fault(where, "unknown unit", given, _meant_or_usual(meant, quantity))

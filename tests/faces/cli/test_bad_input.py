@@ -1,12 +1,12 @@
 """Bad input: exit code 2, one line a fault, nothing on standard output, nothing written."""
 
-import contextlib
 import dataclasses
 import math
 import time
 from pathlib import Path
 
 import numpy as np
+import pint
 import pytest
 
 import ballscrew as bs
@@ -363,8 +363,8 @@ def test_units_that_are_asked_for_once_are_not_kept():
     from ballscrew.physics.components.screw import BallScrew
 
     lead, first = fields_of(BallScrew)["lead"], units.registry()
-    for i in range(1200):
-        with contextlib.suppress(Exception):
+    for i in range(2, 1202):
+        with pytest.raises(pint.DimensionalityError):
             units.to_si(1.0, f"m^{i}", lead)
     assert units.registry() is not first
     assert units.parse("", "5 mm", lead) == 0.005

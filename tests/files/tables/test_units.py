@@ -58,6 +58,7 @@ def test_written_values_in_si(name, written, expected):
         ("lead", 5, "needs a unit", 'write "5 mm"'),
         ("lead", "5", "needs a unit", 'write "5 mm"'),
         ("lead", "5 N", "wrong unit", "use a unit such as mm, um or in"),
+        ("lead", "5 m^0", "unknown unit", "use a unit such as mm, um or in"),
         ("lead", "5 mmm", "unknown unit", "use a unit such as mm, um or in"),
         ("lead", "5 MM", "unknown unit", 'did you mean "mm"?'),
         ("axial_load", "5 KN", "unknown unit", 'did you mean "kN"?'),
