@@ -144,7 +144,7 @@ def codecs(folder: Path) -> dict[str, float]:
         ("zstd", 1, "shuffle"),
         ("zstd", 3, "shuffle"),
     ):
-        codec: Any = BloscCodec(cname=name, clevel=level, shuffle=shuffle)  # pyright: ignore[reportArgumentType]  (three of its words)
+        codec: Any = BloscCodec(cname=name, clevel=level, shuffle=shuffle)  # pyright: ignore[reportArgumentType]  (each is one of its words)
         choices[f"{name}_{level}_{shuffle}"] = codec
     figures: dict[str, float] = {}
     for title, codec in choices.items():

@@ -11,7 +11,7 @@ that of the row as listed.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -107,10 +107,8 @@ def main() -> None:
     line("conformity 0.54 over that of the root", (0.54 / without(row).row.conformity for row in listing))
     line("C_a listed over that by geometry: shipped", ratios(shipped))
     line("C_a listed over that by geometry: stock", ratios(others))
-    balls: Callable[[CatalogueRow], float] = lambda row: (  # noqa: E731  (one of the lines of the table)
-        without(row, "ball_diameter").row.loaded_balls / row.loaded_balls
-    )
-    line("loaded balls without the ball: shipped", map(balls, shipped))
+    alone = (without(row, "ball_diameter").row.loaded_balls / row.loaded_balls for row in shipped)
+    line("loaded balls without the ball: shipped", alone)
     sets = {"shipped": shipped, "stock": others}
     for what, names in {
         "ball (C_a known)": ("ball_diameter",),

@@ -104,7 +104,7 @@ def main() -> None:
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("--few", action="store_true", help="six of them")
     chosen = FEW if options.parse_args().few else kinds.structures()
-    warnings.simplefilter("ignore")
+    warnings.simplefilter("ignore")  # of inputs at random, many of which no ball screw has
     print("| model/nut | kB | gzip kB | built, s CPU | points | worst | same NaN, truths | first, ms | curve, ms |")
     print("|---|---|---|---|---|---|---|---|---|")
     judging = module_of_judging()

@@ -193,6 +193,7 @@ def pytest_collection_modifyitems(items):
         if item.get_closest_marker("long"):
             item.fixturenames = [*item.fixturenames, "as_shipped"]  # the list is that of all parameters
         if item.get_closest_marker("implausible") or item.path.parent in RANDOM:
+            # parts that are meant to be odd, or drawn at random
             item.add_marker(pytest.mark.filterwarnings("ignore::ballscrew.ImplausibleInput"))
     if importlib.util.find_spec("llvmlite") is None:
         for item in items:

@@ -55,7 +55,7 @@ def prepare(place: str) -> None:
     """Set up a process: warnings of NumPy are errors, those of implausible input are not said, memory has a limit."""
     use(place)
     warnings.simplefilter("error", RuntimeWarning)
-    warnings.simplefilter("ignore", ImplausibleInput)
+    warnings.simplefilter("ignore", ImplausibleInput)  # what is hostile is implausible, too
     _, hard = resource.getrlimit(resource.RLIMIT_AS)
     resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY, hard))
 

@@ -29,7 +29,7 @@ MODEL = bs.FrictionModel.reference()
 POINT = {"axial_load": 5e3, "screw_speed": 60.0}
 FRICTION = MODEL.friction
 
-with warnings.catch_warnings(action="ignore", category=bs.ImplausibleInput):
+with warnings.catch_warnings(action="ignore", category=bs.ImplausibleInput):  # it is what the tests ask about
     OF_206_PASCALS = bs.Material(206.0)
 #: Inputs that were computed without a word: name of the input, and how to give it.
 STRANGE = {

@@ -14,6 +14,8 @@ FILES = [
 SILENCED = re.compile(r"# (?:ruff: )?(?:noqa|type: ignore|pyright: ignore)\b(?P<rest>.*)$", re.MULTILINE)
 #: The rules, by name, and then the reason in brackets.
 EXPLAINED = re.compile(r"(?:: [A-Z0-9, ]+|\[[\w, -]+\])  \(.+\)$")
+#: The reason stands on the line or above it.
+IGNORED_WARNING = re.compile(r"""(?:simplefilter|catch_warnings|mark\.filterwarnings)\((?:action=)?[\"']ignore""")
 
 
 def name(path):
@@ -41,3 +43,14 @@ def test_a_skipped_test_has_a_reason(path):
             said = {keyword.arg for keyword in node.keywords}
             positional = _called(node) == "skip" and node.args
             assert positional or "reason" in said, f"{name(path)}:{node.lineno} says no reason"
+
+
+def test_a_silenced_warning_has_a_reason():
+    bare = []
+    for path in FILES:
+        lines = path.read_text(encoding="utf-8").splitlines()
+        for number, line in enumerate(lines):
+            explained = "#" in line or lines[number - 1].lstrip().startswith("#")
+            if IGNORED_WARNING.search(line) and not explained:
+                bare.append(f"{name(path)}:{number + 1}")
+    assert bare == []

@@ -21,17 +21,10 @@ from ballscrew.physics.solvers.line_slip import TOLERANCE as LINE_TOLERANCE
 from ballscrew.physics.solvers.line_slip import line_slip
 
 from .compiled import COMPILER, STRICT, evaluated, library, names, needs_a_compiler
+from .presets import NUTS, presets_and_nuts
 
 #: Largest relative difference between C and NumPy: both round each of thousands of steps.
 ROUNDING = 1e-12
-PRESETS = ("olaru2005", "corrected", "reference")
-NUTS = {
-    "row": bs.SingleNut(),
-    "single": bs.SingleNut(angle_under_load=True),
-    "double": bs.DoubleNut(preload=900.0),
-    "offset": bs.OffsetLeadNut(preload=900.0),
-    "oversize": bs.OversizeBallNut(preload=900.0),
-}
 needs_the_library = pytest.mark.skipif(
     not interpreter.runs_here(), reason="the prebuilt library is for Linux on x86-64"
 )
@@ -199,11 +192,8 @@ def test_compiled_is_the_model(handed_over, tmp_path, preset, nut):
 
 @needs_a_compiler
 @pytest.mark.long
-@pytest.mark.parametrize("preset", PRESETS)
-@pytest.mark.parametrize("nut", NUTS)
+@pytest.mark.parametrize(("preset", "nut"), presets_and_nuts(NUTS))
 def test_every_preset_and_nut_compiled_is_the_model(handed_over, tmp_path, preset, nut):
-    if nut == "oversize" and preset != "reference":
-        pytest.skip("the slip of this preset knows no balls with four contacts")
     handed = handed_over(getattr(bs.FrictionModel, preset)(), NUTS[nut], outputs=["efficiency"])
     points = handed.sample(10_000)
     wanted = handed.evaluate(points)

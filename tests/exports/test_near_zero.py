@@ -13,14 +13,12 @@ from ballscrew.physics.components.nut import Bodies
 from ballscrew.physics.components.operating_state import NOTHING
 
 from .compiled import needs_a_compiler
+from .presets import NUTS as RIGID
+from .presets import presets_and_nuts
 from .test_c99 import compiled, needs_the_library
 
 NUTS = {
-    "row": bs.SingleNut(),
-    "single": bs.SingleNut(angle_under_load=True),
-    "double": bs.DoubleNut(preload=900.0),
-    "offset": bs.OffsetLeadNut(preload=900.0),
-    "oversize": bs.OversizeBallNut(preload=900.0),
+    **RIGID,
     "elastic single": bs.SingleNut(bodies=Bodies()),
     "elastic double": bs.DoubleNut(preload=900.0, bodies=Bodies()),
     "elastic oversize": bs.OversizeBallNut(preload=900.0, bodies=Bodies()),
@@ -61,11 +59,8 @@ def compare_with_model(handed, found, points):
         assert np.max(off) <= WITHOUT_BALANCE, name
 
 
-@pytest.mark.parametrize("preset", ["olaru2005", "corrected", "reference"])
-@pytest.mark.parametrize("nut", ["row", "single", "double", "oversize"])
+@pytest.mark.parametrize(("preset", "nut"), presets_and_nuts(["row", "single", "double", "oversize"]))
 def test_recorded_near_zero_is_the_model(handed_over, preset, nut):
-    if nut == "oversize" and preset != "reference":
-        pytest.skip("the slip of this preset knows no balls with four contacts")
     handed = handed_over(getattr(bs.FrictionModel, preset)(), NUTS[nut])
     points = points_near_zero(handed, 2000)
     compare_with_model(handed, handed.evaluate(points), points)

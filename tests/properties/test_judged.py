@@ -114,7 +114,7 @@ def test_recorded_as_on_numbers():
     assert {name for name, count in held.items() if not 0 < count < POINTS} == set()
 
 
-@pytest.mark.skipif(not kernel.available(), reason="the compiler is not installed")
+@pytest.mark.compiles
 def test_compiled_as_interpreted():
     """All outputs as numbers, one for a mask that holds: as a program without truth values takes them."""
     values = random_values(5)

@@ -86,7 +86,7 @@ def _ranges(subject: Configuration, texts: Sequence[str]) -> dict[str, tuple[flo
         ends = [units.parse(where, end, quantity) for end in (least, greatest)]
         faults += [end for end in ends if isinstance(end, Fault)]
         if not any(isinstance(end, Fault) for end in ends):
-            found[name.removeprefix("nut.")] = (ends[0], ends[1])  # pyright: ignore[reportArgumentType]  (no faults)
+            found[name.removeprefix("nut.")] = (ends[0], ends[1])  # pyright: ignore[reportArgumentType]  (neither is a Fault)
     raise_if_any(faults)
     return found
 

@@ -263,7 +263,7 @@ def test_what_is_varied_does_not_count():
 
 def test_what_a_law_computes_with_besides_values_cannot_be_known():
     def reading(conditions):
-        return np.interp(conditions.film_parameter, FILMS, float(open("friction.txt").read()))  # noqa: PTH123  (open)
+        return np.interp(conditions.film_parameter, FILMS, float(open("friction.txt").read()))  # noqa: PTH123  (a call of open is the test)
 
     lock = threading.Lock()
 

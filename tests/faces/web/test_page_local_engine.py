@@ -14,7 +14,7 @@ from ballscrew.faces.web.module_api import _answer
 from ballscrew.faces.web.modules import Modules
 from ballscrew.faces.web.starts import starts
 
-pytestmark = pytest.mark.skipif(not kernel.available(), reason="needs the compiler of the extra fast")
+pytestmark = pytest.mark.compiles
 
 #: Both compute the same formulas, compiled for other machines: so far apart in rounding, of the largest number.
 CLOSE = 1e-12

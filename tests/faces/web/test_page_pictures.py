@@ -5,8 +5,6 @@ import io
 
 import pytest
 
-from ballscrew.compiler.kernels import kernel
-
 #: Bars at the ends of the flows of power, by their names: their heights.
 BARS = """() => Object.fromEntries([...document.querySelectorAll("#power rect[data-flow]")].map(
   (one) => [one.dataset.flow, Number(one.getAttribute("height"))]))"""
@@ -166,7 +164,7 @@ def test_cold_and_hot_curves_are_those_of_the_server(visit, server):
     assert sum(one.endswith("/sweep") for one in here.requests) == 1
 
 
-@pytest.mark.skipif(not kernel.available(), reason="needs the compiler of the extra fast")
+@pytest.mark.compiles
 def test_cold_and_hot_curves_of_the_module_are_those_of_the_server(visit, server):
     here = visit().open(HOT)
     here.page.locator(here.id("operation.axial_load")).focus()

@@ -6,7 +6,7 @@ from .conftest import Visit, new_page
 
 DOUBLE = "rexroth-40x10x6-6-double"
 PANE = "document.body.dataset.seenPane"
-#: A row of a double nut, and an example with a motion, an axis and its motor.
+#: A row of a double nut, in the long run alone, and an example with a motion, an axis and its motor.
 ONE_SCREEN = (pytest.param(DOUBLE, marks=pytest.mark.long), "vertical-axis")
 #: Panes by their addresses, in the order of their tabs.
 PANES = """[...new Set([...document.querySelectorAll("#have, section[data-pane]")]

@@ -29,7 +29,7 @@ JOBS = "/api/v1/jobs/"
 SLOW = 300
 #: Responses by address and status: not all may be refusals.
 answered: Counter[tuple[str, int]] = Counter()
-#: Three at random beside those of the description; fifteen in the long run.
+#: Three at random beside those of the description; fifteen in the long run. So few need no check of their health.
 FEW = settings(
     max_examples=settings.default.max_examples // 33,
     derandomize=True,

@@ -8,7 +8,6 @@ import pint
 import pytest
 
 import ballscrew as bs
-from ballscrew.compiler.kernels.kernel import available
 from ballscrew.physics.components.chain_force import ChainBallForce
 from ballscrew.physics.equations import ball_chain
 from ballscrew.physics.moving_balls.chain import Circuit, chain_run
@@ -112,7 +111,7 @@ def test_steps_and_length_do_not_matter(gap, deviation):
     assert long.share == pytest.approx(usual.share, rel=0.05)
 
 
-@pytest.mark.skipif(not available(), reason="the compiler is not installed")
+@pytest.mark.compiles
 @pytest.mark.parametrize("gap", [0.003, 0.3])
 def test_a_compiled_run_is_the_run(gap):
     # 1e-12 is asked for; the steps are the same to the last bit

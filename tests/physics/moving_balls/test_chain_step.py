@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from scipy.optimize import lsq_linear, nnls
 
-from ballscrew.compiler.kernels.kernel import available
 from ballscrew.physics.moving_balls.chain_step import Driven, compiled_pushed_balls, pushed_balls
 
 #: Chains of random balls.
@@ -90,7 +89,7 @@ def test_the_step_is_an_optimum(seed):
     assert np.all(np.abs(friction[~moving]) <= balls.resistance[~moving] + 1e-12)
 
 
-@pytest.mark.skipif(not available(), reason="the compiler is not installed")
+@pytest.mark.compiles
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_kernel_takes_the_same_steps(seed):
     # 1e-12 is asked for; every operation rounds alike, so that nothing differs

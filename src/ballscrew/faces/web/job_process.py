@@ -221,7 +221,7 @@ def _fork_for_each(control: socket.socket, application: Application) -> NoReturn
 def _fork_one(control: socket.socket, application: Application, pipes: Sequence[int]) -> None:
     """Fork a process with these pipes; where the system has no room for it the server learns so as they are closed."""
     try:
-        with warnings.catch_warnings(action="ignore"):
+        with warnings.catch_warnings(action="ignore"):  # as above
             pid = os.fork()
     except OSError as error:
         sys.stderr.write(f"ballscrew: cannot fork a process for a job: {error.strerror}\n")
