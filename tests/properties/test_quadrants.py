@@ -119,3 +119,28 @@ def test_the_temperature_of_the_state_is_that_of_the_oil():
     fixed = bs.Lubricant(viscosity=0.1, pressure_viscosity_coefficient=2e-8)
     with pytest.raises(bs.InputError, match="needs an oil made from a grade"):
         MODELS["reference"](screw, fixed, axial_load=0.0, screw_speed=50.0, temperature=320.0)
+
+
+@pytest.mark.parametrize("set_at_rest", [False, True])
+def test_quadrants_between_elastic_bodies_are_those_of_the_model_at_either_load(set_at_rest):
+    """A load of the other sign enters at the other end, and is carried by other balls: friction is another one."""
+    screw = bs.BallScrew(
+        pitch_circle_diameter=0.0258,
+        lead=0.005,
+        ball_diameter=3.175e-3,
+        loaded_balls=60,
+        contact_angle=math.pi / 4,
+        screw_conformity=0.54,
+        nut_conformity=0.54,
+        nut=bs.DoubleNut(preload=900.0, bodies=bs.Bodies(), set_at_rest=set_at_rest),
+    )
+    model, loads = bs.FrictionModel.reference(), np.array([-1500.0, 0.0, 1500.0])
+    found = model(screw, OIL, axial_load=loads, screw_speed=10.0)
+    assert found.screw_torque[0] < 0.99 * found.screw_torque[2]
+    for quadrant in found.quadrants.values():
+        there = model(screw, OIL, axial_load=quadrant.load_sign * abs(loads), screw_speed=quadrant.speed_sign * 10.0)
+        np.testing.assert_allclose(quadrant.shaft_torque, there.drive_torque, rtol=1e-12)
+        np.testing.assert_allclose(quadrant.shaft_power, there.drive_torque * there.screw_speed, rtol=1e-12)
+        drives = quadrant.load_sign == quadrant.speed_sign
+        expected = there.efficiency if drives else there.back_driving_efficiency
+        np.testing.assert_allclose(quadrant.efficiency, expected, rtol=1e-12)

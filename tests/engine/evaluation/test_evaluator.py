@@ -234,3 +234,33 @@ def test_an_input_that_is_a_constant_of_most_recordings_varies(name):
     assert abs(found[1] - found[0]) > 1e-6
     np.testing.assert_allclose(found, expected.to_numpy(), rtol=1e-11)
     np.testing.assert_allclose([f(5e3, 30.0, x)["screw_torque"] for x in values[name]], found, rtol=1e-12)
+
+
+@pytest.mark.parametrize("name", MODELS)
+@pytest.mark.parametrize("nut", [bs.SingleNut(), bs.DoubleNut(900.0, bodies=bs.Bodies())], ids=["row", "elastic"])
+def test_a_speed_beyond_all_numbers_is_none_for_each_engine(name, nut):
+    model, screw = MODELS[name], dataclasses.replace(SCREW, nut=nut)
+    speeds = np.array([60.0, 1e99, 1e101, 1e200, 1e300, -1e300])
+    called = model(screw, OIL, axial_load=500.0, screw_speed=speeds)
+    found = bs.evaluator(model, screw, OIL, inputs=("screw_speed",), outputs=["screw_torque"], axial_load=500.0)(
+        screw_speed=speeds
+    )
+    for torque in (called.screw_torque, found["screw_torque"]):
+        assert np.isnan(torque).tolist() == [False, False, True, True, True, True]
+    assert not called.valid[2:].any()
+    with pytest.raises(bs.InputError, match="screw_speed: is beyond all numbers"):
+        model(screw, OIL, axial_load=500.0, screw_speed=1e300)
+
+
+@pytest.mark.compiles
+def test_engines_agree_wherever_the_result_is_valid_down_to_loads_that_are_none():
+    """Under a tenth of a millinewton a row of balls skids, and rounding decides where its slip ends."""
+    loads = np.concatenate([[0.0], np.geomspace(1e-60, 1e3, 253)])
+    for model in MODELS.values():
+        called = model(SCREW, OIL, axial_load=loads, screw_speed=10.0)
+        found = bs.evaluator(
+            model, SCREW, OIL, inputs=("axial_load",), outputs=["screw_torque"], screw_speed=10.0, engine="compiled"
+        )(axial_load=loads)
+        known = called.valid | (loads >= 1e-4)
+        np.testing.assert_allclose(found["screw_torque"][known], called.screw_torque[known], rtol=1e-12)
+        np.testing.assert_allclose(found["screw_torque"], called.screw_torque, rtol=1e-4)

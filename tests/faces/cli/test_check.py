@@ -12,6 +12,8 @@ import ballscrew as bs
 from ballscrew.basis.output.wrapping import WIDTH
 from ballscrew.cases.case_files import case_file
 from ballscrew.physics.components.nut import Bodies
+from ballscrew.physics.equations import life
+from ballscrew.physics.sizing.checks import loads_of_halves
 from ballscrew.physics.sizing.ratings import ratings_of
 from ballscrew.questions.check import compute
 
@@ -120,6 +122,18 @@ def test_what_is_given_counts():
     for words in ("axial load", "speed 600", "as listed", "none was given"):
         assert words not in assumed
     assert "preload 7 % of C_a, usual for such a nut: none was given" in checked().assumed
+
+
+def test_the_life_of_a_preloaded_nut_names_its_rule():
+    """That of a duty is the standard's, which answers otherwise at one load."""
+    rule = "life: by the loads of both flanks in the model; a duty has those of ISO 3408-5"
+    preloaded, single = checked(nut__type="double"), checked(nut__type="single")
+    assert rule in preloaded.assumed
+    assert rule not in single.assumed
+    load, rated = float(preloaded.case.operation.axial_load), preloaded.case.listed["dynamic_load_rating"]
+    nut = bs.DoubleNut(preloaded.nut.preload)
+    by_the_standard = life.combined_life(*(life.basic_life(rated, each) for each in loads_of_halves(nut, load)))
+    assert preloaded.check("life").value != pytest.approx(by_the_standard, rel=0.02)
 
 
 def test_a_row_without_ratings_and_settings(ballscrew, tmp_path):

@@ -161,10 +161,13 @@ class _Off:
         """Friction about the motor from rest, by temperature."""
         own = driven.lubricant
         loads = driven.loads_at(np.array([self.load]))
+        screw = driven.screw
+        if screw.nut.set_at_rest:  # the balls may be back on their line: the lower friction counts
+            screw = dataclasses.replace(screw, nut=dataclasses.replace(screw.nut, set_at_rest=False))
         found: list[Torque] = []
         for temperature in temperatures:
             oil = own if temperature is None else own.at(temperature)
-            rest = breakaway(driven.model, driven.screw, oil, axial_load=np.array([self.load]), loads=loads)
+            rest = breakaway(driven.model, screw, oil, axial_load=np.array([self.load]), loads=loads)
             found.append(float(self.with_supports(rest.torque, np.zeros(1), temperature)[0]))
         return found
 

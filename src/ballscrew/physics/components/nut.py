@@ -373,8 +373,8 @@ class DoubleNut(NutParts):
 
     preload: Preload
     spacing: Spacing = 0.0
-    #: Whether the preload is what the nut has at rest: in motion friction pushes the balls off the line of their
-    #: grooves, so that both halves press harder. Else it is what acts in motion.
+    #: Whether the preload is what the nut was given at rest: motion pushes the balls off the line of their grooves, so
+    #: that both halves press harder, also once it has stopped. Else it is what acts in motion, and at the first start.
     set_at_rest: bool = dataclasses.field(default=False, kw_only=True)
     halves = 2
 
@@ -394,8 +394,8 @@ class OffsetLeadNut(NutParts):
 
     preload: Preload
     spacing: Spacing = 0.0
-    #: Whether the preload is what the nut has at rest: in motion friction pushes the balls off the line of their
-    #: grooves, so that both halves press harder. Else it is what acts in motion.
+    #: Whether the preload is what the nut was given at rest: motion pushes the balls off the line of their grooves, so
+    #: that both halves press harder, also once it has stopped. Else it is what acts in motion, and at the first start.
     set_at_rest: bool = dataclasses.field(default=False, kw_only=True)
     halves = 2
 

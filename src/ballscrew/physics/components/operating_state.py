@@ -8,12 +8,14 @@ from typing import Annotated
 import numpy as np
 
 from ballscrew.basis.arrays import ByValue, where
-from ballscrew.basis.errors import faults_of, names_keywords, raise_if_any
+from ballscrew.basis.errors import Fault, faults_of, is_concrete, names_keywords, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, Array, Force, Info, Temperature
 
 #: A load (N) or a speed (rad/s) nearer to zero than this is none to the formulas. A speed that decays to rest passes
 #: numbers whose reciprocals and powers leave the range of numbers of 64 bits; those of what is farther away do not.
 NOTHING = 1e-100
+#: A speed (rad/s) beyond this is none: its powers leave the range of numbers as well.
+FASTEST = 1 / NOTHING
 
 
 @names_keywords
@@ -23,7 +25,7 @@ class OperatingState(ByValue):
 
     A positive load is one that a positive speed lifts. Zero load and zero speed are legal and give limits; without a
     temperature the oil has its own. Any of them may be an array. Raises :class:`~ballscrew.basis.errors.InputError` for
-    non-finite numbers.
+    non-finite numbers, and for a speed beyond 1e100 rad/s, which is NaN in an array.
     """
 
     axial_load: Annotated[
@@ -43,12 +45,20 @@ class OperatingState(ByValue):
     temperature: Temperature | None = None
 
     def __post_init__(self) -> None:
-        raise_if_any(faults_of("operation", self))
+        faults = faults_of("operation", self)
+        if not faults and is_concrete(self.screw_speed) and abs(self.screw_speed) > FASTEST:
+            given = f"{float(self.screw_speed):g} rad/s"
+            faults.append(
+                Fault("operation.screw_speed", "is beyond all numbers of the formulas", given, "check its unit")
+            )
+        raise_if_any(faults)
 
     @property
     def settled(self) -> OperatingState:
         """The same state as the formulas take it; see :func:`settled`."""
         load, speed = settled(self.axial_load), settled(self.screw_speed)
+        if not is_concrete(speed):
+            speed = where(abs(speed) <= FASTEST, speed, np.nan)
         if load is self.axial_load and speed is self.screw_speed:
             return self
         return OperatingState(load, speed, self.temperature)

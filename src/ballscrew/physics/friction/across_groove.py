@@ -14,7 +14,7 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from ballscrew.basis.arrays import namespace, where
+from ballscrew.basis.arrays import namespace
 from ballscrew.basis.quantities import Angle, Force, Length, Ratio
 from ballscrew.physics.components.contact import Contact
 from ballscrew.physics.components.materials import Lubricant
@@ -76,8 +76,9 @@ def in_motion(model: Friction, screw: BallScrew, lubricant: Lubricant, state: Op
     """The screw with its nut as it is in motion, where its preload was set at rest: that of the balls off their line.
 
     Friction is that of ``model`` with ``lubricant`` at the speed of ``state`` without load, the mean of both halves:
-    where a load relieves one of them, the offset stays. At rest the preload is as it was set: that of balls which have
-    not moved. A nut whose preload was not set at rest stays as it is.
+    where a load relieves one of them, the offset stays. At rest it is the limit of a vanishing speed: friction holds
+    the balls where motion has left them. A nut whose balls have not moved yet is one that was not set at rest, and so
+    is every other: it stays as it is.
     """
     nut: Any = screw.nut
     if not nut.set_at_rest:
@@ -87,9 +88,7 @@ def in_motion(model: Friction, screw: BallScrew, lubricant: Lubricant, state: Op
     for _ in range(ROUNDS):
         found = model.under(loads_of(moving, idle.axial_load), moving, lubricant, idle)
         tangent = sum(friction_across(kind) for kind in found.kinds) / len(found.kinds)
-        beta = namespace(tangent).arctan(tangent)
-        turns = state.screw_speed != 0
-        preload = where(turns, preload_off_line(at_rest, where(turns, beta, 0.0)), nut.preload)
+        preload = preload_off_line(at_rest, namespace(tangent).arctan(tangent))
         moving = dataclasses.replace(moving, nut=dataclasses.replace(nut, preload=preload, set_at_rest=False))
     return moving
 

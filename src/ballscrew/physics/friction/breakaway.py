@@ -8,17 +8,18 @@ from typing import Annotated, Any
 
 import numpy as np
 
-from ballscrew.basis.arrays import lazy, namespace, where
+from ballscrew.basis.arrays import as_array, lazy, namespace, where
 from ballscrew.basis.errors import Fault, accepts_units, raise_if_any
 from ballscrew.basis.quantities import Angle, Force, Info, Length, Mask, Ratio, RotationalStiffness, Stiffness, Torque
 from ballscrew.physics.components.contact import Contact
 from ballscrew.physics.components.frame import Frame
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.mixed_friction import LoadSharing
+from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew, Raceway
 from ballscrew.physics.equations import across_groove, kinematics, presliding
 from ballscrew.physics.friction import directions
-from ballscrew.physics.friction.across_groove import arms_of
+from ballscrew.physics.friction.across_groove import arms_of, in_motion
 from ballscrew.physics.friction.loaded_balls import LoadedPair
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
@@ -143,6 +144,8 @@ def breakaway(
         raise_if_any([Fault("breakaway.static_friction_coefficient", "must be above zero", given, "usual: 0.1 to 0.2")])
     sticking = LoadSharing(static_friction_coefficient, decay=0.0)
     at_rest = dataclasses.replace(model, friction=sticking, full_film=None)
+    if loads is None:  # the balls lie where friction in motion has left them, and not that from rest
+        screw = in_motion(model, screw, lubricant, OperatingState(as_array(axial_load), 0.0).settled)
     return Breakaway(
         at_rest=at_rest(screw, lubricant, axial_load=axial_load, screw_speed=0.0, loads=loads),
         static_friction_coefficient=static_friction_coefficient,

@@ -8,7 +8,7 @@ from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.basis.arrays import lazy
+from ballscrew.basis.arrays import lazy, where
 from ballscrew.basis.displayed import Drawn
 from ballscrew.basis.quantities import (
     AngularSpeed,
@@ -186,9 +186,26 @@ class FrictionResult(VendorTerms, Drawn):
 
         ``load_sign`` is the direction of the load on the nut, ``speed_sign`` that of the rotation;
         with equal signs the screw drives the nut against its load, with opposite signs the load
-        helps. Friction is the same in all four and opposes the rotation.
+        helps. Friction opposes the rotation. It is the same in all four, except in a nut whose balls differ,
+        which carries a load of the other sign on other balls.
         """
-        return load_sign * abs(self.ideal_torque) + speed_sign * self.screw_torque
+        return load_sign * abs(self.ideal_torque) + speed_sign * self._of_load(load_sign, "screw_torque")
+
+    @lazy
+    def _reversed(self) -> FrictionResult:
+        """The same under the opposite load."""
+        model = self.parts["model"]
+        return model(
+            self.ball_screw, self.parts["lubricant"], axial_load=-self.axial_load, screw_speed=self.screw_speed
+        )
+
+    def _of_load(self, load_sign: int, name: str) -> Any:
+        """A number of this result where the load has that sign or is none, elsewhere of the one under that load."""
+        here = getattr(self, name)
+        same = load_sign * self.axial_load >= 0
+        if not self.ball_screw.nut.one_by_one or np.all(same):
+            return here
+        return where(same, here, getattr(self._reversed, name))
 
     @lazy
     def quadrants(self) -> Mapping[str, Quadrant]:
@@ -204,7 +221,7 @@ class FrictionResult(VendorTerms, Drawn):
                 speed,
                 self.shaft_torque(load, speed),
                 self.shaft_torque(load, speed) * speed * abs(self.screw_speed),
-                self._direct_efficiency if load == speed else self.back_driving_efficiency,
+                self._of_load(load, "_direct_efficiency" if load == speed else "back_driving_efficiency"),
             )
             for name, (load, speed) in QUADRANTS.items()
         }

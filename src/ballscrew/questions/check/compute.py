@@ -292,7 +292,8 @@ def checked(name: str, case: Case, notes: Sequence[str] = (), known: Run | None 
     )  # fmt: skip
     of_ratings = [f"{name.replace('_', ' ')} computed from the geometry: none is listed" for name in stand_ins]
     of_rigidity = [f"rigidity: {text}" for text in run.nut.rigidity.assumed]
-    assumptions = [*notes, *descriptions.assumptions(run.case), *of_ratings, *of_rigidity]
+    of_life = ["life: by the loads of both flanks in the model; a duty has those of ISO 3408-5"] * (run.nut.preload > 0)
+    assumptions = [*notes, *descriptions.assumptions(run.case), *of_ratings, *of_life, *of_rigidity]
     assumptions.append(descriptions.left_out(run.case))
     return Checked(name, case, run, run.nut, computed, found, list(dict.fromkeys(filter(None, assumptions))))
 

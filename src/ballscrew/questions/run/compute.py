@@ -190,18 +190,14 @@ def with_nut(case: Case, nut: Nut) -> Run:
         return case.model(screw, case.lubricant, axial_load=load, screw_speed=speed)
 
     found = friction(load, speed)
-    # at rest, under the opposite load, and without load: together, as a call of the model takes long by itself
-    beside = friction(np.array([load, -load, 0.0]), np.array([0.0, speed, speed]))
+    # at rest and without load: together, as a call of the model takes long by itself
+    beside = friction(np.array([load, 0.0]), np.array([0.0, speed]))
     loads, half = found.loads, np.shape(found.loads.balls)[-1] // nut.halves
     flanks = (
         _flank(loads.forward_load[:half], loads.forward_angle[:half], loads.balls[:half]),
         _flank(loads.backward_load[-half:], loads.backward_angle[-half:], loads.balls[-half:]),
     )
     loaded, relieved = flanks if load >= 0 else flanks[::-1]
-    quadrants = found.quadrants
-    if nut.one_by_one and float(load):  # another half carries a load of the other sign, and not as this one does
-        reverse = {name: _at(one, 1) for name, one in beside.quadrants.items()}
-        quadrants = {name: one if one.load_sign * load > 0 else reverse[name] for name, one in quadrants.items()}
     return Run(
         case=dataclasses.replace(case, screw=screw),
         friction=found,
@@ -210,13 +206,13 @@ def with_nut(case: Case, nut: Nut) -> Run:
         touching=_touching(found),
         rolling_share=math.nan,
         ball_to_ball_force=None,
-        quadrants=quadrants,
+        quadrants=found.quadrants,
         nut=NutState(
             nut=nut,
             preload=float(preload_of(screw, nut)),
-            preload_drag=float(beside.screw_torque[2]),
-            idle_losses={name: float(np.broadcast_to(torque, 3)[2]) for name, torque in beside.losses.items()},
-            drag_coefficients={name: float(np.broadcast_to(getattr(beside, name), 3)[2]) for name in OF_IDLE_NUT},
+            preload_drag=float(beside.screw_torque[1]),
+            idle_losses={name: float(np.broadcast_to(torque, 2)[1]) for name, torque in beside.losses.items()},
+            drag_coefficients={name: float(np.broadcast_to(getattr(beside, name), 2)[1]) for name in OF_IDLE_NUT},
             loads=loads,
             rigidity=_rigidity(case, screw, load),
             maximum_pressure=float(found.maximum_pressure),
@@ -229,11 +225,6 @@ def with_nut(case: Case, nut: Nut) -> Run:
 def _rigidity(case: Case, screw: BallScrew, load: float) -> AxialRigidity:
     """The rigidity by ISO 3408-4 of the nut of a case, and of its shaft where it is known."""
     return rigidity_iso3408(screw, axial_load=load, installation=case.installation, **case.sizes_of_nut(screw))
-
-
-def _at(quadrant: Quadrant, place: int) -> Quadrant:
-    """A quadrant at one of several points."""
-    return Quadrant(*quadrant[:2], *(np.asarray(value)[place] for value in quadrant[2:]))
 
 
 def _flank(load: Any, angle: Any, balls: Any) -> Flank | None:
