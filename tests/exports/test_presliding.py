@@ -20,7 +20,7 @@ from ballscrew.physics.moving_balls.friction_states import (
     gms_torque,
     of_elements,
 )
-from ballscrew.physics.moving_balls.reversal import reversal
+from ballscrew.physics.moving_balls.reversal import loops, reversal
 
 from .compiled import library, needs_a_compiler
 from .conftest import OIL
@@ -35,7 +35,9 @@ MODEL = bs.FrictionModel.reference()
 
 @pytest.fixture(scope="module")
 def curve():
-    return WindingUp.of(reversal(MODEL, SCREW, OIL, axial_load=LOAD, screw_speed=SPEED))
+    operation = {"axial_load": LOAD, "screw_speed": SPEED}
+    after = reversal(MODEL, SCREW, OIL, **operation)
+    return WindingUp.of(after, loops(MODEL, SCREW, OIL, after, **operation))
 
 
 @pytest.fixture(scope="module")
@@ -88,7 +90,7 @@ def test_the_shares_are_of_the_steady_torque_and_sum_to_it(elements, curve, fit)
 
 def test_the_error_told_is_that_of_the_elements_handed_over(elements, curve):
     off = error_of(curve, of_elements(of_shares(elements, curve.steady_torque), curve))
-    assert elements.error.largest == pytest.approx(off.largest, rel=1e-9)
+    assert elements.fit.error.largest == pytest.approx(off.largest, rel=1e-9)
     assert 0 < off.largest < 0.2
 
 
@@ -179,10 +181,13 @@ def test_the_text_says_hypothesis_point_and_error(exported, elements):
     text = exported.files["README.txt"].decode()
     assert "HYPOTHESIS" in text
     assert f"axial_load = {LOAD!r} N, screw_speed = {SPEED!r} rad/s" in text
-    assert f"off by up to {elements.error.largest:.2g} of the steady torque" in text
+    assert f"off by up to {elements.fit.error.largest:.2g} of the steady torque" in text
+    for loop in elements.fit.loops:
+        assert f"stroke of +-{np.degrees(loop.stroke / 2):g} deg of the screw: {loop.work_ratio:.3g}\n" in text
     (said,) = [record for record in exported.warnings if record.id == "hand_over.presliding"]
     assert "is a hypothesis" in said.text
     assert "2 kN" in said.text
+    assert f"up to {elements.fit.work_error:.0%} of the friction work of short strokes" in said.text
 
 
 def test_an_export_without_the_option_is_as_it_was(handed_over):

@@ -18,8 +18,13 @@ from ballscrew.basis.records import Message, Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.exports.subject import HandOver
 from ballscrew.exports.targets import Option
-from ballscrew.physics.moving_balls.friction_states import MOST_ELEMENTS, FitError, WindingUp, fit_slip_elements
-from ballscrew.physics.moving_balls.reversal import reversal
+from ballscrew.physics.moving_balls.friction_states import (
+    MOST_ELEMENTS,
+    SlipElementsFit,
+    WindingUp,
+    fit_slip_elements,
+)
+from ballscrew.physics.moving_balls.reversal import loops, reversal
 
 _LOAD = Quantity("presliding_load", "N", Info("F", "load of the reversal", "kN", hint="4 kN", usual=(-1e7, 1e7)))
 _SPEED = Quantity("presliding_speed", "rad/s", Info(r"\omega", "speed of the reversal", "rpm", usual=(-1e4, 1e4)))
@@ -33,13 +38,17 @@ OPTIONS: Mapping[str, Option] = {
 }
 _HYPOTHESIS = Message(
     "friction that comes back over the angle of the screw after a reversal is a hypothesis; it is fitted at {load} and "
-    "{speed} with an error of up to {off} of the steady torque, and carried over to all else"
+    "{speed} with an error of up to {off} of the steady torque, and of up to {work} of the friction work of short "
+    "strokes, and carried over to all else"
 )
 _NOTES = """\
 Friction after a reversal is a HYPOTHESIS: it is computed from the contacts, and no published ball screw shows it by
 itself. {elements}, fitted to a reversal at
   axial_load = {load!r} N, screw_speed = {speed!r} rad/s, all else at its usual value.
 There their sum is off by up to {largest:.2g} of the steady torque, {rms:.2g} as root mean square over the travel.
+Balls in their contacts have no memory of turning points, as the elements have: no elements have the curve and the
+friction work of all strokes. On a stroke to and fro, again and again, the elements have of the work by the balls
+{work}
 That curve is scaled to the steady slip torque of the model, of which its own was {bristles:.3g}.
 Nothing tells how far the elements are off at other loads, speeds and temperatures: there each has the same share of
 screw_torque, and slides after the same angle.
@@ -70,8 +79,8 @@ class Presliding:
     at_once: Annotated[Ratio, Info("s_0", "share of the friction torque that follows the direction at once")]
     axial_load: Annotated[Force, Info("F", "axial load of the reversal")]
     screw_speed: Annotated[AngularSpeed, Info(r"\omega", "speed of the screw in the reversal")]
-    #: How far the elements are from the curve that they are fitted to.
-    error: FitError
+    #: How far the elements are from the curve, and from the work of the loops, that they are fitted to.
+    fit: SlipElementsFit
     bristles_over_model: Annotated[Ratio, Info("", "steady slip torque of the reversal over that of the model")]
 
     @property
@@ -85,8 +94,12 @@ class Presliding:
             elements=f"There {'is one Maxwell-slip element' if count == 1 else f'are {count} Maxwell-slip elements'}",
             load=self.axial_load,
             speed=self.screw_speed,
-            largest=self.error.largest,
-            rms=self.error.rms,
+            largest=self.fit.error.largest,
+            rms=self.fit.error.rms,
+            work="\n".join(
+                f"  stroke of +-{math.degrees(loop.stroke / 2):g} deg of the screw: {loop.work_ratio:.3g}"
+                for loop in self.fit.loops
+            ),
             bristles=self.bristles_over_model,
             table="\n".join(rows),
             at_once=self.at_once,
@@ -98,10 +111,11 @@ class Presliding:
         message = _HYPOTHESIS.of(
             load=units.measured(self.axial_load, _LOAD, 3),
             speed=units.measured(self.screw_speed, _SPEED, 3),
-            off=units.percent(self.error.largest),
+            off=units.percent(self.fit.error.largest),
+            work=units.percent(self.fit.work_error),
         )
         return units.record(
-            message, id="hand_over.presliding", subject="screw_torque", severity="warning", value=self.error.largest
+            message, id="hand_over.presliding", subject="screw_torque", severity="warning", value=self.fit.error.largest
         )
 
 
@@ -124,15 +138,16 @@ def presliding(handed: HandOver) -> Presliding | None:
         faults.append(Fault("hand_over.presliding_speed", problem, "", 'give a slow one: "6 rpm"'))
     raise_if_any(faults)
     subject = handed.subject
-    found = reversal(subject.model, subject.screw, subject.lubricant, axial_load=load, screw_speed=speed)
-    curve = WindingUp.of(found)
+    parts, operation = (subject.model, subject.screw, subject.lubricant), {"axial_load": load, "screw_speed": speed}
+    found = reversal(*parts, **operation)
+    curve = WindingUp.of(found, loops(*parts, found, **operation))
     fit, steady = fit_slip_elements(curve, count), float(curve.steady_torque)
     return Presliding(
         elements=tuple(Element(float(one.slip_torque) / steady, float(one.slip_angle)) for one in fit.elements),
         at_once=float(curve.at_once) / steady,
         axial_load=load,
         screw_speed=speed,
-        error=fit.error,
+        fit=fit,
         bristles_over_model=float(found.bristles_over_model),
     )
 

@@ -300,7 +300,8 @@ def test_reversal(server, tmp_path):
     assert_same(found, document("reversal", case, "--json", *words))
     assert found["results"]["from_rest"] is True
     assert max(found["results"]["travel"]) == pytest.approx(50e-6)
-    assert [one["id"] for one in found["warnings"]] == ["reversal.hypothesis", "reversal.first_range"]
+    ids = [one["id"] for one in found["warnings"]]
+    assert ids == ["reversal.hypothesis", "reversal.work_of_elements", "reversal.first_range"]
     light = {**tables, "nut": {**tables["nut"], "preload": "1 N"}}
     for asked, line in (
         ({"case": tables, "travel": "-1 mm"}, "--travel: must be positive (-1 mm)"),

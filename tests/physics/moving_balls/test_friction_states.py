@@ -1,5 +1,6 @@
 """Truth: closed forms of Dahl, LuGre and Maxwell-slip elements, from which curves are made; and the rules of Masing."""
 
+import dataclasses
 import itertools
 import math
 
@@ -22,7 +23,9 @@ from ballscrew.physics.moving_balls.friction_states import (
     fit_lugre,
     fit_slip_elements,
     gms_torque,
+    work_share,
 )
+from ballscrew.physics.moving_balls.reversal import STROKES, Loop
 from support.reversals import STEADY, closed_form
 
 #: Metres of travel for each radian, of a lead of 10 mm.
@@ -105,6 +108,35 @@ def test_elements_are_found_again(from_rest):
     assert [one.slip_torque for one in found.elements] == pytest.approx([0.03, 0.02, 0.05], rel=1e-6)
     assert [one.stiffness for one in found.elements] == pytest.approx([one.stiffness for one in THREE], rel=1e-6)
     assert found.error.largest < 1e-6
+
+
+@pytest.mark.parametrize("from_rest", [False, True])
+def test_elements_are_found_again_from_curve_and_loops(from_rest):
+    curve = of_elements(THREE, from_rest=from_rest, at_once=0.05)
+    loops = [Loop(stroke, work_share(THREE, stroke, at_once=0.05)) for stroke in STROKES]
+    found = fit_slip_elements(dataclasses.replace(curve, loops=loops), 3)
+    assert [one.slip_torque for one in found.elements] == pytest.approx([0.03, 0.02, 0.05], rel=1e-5)
+    assert [loop.work_ratio for loop in found.loops] == pytest.approx([1.0] * len(loops), rel=1e-6)
+    assert found.work_error < 1e-6
+    assert math.isnan(fit_slip_elements(curve, 3).work_error)
+
+
+def test_loops_without_the_memory_of_elements_count():
+    """Friction that loses on short strokes twice what elements of the curve do: the fit to both has less error there,
+    says how much, and is farther from the curve.
+    """
+    curve = of_elements(THREE, at_once=0.02)
+    loops = [Loop(stroke, 2 * work_share(THREE, stroke, at_once=0.02)) for stroke in STROKES[:3]]
+    alone, both = fit_slip_elements(curve, 3), fit_slip_elements(dataclasses.replace(curve, loops=loops), 3)
+    assert both.work_error == max(abs(loop.work_ratio - 1) for loop in both.loops)
+    assert 0.02 < both.work_error < 0.4  # half is missing without
+    assert alone.error.largest < 1e-6 < both.error.largest
+    for loop in both.loops:
+        way = np.linspace(-loop.stroke / 2, loop.stroke / 2, 4001)
+        path = np.concatenate([way, way[-2::-1], way[1:], way[-2::-1]])
+        torque = gms_torque(both.elements, path)
+        lost = np.trapezoid(torque[-8001:], path[-8001:]) / (2 * loop.stroke) + curve.at_once
+        assert lost == pytest.approx(loop.work_ratio * loop.work_share * curve.steady_torque, rel=1e-3)
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 4])

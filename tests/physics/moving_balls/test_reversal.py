@@ -12,7 +12,7 @@ from ballscrew.evidence.papers.olaru2005 import SCREW as PAPER
 from ballscrew.physics.equations import across_groove, presliding
 from ballscrew.physics.friction.across_groove import arms_of
 from ballscrew.physics.moving_balls.brush import BallContacts, Brush
-from ballscrew.physics.moving_balls.reversal import MECHANISMS, reversal, step_count
+from ballscrew.physics.moving_balls.reversal import MECHANISMS, STROKES, loops, reversal, step_count
 
 REFERENCE = bs.FrictionModel.reference()
 OIL = bs.Lubricant.from_grade("VG 100", temperature=313.15)
@@ -187,6 +187,35 @@ def test_what_cannot_be_followed_is_refused(changed, message):
         reversal(bs.FrictionModel.olaru2005(), SINGLE, OIL, **SLOW)
 
 
+def test_a_long_stroke_to_and_fro_has_the_work_of_the_curve(turned):
+    """Where all friction comes back within the stroke, each way is one reversal; to what a first loop is off."""
+    stroke = float(turned.screw_angle[-1])
+    (loop,) = loops(REFERENCE, SINGLE, OIL, turned, [stroke], **SLOW)
+    work = np.trapezoid(turned.screw_torque[1:], turned.screw_angle[1:])
+    assert loop.work_share == pytest.approx(work / (turned.steady_torque * stroke), rel=0.03)
+
+
+def test_on_a_short_stroke_balls_slip_by_their_spin_alone(turned, ball):
+    """Balls that swing about the line of their grooves roll sideways: what is left is the slip of a screw without a
+    helix, which is more than the spin has beside it, and all that follows at once; balls part and hardly press.
+    """
+    stroke = math.radians(4)
+    (loop,) = loops(REFERENCE, SINGLE, OIL, turned, [stroke], **SLOW)
+    straight = Brush(dataclasses.replace(ball[0], lateral=0.0))
+    for _ in range(100):
+        spin = sum(straight.turn(ball[0].cell / ball[0].rolled).torque)
+    parts = turned.steady_contributions
+    number = REFERENCE(SINGLE, OIL, **SLOW).kinds[0].balls
+    slip = number * spin / turned.bristles_over_model
+    closing = float(
+        np.interp(0.999999, turned.contributions["ball_to_ball"] / parts["ball_to_ball"], turned.screw_angle)
+    )
+    pressed = parts["ball_to_ball"] * stroke / (2 * closing)
+    expected = parts["rolling"] + parts["losses"] + slip + pressed
+    assert loop.work_share * turned.steady_torque == pytest.approx(expected, rel=0.03)
+    assert slip > 1.5 * parts["spin_and_curvature"]
+
+
 def test_steps_are_those_that_are_taken(monkeypatch):
     """All but those within the first five cells, which are finer."""
     taken = []
@@ -199,5 +228,10 @@ def test_steps_are_those_that_are_taken(monkeypatch):
     reversal(REFERENCE, SINGLE, OIL, **long)
     assert len(taken) - finer == step_count(REFERENCE, SINGLE, OIL, **long)
     assert 0 < finer < 100
+    after = reversal(REFERENCE, SINGLE, OIL, **short)
+    taken.clear()
+    loops(REFERENCE, SINGLE, OIL, after, **SLOW)
+    steps = [step_count(REFERENCE, SINGLE, OIL, **short, strokes=strokes) for strokes in ((), STROKES)]
+    assert len(taken) == steps[1] - steps[0]
     with pytest.raises(bs.InputError, match=r"reversal\.travel: must be above zero"):
         step_count(REFERENCE, SINGLE, OIL, **{**SLOW, "travel": 0.0})

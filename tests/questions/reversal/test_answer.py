@@ -8,6 +8,7 @@ import pytest
 
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
+from ballscrew.physics.moving_balls.friction_states import work_share
 from ballscrew.questions.reversal import compute, document, figure, text
 from ballscrew.questions.reversal.answer import ReversalResults
 from ballscrew.questions.reversal.options import ReversalOptions
@@ -200,5 +201,16 @@ def test_a_computed_reversal():
     assert helix.screw_angle > 100 * spin.screw_angle > 0
     assert found.first.model.presliding_stiffness > 10 * found.tracking.model.presliding_stiffness
     errors = [fit.error.largest for fit in found.elements]
-    assert errors == sorted(errors, reverse=True)
-    assert errors[0] < found.tracking.error.largest < found.first.error.largest
+    assert max(errors) < found.tracking.error.largest < found.first.error.largest
+    # the elements, with what is at once, lose on short strokes what the balls do, to what is said
+    (said,) = [one for one in found.warnings if one.id == "reversal.work_of_elements"]
+    for fit in found.elements:
+        assert len(fit.loops) == 4
+        ratios = [
+            work_share(fit.elements, loop.stroke, at_once=found.curve.at_once) / loop.work_share for loop in fit.loops
+        ]
+        assert max(abs(np.array(ratios) - 1)) == pytest.approx(fit.work_error, rel=1e-12)
+        assert fit.work_error <= said.value < 0.25
+    assert "0.5 deg to ±5 deg" in said.text
+    results = document.document(found)["results"]["slip_elements"]
+    assert [one["work_error"] for one in results] == [fit.work_error for fit in found.elements]

@@ -21,7 +21,7 @@ from ballscrew.engine.uncertainty.bands import NUT_SAMPLES, SAMPLES
 from ballscrew.engine.uncertainty.sensitivity import NUT_SAMPLES as NUT_SAMPLES_OF_METHOD
 from ballscrew.engine.uncertainty.sensitivity import SAMPLES as SAMPLES_OF_METHOD
 from ballscrew.physics.components.nut import OversizeBallNut
-from ballscrew.physics.moving_balls.reversal import step_count
+from ballscrew.physics.moving_balls.reversal import STROKES, step_count
 from ballscrew.physics.moving_balls.ripple import NutGroove, Spall
 from ballscrew.questions.optimise.compute import Plan
 from ballscrew.questions.optimise.options import OptimiseOptions
@@ -152,6 +152,7 @@ def check_reversal(case: Case, options: ReversalOptions) -> None:
     steps = step_count(
         case.model, case.screw, case.lubricant, axial_load=case.operation.axial_load,
         screw_speed=float(case.operation.screw_speed), travel=options.travel, gap=options.gap,
+        strokes=STROKES,
     )  # fmt: skip
     if steps > MOST_STEPS_OF_REVERSAL:
         remedy = "a shorter travel, or more load or preload; the rest by ballscrew reversal"

@@ -3,6 +3,10 @@
 A part of the friction follows the direction at once; the rest winds up over the angle of the screw, and this is what
 Dahl, LuGre and Maxwell-slip elements describe. As friction comes back in two ranges of the
 angle a hundred times apart, no single stiffness holds both: Dahl is fitted to each of them, and both are given.
+
+Balls in their contacts have no such memory: bristles that roll in are fresh, and short strokes stay on the line of the
+grooves, where the spin has all that the contacts can hold. So no Maxwell-slip elements have both the curve after a
+reversal and the work of short strokes; they are fitted to both, and how far off they are of each is given.
 """
 
 from __future__ import annotations
@@ -11,7 +15,7 @@ import dataclasses
 import itertools
 import math
 from collections.abc import Callable, Sequence
-from typing import Annotated, Any, TypeAlias
+from typing import Annotated, Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,7 +35,7 @@ from ballscrew.basis.quantities import (
     Torque,
 )
 from ballscrew.physics.equations import friction_states as equations
-from ballscrew.physics.moving_balls.reversal import Reversal
+from ballscrew.physics.moving_balls.reversal import Loop, Reversal
 
 Vector: TypeAlias = NDArray[np.float64]
 
@@ -60,7 +64,8 @@ class WindingUp:
     """Friction that winds up over the angle of the screw after a reversal, or from rest.
 
     ``torque`` goes to ``coulomb_torque``, from its opposite or from zero, and what follows the direction ``at_once`` is
-    beside it. Raises :class:`~ballscrew.basis.errors.InputError` where it is no such curve.
+    beside it. ``loops`` have the work of short strokes to and fro, where it is known. Raises
+    :class:`~ballscrew.basis.errors.InputError` where it is no such curve.
     """
 
     screw_angle: Annotated[Angle, Info(r"\theta", "angle of the screw since the reversal, increasing from zero")]
@@ -69,6 +74,7 @@ class WindingUp:
     coulomb_torque: Annotated[Torque, Info("M_c", "friction torque that winds up, in steady motion", above=0)]
     at_once: Annotated[Torque, Info("M_v", "friction torque that follows the direction at once")] = 0.0
     from_rest: bool = False
+    loops: Sequence[Loop] = ()
 
     def __post_init__(self) -> None:
         angle, travel, torque = (np.asarray(one, dtype=float) for one in (self.screw_angle, self.travel, self.torque))
@@ -88,8 +94,8 @@ class WindingUp:
         raise_if_any(faults)
 
     @classmethod
-    def of(cls, reversal: Reversal) -> WindingUp:
-        """The part of a reversal that winds up.
+    def of(cls, reversal: Reversal, loops: Sequence[Loop] = ()) -> WindingUp:
+        """The part of a reversal that winds up, with the ``loops`` of the same balls.
 
         What follows the direction at once is the jump at the start, of which a reversal has twice as much as a start
         from rest: rolling, losses, and half of what the balls press on each other with, as they part at once and press
@@ -107,6 +113,7 @@ class WindingUp:
             coulomb_torque=float(reversal.steady_torque) - at_once,
             at_once=at_once,
             from_rest=reversal.from_rest,
+            loops=loops,
         )
 
     @property
@@ -207,6 +214,16 @@ class LuGreFit:
     error: FitError
 
 
+class FittedLoop(NamedTuple):
+    """The work of a stroke to and fro by fitted elements, beside that by the balls."""
+
+    stroke: Annotated[Angle, Info(r"\theta", "angle of the screw from one turning point to the other", "deg")]
+    work_share: Annotated[Ratio, Info("", "friction work over that of steady friction on the same way, by the balls")]
+    work_ratio: Annotated[
+        Ratio, Info("", "friction work by the elements, with what is at once, over that by the balls")
+    ]
+
+
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class SlipElementsFit:
     """Maxwell-slip elements fitted to a reversal, the one that slides first at the front."""
@@ -215,6 +232,13 @@ class SlipElementsFit:
     elements: Sequence[SlipElement]
     #: How far their sum is from the curve.
     error: FitError
+    #: What they lose on short strokes; empty where the curve has no loops.
+    loops: Sequence[FittedLoop] = ()
+
+    @property
+    def work_error(self) -> Annotated[Ratio, Info("", "largest error of the friction work of the loops, share of it")]:
+        """NaN without loops."""
+        return max((abs(loop.work_ratio - 1) for loop in self.loops), default=math.nan)
 
 
 def fit_dahl(curve: WindingUp) -> DahlFit:
@@ -272,9 +296,10 @@ def fit_lugre(
 def fit_slip_elements(curve: WindingUp, count: int) -> SlipElementsFit:
     r"""Maxwell-slip elements, ``count`` of them at most (1 to 4), of which each share of the swing counts alike.
 
-    Least squares with :math:`M_i \ge 0` and :math:`\sum M_i = M_c`. For given angles at which the elements slide the
-    torques follow exactly; the angles are searched among some dozens and then refined. No
-    more elements are made than hold the curve.
+    Least squares with :math:`M_i \ge 0` and :math:`\sum M_i = M_c`. Where the curve has loops, the mean error of the
+    torque along these, their work over their way, counts as much as that along the curve. For given angles at which the
+    elements slide the torques follow exactly; the angles are searched among some dozens and then refined. No
+    more elements are made than hold both.
 
     Raises :class:`~ballscrew.basis.errors.InputError` for another number of elements.
     """
@@ -283,7 +308,15 @@ def fit_slip_elements(curve: WindingUp, count: int) -> SlipElementsFit:
     angle, torque = (np.asarray(one, dtype=float) for one in (curve.screw_angle, curve.torque))
     # a curve that falls for a while, as gaps that close may make it, counts there as well
     M_c = curve.coulomb_torque
-    problem = _Shares(angle, torque / M_c, np.abs(_steps(torque)) / M_c, curve.initial_torque / M_c)
+    strokes, work = (np.array([getattr(loop, name) for loop in curve.loops]) for name in ("stroke", "work_share"))
+    problem = _Shares(
+        angle,
+        torque / M_c,
+        np.abs(_steps(torque)) / M_c,
+        curve.initial_torque / M_c,
+        strokes,
+        (work * curve.steady_torque - curve.at_once) / M_c,
+    )
     angles, shares = problem.solved(count)
     swing = 1 - problem.start
     elements = [
@@ -291,7 +324,13 @@ def fit_slip_elements(curve: WindingUp, count: int) -> SlipElementsFit:
         for slides, share in sorted(zip(angles.tolist(), shares.tolist(), strict=True))
         if share > 0
     ]
-    return SlipElementsFit(elements=tuple(elements), error=error_of(curve, of_elements(elements, curve)))
+    loops = tuple(
+        FittedLoop(
+            loop.stroke, loop.work_share, work_share(elements, loop.stroke, at_once=curve.at_once) / loop.work_share
+        )
+        for loop in curve.loops
+    )
+    return SlipElementsFit(elements=tuple(elements), error=error_of(curve, of_elements(elements, curve)), loops=loops)
 
 
 def gms_torque(elements: Sequence[SlipElement], screw_angles: Array, *, initial_torques: Array | None = None) -> Array:
@@ -398,6 +437,9 @@ class _Shares:
     torque: Vector
     weights: Vector
     start: float
+    #: Strokes of loops, and their work over their way, over the Coulomb torque too.
+    strokes: Vector
+    work: Vector
 
     def _columns(self, slides: Vector) -> Vector:
         """The torque of an element of share one over the angle, a column for each angle at which one slides."""
@@ -444,7 +486,11 @@ class _Shares:
         With shares that sum to one, the error of the sum is the sum of the shares times these errors.
         """
         off = self._columns(slides) - self.torque[:, None]
-        return off.T @ (self.weights[:, None] * off)
+        products = off.T @ (self.weights[:, None] * off)
+        if not self.strokes.size:
+            return products
+        slid = np.maximum(1 - 2 * slides / (1 - self.start) / self.strokes[:, None], 0.0) - self.work[:, None]
+        return products + self.weights.sum() / self.strokes.size * (slid.T @ slid)
 
 
 def _least_squares(products: Vector) -> tuple[Vector, Vector]:

@@ -12,8 +12,7 @@ from ballscrew.axis.duty_cycle.duty import Duty
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Quantity, Ratio, unit_of
 from ballscrew.cases.case_files.case import Case
-from ballscrew.physics.moving_balls.friction_states import MOST_ELEMENTS, WindingUp, fit_slip_elements, work_share
-from ballscrew.physics.moving_balls.reversal import reversal
+from ballscrew.physics.moving_balls.reversal import loops, reversal
 
 #: Share of the swing of the friction torque at which it counts as back.
 BACK = 0.9
@@ -42,8 +41,8 @@ class Stroke(NamedTuple):
 def short_reversal(case: Case, duty: Duty) -> ShortReversal | None:
     """The shortest stroke of a cycle, if less than 90 % of the friction of the screw come back within it; else None.
 
-    The friction of the reversal is that at the mean load and speed of the stroke; its work that of Maxwell-slip
-    elements. None as well for a motion that never turns round, and for friction that knows no such curve.
+    The friction of the reversal, and the work of the stroke, are those at its mean load and speed. None as well for a
+    motion that never turns round, and for friction that knows no such curve.
     """
     lead = float(case.screw.lead)
     found = strokes(duty, lead)
@@ -52,19 +51,17 @@ def short_reversal(case: Case, duty: Duty) -> ShortReversal | None:
     shortest = min(found)
     if shortest.length > _LONG * lead:
         return None
+    parts = (case.model, case.screw, case.lubricant)
+    operation = {"axial_load": shortest.axial_load, "screw_speed": shortest.screw_speed}
     try:
-        after = reversal(
-            case.model, case.screw, case.lubricant, axial_load=shortest.axial_load, screw_speed=shortest.screw_speed
-        )
-        curve = WindingUp.of(after)
+        after = reversal(*parts, **operation)
     except InputError:  # a model without slip across the path, or nothing that winds up
         return None
     back = after.angle_at(BACK) * lead / (2 * math.pi)
     if not shortest.length < back:
         return None
-    elements = fit_slip_elements(curve, MOST_ELEMENTS).elements
-    angle = 2 * math.pi * shortest.length / lead
-    return ShortReversal(shortest.length, back, work_share(elements, angle, at_once=curve.at_once))
+    (loop,) = loops(*parts, after, [2 * math.pi * shortest.length / lead], **operation)
+    return ShortReversal(shortest.length, back, loop.work_share)
 
 
 def strokes(duty: Duty, lead: Length) -> list[Stroke]:

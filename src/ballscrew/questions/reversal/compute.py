@@ -177,6 +177,26 @@ class ReversalReport:
                     limit=BRISTLES_OFF,
                 )
             )  # fmt: skip
+        ratios = [loop.work_ratio for fit in self.elements for loop in fit.loops]
+        if ratios:
+            ends = [units.measured(loop.stroke / 2, ANGLE, 3) for loop in (self.curve.loops[0], self.curve.loops[-1])]
+            message = Message(
+                "on strokes of ±{shortest} to ±{longest} the friction work of the Maxwell-slip elements is {least} to "
+                "{most} of that of the balls, whose contacts have no memory of turning points: no elements have both "
+                "the curve and the work of all strokes",
+                {
+                    "shortest": ends[0],
+                    "longest": ends[1],
+                    "least": units.percent(min(ratios)),
+                    "most": units.percent(max(ratios)),
+                },
+            )
+            worst = max(fit.work_error for fit in self.elements)
+            found.append(
+                units.record(
+                    message, id="reversal.work_of_elements", subject="slip_elements", severity="info", value=worst
+                )
+            )
         message = Message("the stiffness of the first hundredths of a degree is known to a factor of three")
         found.append(units.record(message, id="reversal.first_range", subject="spin_and_curvature", severity="info"))
         return [*found, *self.case.implausible()]
@@ -197,12 +217,18 @@ def reversal(case: Case, options: ReversalOptions) -> ReversalReport:
         case.model, case.screw, case.lubricant, axial_load=case.operation.axial_load, screw_speed=speed,
         travel=options.travel, from_rest=options.from_rest, gap=options.gap,
     )  # fmt: skip
-    return of(case, found, options)
+    loops = moving_balls.loops(
+        case.model, case.screw, case.lubricant, found, axial_load=case.operation.axial_load, screw_speed=speed,
+        gap=options.gap,
+    )  # fmt: skip
+    return of(case, found, options, loops)
 
 
-def of(case: Case, found: moving_balls.Reversal, options: ReversalOptions) -> ReversalReport:
-    """The report of a reversal that is known."""
-    curve = WindingUp.of(found)
+def of(
+    case: Case, found: moving_balls.Reversal, options: ReversalOptions, loops: Sequence[moving_balls.Loop] = ()
+) -> ReversalReport:
+    """The report of a reversal that is known, and of the ``loops`` of short strokes."""
+    curve = WindingUp.of(found, loops)
     fits = (fit_slip_elements(curve, count) for count in COUNTS)
     return ReversalReport(
         case=case,

@@ -101,10 +101,11 @@ def _coulomb(report: ReversalReport) -> str:
 
 def _elements(report: ReversalReport) -> list[str]:
     """The Maxwell-slip elements, by their number."""
-    rows = [["Maxwell-slip (GMS)", "k", "M", "slides from rest at", "largest error", "rms error"]]
+    rows = [["Maxwell-slip (GMS)", "k", "M", "slides from rest at", "largest error", "rms error", "error of work"]]
     for fit in report.elements:
+        work = f"{fit.work_error:.0%}" if fit.loops else "–"
         for number, one in enumerate(fit.elements):
-            errors = ["", ""] if number else _errors(fit.error)
+            errors = ["", "", ""] if number else [*_errors(fit.error), work]
             cells = [_shown(getattr(one, name), _ELEMENT[name]) for name in ("stiffness", "slip_torque", "slip_angle")]
             rows.append(["" if number else f"{len(fit.elements)} elements", *cells, *errors])
     return aligned(rows)
