@@ -8,12 +8,14 @@ from typing import Annotated
 import numpy as np
 
 from ballscrew.basis.arrays import ByValue, where
-from ballscrew.basis.errors import faults_of, names_keywords, raise_if_any
-from ballscrew.basis.quantities import AngularSpeed, Array, Force, Info, Temperature
+from ballscrew.basis.errors import Fault, fault_of_declared_unit, faults_of, names_keywords, raise_if_any
+from ballscrew.basis.quantities import AngularSpeed, Array, Force, Info, Temperature, fields_of
 
 #: A load (N) or a speed (rad/s) nearer to zero than this is none to the formulas. A speed that decays to rest passes
 #: numbers whose reciprocals and powers leave the range of numbers of 64 bits; those of what is farther away do not.
 NOTHING = 1e-100
+#: What to do with arrays that are no list of operating points.
+USE_SWEEP = "give one speed for each load; for every load at every speed use ballscrew.sweep"
 
 
 @names_keywords
@@ -22,8 +24,9 @@ class OperatingState(ByValue):
     """Operating state: axial load and speed of the screw with their signs, and the temperature of the oil.
 
     A positive load is one that a positive speed lifts. Zero load and zero speed are legal and give limits; without a
-    temperature the oil has its own. Any of them may be an array. Raises :class:`~ballscrew.basis.errors.InputError` for
-    non-finite numbers.
+    temperature the oil has its own. Any of them may be an array; a labelled one of xarray loses its labels. Raises
+    :class:`~ballscrew.basis.errors.InputError` for numbers that are not finite, and for labelled arrays along different
+    dimensions or in another unit.
     """
 
     axial_load: Annotated[
@@ -43,7 +46,22 @@ class OperatingState(ByValue):
     temperature: Temperature | None = None
 
     def __post_init__(self) -> None:
-        raise_if_any(faults_of("operation", self))
+        raise_if_any([*self._without_labels(), *faults_of("operation", self)])
+
+    def _without_labels(self) -> list[Fault]:
+        """Replace labelled arrays by their values, and return the faults of those that these are not enough for."""
+        labelled = {name: value for name, value in vars(self).items() if hasattr(value, "dims")}
+        if not labelled:
+            return []
+        units = {name: quantity.unit for name, quantity in fields_of(self).items()}
+        faults = [fault_of_declared_unit(f"operation.{name}", value, units[name]) for name, value in labelled.items()]
+        for name, value in labelled.items():
+            object.__setattr__(self, name, value.data)
+        dimensions = dict.fromkeys(str(value.dims) for value in labelled.values() if value.dims)
+        if len(dimensions) > 1:
+            given = " and ".join(dimensions)
+            faults.append(Fault("operation", "has arrays along different dimensions", given, USE_SWEEP))
+        return [fault for fault in faults if fault is not None]
 
     @property
     def settled(self) -> OperatingState:
