@@ -78,6 +78,7 @@ from ballscrew.physics.moving_balls.chain import moving_chain as moving_chain
 from ballscrew.physics.sizing.catalogue import catalogue as catalogue
 from ballscrew.physics.sizing.own_nut import OwnNut as OwnNut
 from ballscrew.physics.sizing.own_nut import own_nut as own_nut
+from ballscrew.physics.sizing.ratings import load_ratings as load_ratings
 from ballscrew.physics.sizing.rigidity import AxialRigidity as AxialRigidity
 from ballscrew.physics.sizing.rigidity import rigidity_iso3408 as rigidity_iso3408
 from ballscrew.questions.optimise.compute import Optimisation as Optimisation

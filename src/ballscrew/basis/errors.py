@@ -289,6 +289,15 @@ def without_unit(where: str, value: Any, unit: str | None) -> Any | Fault:
         return Fault(where, "wrong unit", f"{value}: {error}", "give a plain number" if unit == "1" else in_unit)
 
 
+def fault_of_declared_unit(where: str, labelled: Any, unit: str) -> Fault | None:
+    """The fault of a labelled array whose attribute ``units`` is another unit; None where it has none."""
+    declared = str(labelled.attrs.get("units", unit))
+    if declared == unit:
+        return None
+    remedy = Message("give it in {unit}", {"unit": unit})
+    return Fault(where, "is in another unit by its attribute units", declared, remedy)
+
+
 def _is_number(value: Any) -> bool:
     """Return whether a value is a plain number, as most are, and needs no other look."""
     return isinstance(value, float)
@@ -312,6 +321,10 @@ def _refuse_unknown(name: str, given: Iterable[str], known: Iterable[str]) -> No
     for word in given:
         if word not in known:
             raise TypeError(f"{name}() has no keyword {word!r}: {nearest(word, known).filled(shown_in_si)}")
+
+
+#: What the docstring of a function says that is decorated by :func:`accepts_units`.
+OF_PINT = "Quantities of pint are converted to these units; what is returned are plain numbers, in SI."
 
 
 def accepts_units(section: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
@@ -343,6 +356,7 @@ def accepts_units(section: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
                     bound.arguments[name] = si_value(f"{section}.{name}", value, units.get(name))
             return function(*bound.args, **bound.kwargs)
 
+        converting.__doc__ = f"{inspect.getdoc(function) or ''}\n\n{OF_PINT}"
         return converting
 
     return decorated

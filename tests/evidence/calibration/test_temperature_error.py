@@ -38,6 +38,13 @@ def found():
     return fit(REFERENCE, SCREW, VG_100, columns(), [FRICTION, SEALS], holdout=0.0)
 
 
+def test_a_log_whose_every_temperature_is_beyond_any_oil_is_refused():
+    with pytest.raises(
+        InputError, match=r"log.temperature: is beyond any oil in every row \(6\d\d.* K\) · check its unit"
+    ):
+        fit(REFERENCE, SCREW, VG_100, warmed(columns(), 330.0), [FRICTION])
+
+
 def test_a_warmer_log_moves_the_estimates_as_the_derivative_says(found):
     """Against fits of the log with temperatures half a kelvin higher and lower.
 

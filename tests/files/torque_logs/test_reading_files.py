@@ -38,6 +38,15 @@ def test_faults_of_a_file(text, expected, read):
     assert expected in line
 
 
+def test_temperatures_in_degrees_under_a_heading_in_kelvin(read):
+    text = "torque [N m],speed [rpm],load [N],temperature [K]\n" + "1,100,1000,31.5\n" * 3
+    (line,) = lines_of(read, text)
+    assert line == (
+        'log.csv column "temperature [K]": must be in kelvin (31.5) · write [degC] in its heading if these are °C'
+    )
+    assert read(text.replace("31.5", "304.65")).temperature == pytest.approx(304.65)
+
+
 def test_files_that_are_not_there(tmp_path):
     assert "none.csv: does not exist · give the path" in lines_of(reading.read, tmp_path / "none.csv")[0]
     assert "cannot be read (Is a directory)" in lines_of(reading.read, tmp_path)[0]

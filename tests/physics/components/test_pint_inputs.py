@@ -248,6 +248,27 @@ def test_labelled_arrays_state_their_unit_in_two_ways():
         bs.sweep(MODEL, SCREW, OIL, axial_load=loads.assign_attrs(units="kN"), screw_speed=60.0)
 
 
+@pytest.mark.parametrize("name", ["model", "model of a nut"])
+def test_a_call_takes_labelled_arrays_of_points_and_refuses_those_of_a_grid(name):
+    loads, speeds = xr.DataArray([1e3, 2e3, 3e3], dims="load"), xr.DataArray([60.0, 70.0], dims="speed")
+    call = CALLS[name]
+    expected = call(axial_load=loads.values, screw_speed=60.0)
+    of_pint = xr.DataArray([1.0, 2.0, 3.0] * U.kN, dims="load")
+    for given in (loads, of_pint, loads.assign_attrs(units="N")):
+        np.testing.assert_allclose(call(axial_load=given, screw_speed=60.0), expected, rtol=1e-12)
+    for grid in (speeds, xr.DataArray([60.0, 70.0, 80.0], dims="speed")):
+        with pytest.raises(bs.InputError, match=r"has arrays along different dimensions .*use ballscrew.sweep"):
+            call(axial_load=loads, screw_speed=grid)
+    with pytest.raises(bs.InputError, match=r"axial_load: is in another unit by its attribute units \(kN\)"):
+        call(axial_load=loads.assign_attrs(units="kN"), screw_speed=60.0)
+
+
+def test_what_takes_units_says_that_plain_numbers_come_out():
+    for function in (bs.FrictionModel.__call__, bs.rigidity_iso3408):
+        assert "Quantities of pint are converted" in function.__doc__
+        assert "plain numbers, in SI" in function.__doc__
+
+
 def test_points_along_a_band():
     with pytest.raises(bs.InputError, match=r"band.points: takes no unit"):
         band_along(MODEL, SCREW, OIL, along="axial_load", points=[1, 2] * U.kN, uncertain={}, **POINT)

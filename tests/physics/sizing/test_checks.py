@@ -317,6 +317,13 @@ def test_ratings_ignore_what_the_catalogue_prints():
     assert ratings_of(printed) == RATINGS
 
 
+def test_ratings_of_a_screw_are_those_of_its_geometry():
+    # ISO 3408-5: the static rating grows with the balls, the dynamic one with the turns to the power of 0.86
+    balls = SCREW.loaded_balls / (ROW.loaded_turns * ROW.balls_per_turn)
+    expected = (RATINGS.dynamic * balls**0.86, RATINGS.static * balls)
+    assert tuple(bs.load_ratings(SCREW)) == pytest.approx(expected, rel=1e-12)
+
+
 def test_ratings_without_a_pitch_circle_use_the_nominal_diameter():
     bare = dataclasses.replace(ROW, pitch_circle_diameter=None)
     assert ratings_of(bare) == ratings_of(dataclasses.replace(ROW, pitch_circle_diameter=0.040))

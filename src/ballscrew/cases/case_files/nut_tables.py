@@ -24,7 +24,7 @@ from ballscrew.physics.sizing.checks import groove_bottom
 from ballscrew.physics.sizing.installation import Installation, Limits
 from ballscrew.physics.sizing.listed_nut import lists_preload
 from ballscrew.physics.sizing.listed_nut import nut_of as listed_nut
-from ballscrew.physics.sizing.ratings import Ratings, rated_geometry_of, ratings_of
+from ballscrew.physics.sizing.ratings import Ratings, load_ratings, ratings_of
 
 #: The nut of a case that names one without preload.
 SINGLE = SingleNut(angle_under_load=True)
@@ -58,7 +58,7 @@ def ratings(screw: BallScrew, row: CatalogueRow | None) -> Ratings:
     if row is not None and same:
         return ratings_of(dataclasses.replace(row, spacer_balls=screw.nut.spacer_balls))
     _as_row(screw)
-    return ratings_of(rated_geometry_of(screw))
+    return load_ratings(screw)
 
 
 def _as_row(screw: BallScrew) -> CatalogueRow:

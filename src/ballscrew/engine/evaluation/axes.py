@@ -10,9 +10,8 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ballscrew.basis.arrays import map_blocks
-from ballscrew.basis.errors import Fault, fault_of, without_unit
+from ballscrew.basis.errors import Fault, fault_of, fault_of_declared_unit, without_unit
 from ballscrew.basis.quantities import Quantity
-from ballscrew.basis.records import Message
 
 #: Numbers of a block: they are in the cache when they are read for the second time.
 BLOCK = 2**18
@@ -42,14 +41,8 @@ def axis_of(section: str, name: str, values: Any, quantity: Quantity) -> xr.Data
     if isinstance(values, xr.DataArray):
         if not all(isinstance(dimension, str) for dimension in values.dims):
             return Fault(where, "has a dimension whose name is no text", str(values.dims), "name it by a text")
-        declared = str(values.attrs.get("units", quantity.unit))
-        if declared != quantity.unit:
-            return Fault(
-                where,
-                "is in another unit by its attribute units",
-                declared,
-                Message("give it in {unit}", {"unit": quantity.unit}),
-            )
+        if (fault := fault_of_declared_unit(where, values, quantity.unit)) is not None:
+            return fault
         numbers = values if numbers is values.data else values.copy(data=numbers)
     values = numbers
     try:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, accepts_units, nearest, raise_if_any, si_value
+from ballscrew.basis.errors import Fault, InputError, accepts_units, nearest, raise_if_any, si_value
 from ballscrew.basis.quantities import Force, MomentOfInertia, TemperatureDifference, within_bounds
 from ballscrew.basis.records import Message
 from ballscrew.engine.evaluation.engines import Engine, engine_faults
@@ -206,6 +206,9 @@ def _log_of(data: Any, lubricant: Lubricant, inertia: float | None) -> TorqueLog
     if not lubricant.follows_temperature or log.temperature is None:
         return log
     within = np.asarray(within_bounds(lubricant.temperature_quantity.info, log.temperature))
+    if not within.any():
+        given = f"{np.median(log.temperature):.4g} K"
+        raise InputError(Fault("log.temperature", "is beyond any oil in every row", given, "check its unit"))
     return log.select(within, "temperature beyond any oil")
 
 

@@ -27,6 +27,8 @@ OPTIONAL = ("temperature", "time")
 INERTIA = Quantity(
     "inertia", "kg m^2", Info("J", "moment of inertia that the torque accelerates, seen at the screw", at_least=0)
 )
+#: A median temperature below this is one in °C given as one in kelvin: no ball screw is so cold.
+COLDEST = 150.0
 TORQUE_CONSTANT = Quantity("torque_constant", "N m/A", Info("k_T", "torque of the motor for each ampere", above=0))
 
 Time = Annotated[Any, Unit("s")]
@@ -142,3 +144,11 @@ def seconds(dates: NDArray[Any]) -> Floats:
     if not known.size:
         return np.full(dates.shape, np.nan)
     return (dates - known[0]) / np.timedelta64(1, "s")
+
+
+def fault_of_celsius(where: str, temperature: Floats, remedy: str) -> Fault | None:
+    """The fault of temperatures in °C that are given as kelvin; None for others."""
+    measured = temperature[np.isfinite(temperature)]
+    if not measured.size or np.median(measured) >= COLDEST:
+        return None
+    return Fault(where, "must be in kelvin", f"{np.median(measured):.4g}", remedy)

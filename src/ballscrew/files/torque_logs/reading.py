@@ -28,7 +28,7 @@ from ballscrew.files.torque_logs.columns import (
     layout,
     temperatures_among,
 )
-from ballscrew.files.torque_logs.log_rows import REQUIRED
+from ballscrew.files.torque_logs.log_rows import REQUIRED, fault_of_celsius
 from ballscrew.files.torque_logs.motion import Floats
 from ballscrew.files.torque_logs.numbers import NumberReader
 from ballscrew.files.torque_logs.positions import FeedRates
@@ -192,6 +192,10 @@ def _gathered(
         raise InputError(Fault(place.file, "has no rows below its headings", "", "give one row for each measurement"))
     _check_filled(place, gathering)
     log = gathering.log(TORQUES[place.torque])
+    if log.temperature is not None and (heading := place.headings.get(TEMPERATURE)) is not None:
+        where = f'{place.file} column "{heading.written}"'
+        celsius = fault_of_celsius(where, log.temperature, "write [degC] in its heading if these are °C")
+        raise_if_any([] if celsius is None else [celsius])
     counts = {**log.left_out, UNREADABLE: cells.bad_rows, CUT_OFF: cut_off}
     left_out = {reason: count for reason, count in counts.items() if count}
     return dataclasses.replace(log, left_out=left_out, rows=gathering.rows + cells.bad_rows + cut_off), cells, rates

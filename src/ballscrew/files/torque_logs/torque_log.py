@@ -16,11 +16,17 @@ from ballscrew.basis.records import Message
 from ballscrew.basis.units import filled_text
 from ballscrew.files.torque_logs import cleaning
 from ballscrew.files.torque_logs.columns import columns_not_used
-from ballscrew.files.torque_logs.log_rows import OPTIONAL, REQUIRED, TORQUES, LogRows, quantities, seconds
+from ballscrew.files.torque_logs.log_rows import (
+    OPTIONAL,
+    REQUIRED,
+    TORQUES,
+    LogRows,
+    fault_of_celsius,
+    quantities,
+    seconds,
+)
 from ballscrew.files.torque_logs.motion import Floats
 
-#: A median temperature below this is one in °C given as one in kelvin: no ball screw is so cold.
-_COLDEST = 150.0
 #: The note on data without a load.
 NO_LOAD = filled_text("no axial load: 0 N in every row")
 
@@ -162,7 +168,5 @@ def _numbers(name: str, values: Any) -> Floats | Fault:
     if array.ndim > 1:
         return Fault(f"data.{name}", "must have one dimension", str(array.shape), "give one number for each row")
     array = array.astype(np.float64)
-    if name == "temperature" and np.isfinite(array).any() and np.nanmedian(array) < _COLDEST:
-        given = f"{np.nanmedian(array):.4g}"
-        return Fault(f"data.{name}", "must be in kelvin", given, "add 273.15 to temperatures in °C")
-    return array
+    celsius = fault_of_celsius("data.temperature", array, "add 273.15 to temperatures in °C")
+    return array if name != "temperature" or celsius is None else celsius

@@ -8,14 +8,23 @@ from typing import Annotated
 import numpy as np
 
 from ballscrew.basis.arrays import ByValue, where
-from ballscrew.basis.errors import Fault, faults_of, is_concrete, names_keywords, raise_if_any
-from ballscrew.basis.quantities import AngularSpeed, Array, Force, Info, Temperature
+from ballscrew.basis.errors import (
+    Fault,
+    fault_of_declared_unit,
+    faults_of,
+    is_concrete,
+    names_keywords,
+    raise_if_any,
+)
+from ballscrew.basis.quantities import AngularSpeed, Array, Force, Info, Temperature, fields_of
 
 #: A load (N) or a speed (rad/s) nearer to zero than this is none to the formulas. A speed that decays to rest passes
 #: numbers whose reciprocals and powers leave the range of numbers of 64 bits; those of what is farther away do not.
 NOTHING = 1e-100
 #: A speed (rad/s) beyond this is none: its powers leave the range of numbers as well.
 FASTEST = 1 / NOTHING
+#: What to do with arrays that are no list of operating points.
+USE_SWEEP = "give one speed for each load; for every load at every speed use ballscrew.sweep"
 
 
 @names_keywords
@@ -24,8 +33,9 @@ class OperatingState(ByValue):
     """Operating state: axial load and speed of the screw with their signs, and the temperature of the oil.
 
     A positive load is one that a positive speed lifts. Zero load and zero speed are legal and give limits; without a
-    temperature the oil has its own. Any of them may be an array. Raises :class:`~ballscrew.basis.errors.InputError` for
-    non-finite numbers, and for a speed beyond 1e100 rad/s, which is NaN in an array.
+    temperature the oil has its own. Any of them may be an array; a labelled one of xarray loses its labels. Raises
+    :class:`~ballscrew.basis.errors.InputError` for non-finite numbers, for a speed beyond 1e100 rad/s, which is NaN in
+    an array, and for labelled arrays along different dimensions or in another unit.
     """
 
     axial_load: Annotated[
@@ -45,13 +55,28 @@ class OperatingState(ByValue):
     temperature: Temperature | None = None
 
     def __post_init__(self) -> None:
-        faults = faults_of("operation", self)
+        faults = [*self._without_labels(), *faults_of("operation", self)]
         if not faults and is_concrete(self.screw_speed) and abs(self.screw_speed) > FASTEST:
             given = f"{float(self.screw_speed):g} rad/s"
             faults.append(
                 Fault("operation.screw_speed", "is beyond all numbers of the formulas", given, "check its unit")
             )
         raise_if_any(faults)
+
+    def _without_labels(self) -> list[Fault]:
+        """Replace labelled arrays by their values, and return the faults of those that these are not enough for."""
+        labelled = {name: value for name, value in vars(self).items() if hasattr(value, "dims")}
+        if not labelled:
+            return []
+        units = {name: quantity.unit for name, quantity in fields_of(self).items()}
+        faults = [fault_of_declared_unit(f"operation.{name}", value, units[name]) for name, value in labelled.items()]
+        for name, value in labelled.items():
+            object.__setattr__(self, name, value.data)
+        dimensions = dict.fromkeys(str(value.dims) for value in labelled.values() if value.dims)
+        if len(dimensions) > 1:
+            given = " and ".join(dimensions)
+            faults.append(Fault("operation", "has arrays along different dimensions", given, USE_SWEEP))
+        return [fault for fault in faults if fault is not None]
 
     @property
     def settled(self) -> OperatingState:

@@ -51,7 +51,7 @@ from ballscrew.physics.components.laws import (
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.mixed_friction import RunInSharing, ZhouHoeprich
 from ballscrew.physics.components.nut import Nut
-from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.components.operating_state import USE_SWEEP, OperatingState
 from ballscrew.physics.components.outside_laws import usable
 from ballscrew.physics.components.rolling_laws import biboulet_houpert_rolling, olaru_rolling
 from ballscrew.physics.components.screw import BallScrew
@@ -345,8 +345,7 @@ def _misfits(state: OperatingState) -> list[Fault]:
         np.broadcast_shapes(*shapes)
     except ValueError:
         given = " and ".join(map(str, shapes))
-        remedy = "give one speed for each load; for every load at every speed use ballscrew.sweep"
-        return [Fault("operation", "loads and speeds do not fit together", given, remedy)]
+        return [Fault("operation", "loads and speeds do not fit together", given, USE_SWEEP)]
     return []
 
 

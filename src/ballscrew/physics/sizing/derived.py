@@ -18,7 +18,7 @@ from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import transmission
 from ballscrew.physics.sizing.check_table import loads_at_point
 from ballscrew.physics.sizing.checks import groove_bottom
-from ballscrew.physics.sizing.ratings import rated_geometry_of, ratings_of
+from ballscrew.physics.sizing.ratings import load_ratings
 from ballscrew.physics.sizing.rules import Subject, drags
 
 #: What a catalogue may list of a screw, and NaN where it does not.
@@ -41,7 +41,7 @@ def derived(
     of which ``idle_losses`` are not of the balls; ``listed`` has :data:`LISTED`. The torque of the nut without load and
     seals by the rules of makers is ``drag_by_jis``, ``drag_by_rexroth`` and so on; a nut without preload has none.
     """
-    computed = ratings_of(rated_geometry_of(screw))
+    computed = load_ratings(screw)
     preload = getattr(screw.nut, "preload", None)
     nominal = _or(listed["nominal_diameter"], screw.pitch_circle_diameter)
     found: dict[str, Any] = {

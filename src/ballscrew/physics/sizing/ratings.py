@@ -76,3 +76,12 @@ def ratings_of(row: Rated, rating_conformity: Ratio = RATING_CONFORMITY) -> Rati
         dynamic=plain(dynamic_load_rating(d_m, d_w, alpha, phi, balls, row.loaded_turns, f)),
         static=plain(rating.static_load_rating(k_0, balls, row.loaded_turns, d_w, alpha, phi)),
     )
+
+
+def load_ratings(screw: BallScrew) -> Ratings:
+    """Dynamic and static axial load rating of one nut body, or one half, by the geometry. Elementwise.
+
+    Returns :class:`Ratings` of ``screw``: ``dynamic`` is C_a and ``static`` C_0a, both in N, by the formulas of
+    ISO3408-5. What a catalogue prints is in its row, ``ballscrew.catalogue()[name].dynamic_load_rating``.
+    """
+    return ratings_of(rated_geometry_of(screw))
