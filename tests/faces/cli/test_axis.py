@@ -8,11 +8,12 @@ import pytest
 
 from ballscrew.axis.supports.stiffness import stiffness_over_stroke
 from ballscrew.basis.errors import InputError
+from ballscrew.basis.sheet import Columns
 from ballscrew.cases.case_files import case_file
 from ballscrew.physics.sizing.installation import Ends
 from ballscrew.questions.axis.compute import chain_of, load
-from ballscrew.questions.duty import table as duty_tables
 from ballscrew.questions.duty.compute import duty
+from ballscrew.questions.duty.sheet import sheet
 from ballscrew.questions.duty.verdicts import warnings
 from support.commands import ROOT
 from support.pictures import drawn
@@ -150,10 +151,10 @@ def test_a_row_that_is_pulled_off_is_said_in_the_duty():
 
 def test_the_table_of_the_heat_is_all_that_is_lost(case):
     report = duty(case)
-    table = duty_tables.heat(report)
-    assert table.headings == ["element", "mechanism", "energy in a cycle [J]", "mean heat [W]"]
-    assert sum(row[2] for row in table.rows) == pytest.approx(report.numbers["energy_lost"], rel=1e-9)
-    assert sum(row[3] for row in table.rows) == pytest.approx(sum(report.duty.heat.values()), rel=1e-9)
+    (heat,) = (block for block in sheet(report).of_kind(Columns) if block.name == "heat")
+    assert [column.name for column in heat.columns] == ["element", "mechanism", "energy in a cycle", "mean heat"]
+    assert sum(heat.columns[2].values) == pytest.approx(report.numbers["energy_lost"], rel=1e-9)
+    assert sum(heat.columns[3].values) == pytest.approx(sum(report.duty.heat.values()), rel=1e-9)
 
 
 def test_what_no_bearing_has_is_said():

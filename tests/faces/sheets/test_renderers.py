@@ -1,0 +1,157 @@
+"""Renderers of sheets, on sheets made for them: what is in a sheet is on each of its faces, in units of people."""
+
+import csv
+import json
+import math
+import zipfile
+
+import numpy as np
+import pytest
+
+from ballscrew.basis.quantities import Info, Quantity
+from ballscrew.basis.sheet import (
+    Axis,
+    Bars,
+    Chart,
+    Column,
+    Columns,
+    Curve,
+    Level,
+    Line,
+    Lines,
+    Number,
+    Share,
+    Sheet,
+    Table,
+    document,
+    words,
+)
+from ballscrew.faces.sheets import files, report_blocks, terminal, to_file
+from support.pictures import drawn
+
+LENGTH = Quantity("stroke", "m", Info("s", "stroke", "mm"))
+TURNS = Quantity("turns", "1", Info("n", "turns"))
+TIME = Quantity("time", "s", Info("t", "time"))
+SHEET = Sheet(
+    "an axis of two parts",
+    [
+        Lines([Line("assumed: nothing", "small")], detail=True),
+        Lines([Line("it holds", "verdict"), Line("it is warm", "warning", "heat")]),
+        Table(
+            "parts",
+            "Parts",
+            ("", "stroke", "share", "why"),
+            [["first", Number(0.25, LENGTH, band=(0.21234, 0.29876)), Share(0.75), "long"], ["other", None, None, ""]],
+            ["A part may be short."],
+        ),
+        Table("life", "Life", ("", "value"), [["turns", Number(1.126e9, TURNS)], ["travel", Number(2.0, LENGTH)]]),
+        Chart(
+            "motion",
+            Axis("time", TIME),
+            Axis("position", LENGTH),
+            [Curve("there", [0.0, 1.0], [0.0, 0.25], "blue"), Level("end", 0.25)],
+        ),
+        Bars("shares", LENGTH, [("first", 0.25, "red")]),
+        Columns("states", [Column("time", np.array([0.0, 0.5, math.nan]), TIME), Column("phase", ["a", "b", "b"])]),
+    ],
+)
+
+
+@pytest.mark.parametrize(
+    ("cell", "text"),
+    [
+        (Number(0.25, LENGTH), "250 mm"),
+        (Number(0.25, LENGTH, band=(0.21234, 0.29876)), "250 mm (212.3 to 298.8)"),  # ends outward
+        (Number(1.126e9, TURNS), "1126 million"),
+        (Number(math.inf, TURNS), "infinite"),
+        (Number(math.nan, LENGTH), "–"),
+        (Number(-0.0, LENGTH), "0 mm"),
+        (Share(-0.125), "-12.5%"),
+        (None, "–"),
+        ("long", "long"),
+    ],
+)
+def test_cells_in_words(cell, text):
+    assert words(cell) == text
+
+
+def test_terminal():
+    assert terminal.text(SHEET, "ascii").splitlines() == [
+        "an axis of two parts",
+        "",
+        "assumed: nothing",
+        "",
+        "it holds",
+        "warning  heat: it is warm",
+        "",
+        "Parts                     stroke  share  why",
+        "  first  250 mm (212.3 to 298.8)  75.0%  long",
+        "  other                        –      –",
+        "  A part may be short.",
+        "",
+        "Life             value",
+        "  turns   1126 million",
+        "  travel       2000 mm",
+    ]
+
+
+def test_bars_on_the_terminal():
+    table = Table("t", "T", ("", "share"), [["half", Share(0.5)], ["none", Share(0.0)], ["beyond", Share(1.5)]])
+    lines = terminal.text(Sheet("s", [table])).splitlines()
+    assert [line.count("█") for line in lines] == [0, 0, 0, 12, 0, 24]
+
+
+def test_report_leaves_detail_out():
+    blocks = report_blocks.blocks(SHEET, "axis")
+    assert [type(block).__name__ for block in blocks] == ["Paragraph", "Bullets", "Table", "Table", "Picture"]
+    assert blocks[0].text == "An axis of two parts. It holds."
+    assert blocks[1].entries == ["It is warm."]
+    assert blocks[2].rows[0][:4] == ["first", "250 mm (212.3 to 298.8)", "75.0%", "long"]
+    assert blocks[2].rows[0][4].end == 0.75
+    assert "assumed" not in str(blocks)
+
+
+def test_csv_and_workbook(tmp_path):
+    to_file.write(tmp_path / "a.csv", SHEET)
+    with (tmp_path / "a.csv").open(encoding="utf-8", newline="") as stream:
+        assert list(csv.reader(stream)) == [["time [s]", "phase"], ["0.0", "a"], ["0.5", "b"], ["", "b"]]
+    to_file.write(tmp_path / "a.xlsx", SHEET)
+    with zipfile.ZipFile(tmp_path / "a.xlsx") as book:
+        listed = book.read("xl/workbook.xml").decode()
+    assert [name in listed for name in ("parts", "life", "states")] == [True] * 3
+    # one unit in the heading, several beside the numbers
+    parts, life = (files.rows_of(SHEET.blocks[index]) for index in (2, 3))
+    assert parts.headings == ["parts", "stroke [mm]", "from", "to", "share", "why"]
+    assert parts.rows[0] == ["first", 250.0, 212.34, 298.76, 0.75, "long"]
+    assert life.headings == ["life", "value", "unit"]
+    assert life.rows == [["turns", 1.126e9, ""], ["travel", 2000.0, "mm"]]
+
+
+def test_picture(tmp_path):
+    to_file.write(tmp_path / "a.svg", SHEET)
+    shown = drawn(tmp_path / "a.svg")
+    for text in ("an axis of two parts", "it holds", "position [mm]", "time [s]", "there", "end", "shares", "[mm]"):
+        assert text in shown.text
+
+
+def test_json():
+    found = json.loads(json.dumps(document(SHEET), allow_nan=False))
+    assert [block["kind"] for block in found["blocks"]] == [
+        "lines",
+        "lines",
+        "table",
+        "table",
+        "chart",
+        "bars",
+        "columns",
+    ]
+    number = found["blocks"][2]["rows"][0][1]
+    assert (number["value"], number["unit"], number["band"]) == (0.25, "m", [0.21234, 0.29876])
+    assert found["blocks"][6]["columns"][0]["values"] == [0.0, 0.5, None]
+
+
+def test_unknown_kinds_of_files_are_refused(tmp_path):
+    from ballscrew.basis.errors import InputError
+
+    with pytest.raises(InputError, match=r"a\.doc.*\.csv, \.xlsx, \.png, \.svg or \.pdf"):
+        to_file.check([tmp_path / "a.doc"])
