@@ -22,7 +22,7 @@ MODELS = ("reference",)
 NUTS = ("row", "double", "double+elastic")
 #: As that of the fixture: the folder below the root of the server.
 PATH = "tools/screws/"
-DOUBLE = "#start=rexroth-32x10x3.969-5-double"
+DOUBLE = "#start=rexroth-32x10x3.969-5-double&kind=double"
 ELASTIC = "#start=hiwin-40-8k5&kind=double%2Belastic"
 AXE = (Path(axe_playwright_python.__file__).parent / "axe.min.js").read_text(encoding="utf-8")
 OPEN_ALL = "for (const one of document.querySelectorAll('details')) one.open = true"
