@@ -135,6 +135,7 @@ def test_the_band_is_that_of_the_program(visit, fragment):
     here.rest()
     for place in ("#band", "#fan"):
         assert f"{low:.4f} to {high:.4f}" in here.page.locator(place).inner_text()
+    assert "inputs alone" in here.page.locator("#band").inner_text()  # that of the program is of inputs and laws
 
 
 def test_a_band_of_numbers_that_were_changed_is_dropped(visit):

@@ -111,6 +111,11 @@ export function rounded(name, value, band) {
   return { text: written, interval: `${text("answer.interval", { low, high })}${end}` };
 }
 
+/** The ends of a band with what they are of. @param {string} interval @param {BandAnswer} known */
+function ofCauses(interval, { band }) {
+  return text(Object.keys(band.laws).length ? "answer.of_inputs_and_laws" : "answer.of_inputs", { interval });
+}
+
 /** Why a torque lies outside its band, for the headline. @param {number | null} torque @param {BandAnswer | undefined} band */
 function outsideBand(torque, band) {
   const { low, high } = band?.band.screw_torque ?? {};
@@ -159,7 +164,7 @@ export function show(answer, { band, checks }, isWanted = () => true) {
   const efficiency = isDriven ? "back_driving_efficiency" : "efficiency";
   const shown = rounded(efficiency, results[efficiency], known).text;
   const numbersInWords = text("answer.summary", {
-    friction: `${torque.text}${torque.interval ? ` (${torque.interval})` : ""}`,
+    friction: `${torque.text}${torque.interval && known ? ` (${ofCauses(torque.interval, known)})` : ""}`,
     drive: rounded("drive_torque", results.drive_torque, known).text,
     efficiency: isDriven ? text("answer.load_drives", { efficiency: shown }) : shown,
   });
