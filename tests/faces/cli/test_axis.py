@@ -31,7 +31,7 @@ def test_all_forms(ballscrew, tmp_path):
     process = ballscrew("axis", EXAMPLE, "--to", table, "--to", picture)
     assert process.returncode == 0, process.stderr
     assert process.stderr == ""
-    for words in ("fixed–supported shaft of 1100 mm", "lost motion", "softest with the nut at 850 mm",
+    for words in ("fixed–supported shaft of 1100 mm", "lost motion", "softest in its travel with the nut at 850 mm",
                   "bearings 800 N/µm", "mount rigid"):  # fmt: skip
         assert words in " ".join(process.stdout.split())
     shown = drawn(picture)
