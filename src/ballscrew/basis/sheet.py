@@ -95,6 +95,9 @@ class Axis:
 
     name: str
     quantity: Quantity
+    log: bool = False
+    #: Where it begins, in SI; by what is drawn where it is not given.
+    least: float | None = None
 
 
 @dataclasses.dataclass(frozen=True)
@@ -105,9 +108,20 @@ class Curve:
     x: Array
     y: Array
     colour: Colour = "ink"
-    style: Literal["line", "dashed", "dots", "circles", "area"] = "line"
+    style: Literal["line", "dashed", "dotted", "dots", "circles", "area"] = "line"
     #: Drawn on the second axis.
     second: bool = False
+
+
+@dataclasses.dataclass(frozen=True)
+class Band:
+    """The area between two curves, in a light shade."""
+
+    name: str
+    x: Array
+    low: Array
+    high: Array
+    colour: Colour = "ink"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -116,6 +130,15 @@ class Level:
 
     name: str
     y: float
+    colour: Colour = "grey"
+
+
+@dataclasses.dataclass(frozen=True)
+class Vertical:
+    """A value of the horizontal axis that holds along the whole chart."""
+
+    name: str
+    x: float
 
 
 @dataclasses.dataclass(frozen=True)
@@ -126,8 +149,26 @@ class Chart:
     title: str
     x: Axis
     y: Axis
-    marks: Sequence[Curve | Level]
+    marks: Sequence[Curve | Band | Level | Vertical]
     second: Axis | None = None
+    #: Left out where room is short, on pages of a report.
+    detail: bool = False
+
+
+@dataclasses.dataclass(frozen=True)
+class Map:
+    """Values over two axes as colours, in rows along the horizontal one."""
+
+    kind: ClassVar = "map"
+    title: str
+    x: Axis
+    y: Axis
+    value: Axis
+    places: tuple[Array, Array]
+    values: Array
+    marks: Sequence[Level | Vertical] = ()
+    #: Left out where room is short, on pages of a report.
+    detail: bool = False
 
 
 @dataclasses.dataclass(frozen=True)
@@ -158,7 +199,7 @@ class Columns:
     columns: Sequence[Column]
 
 
-Block: TypeAlias = Lines | Table | Chart | Bars | Columns
+Block: TypeAlias = Lines | Table | Chart | Map | Bars | Columns
 
 
 @dataclasses.dataclass(frozen=True)

@@ -11,6 +11,7 @@ import pytest
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.basis.sheet import (
     Axis,
+    Band,
     Bars,
     Chart,
     Column,
@@ -19,14 +20,16 @@ from ballscrew.basis.sheet import (
     Level,
     Line,
     Lines,
+    Map,
     Number,
     Share,
     Sheet,
     Table,
+    Vertical,
     document,
     words,
 )
-from ballscrew.faces.sheets import files, report_blocks, terminal, to_file
+from ballscrew.faces.sheets import files, pictures, report_blocks, terminal, to_file
 from support.pictures import drawn
 
 LENGTH = Quantity("stroke", "m", Info("s", "stroke", "mm"))
@@ -36,7 +39,7 @@ SHEET = Sheet(
     "an axis of two parts",
     [
         Lines([Line("assumed: nothing", "small")], detail=True),
-        Lines([Line("it holds", "verdict"), Line("it is warm", "warning", "heat")]),
+        Lines([Line("it holds", "verdict"), Line("it is warm", "warning", "heat"), Line("assumed: a length", "small")]),
         Table(
             "parts",
             "Parts",
@@ -49,7 +52,28 @@ SHEET = Sheet(
             "motion",
             Axis("time", TIME),
             Axis("position", LENGTH),
-            [Curve("there", [0.0, 1.0], [0.0, 0.25], "blue"), Level("end", 0.25)],
+            [
+                Curve("there", [0.0, 1.0], [0.0, 0.25], "blue"),
+                Band("samples", [0.0, 1.0], [0.0, 0.2], [0.0, 0.3], "blue"),
+                Level("end", 0.25, "red"),
+                Vertical("half", 0.5),
+            ],
+        ),
+        Chart(
+            "orders",
+            Axis("order", TURNS),
+            Axis("amplitude", LENGTH, log=True, least=1e-6),
+            [Curve("", [1.0, 2.0, 3.0], [1e-9, 1e-3, 1e-2], style="dotted")],
+            detail=True,
+        ),
+        Map(
+            "growth",
+            Axis("time", TIME),
+            Axis("place", LENGTH),
+            Axis("grown", LENGTH),
+            ([0.0, 1.0, 2.0], [0.0, 0.1]),
+            [[0.0, 1e-3, 2e-3], [0.0, 2e-3, 4e-3]],
+            [Level("end", 0.05)],
         ),
         Bars("shares", LENGTH, [("first", 0.25, "red")]),
         Columns("states", [Column("time", np.array([0.0, 0.5, math.nan]), TIME), Column("phase", ["a", "b", "b"])]),
@@ -83,6 +107,7 @@ def test_terminal():
         "",
         "it holds",
         "warning  heat: it is warm",
+        "assumed: a length",
         "",
         "Parts                     stroke  share  why",
         "  first  250 mm (212.3 to 298.8)  75.0%  long",
@@ -103,12 +128,21 @@ def test_bars_on_the_terminal():
 
 def test_report_leaves_detail_out():
     blocks = report_blocks.blocks(SHEET, "axis")
-    assert [type(block).__name__ for block in blocks] == ["Paragraph", "Bullets", "Table", "Table", "Picture"]
+    assert [type(block).__name__ for block in blocks] == [
+        "Paragraph",
+        "Bullets",
+        "Table",
+        "Table",
+        "Picture",
+        "Bullets",
+    ]
     assert blocks[0].text == "An axis of two parts. It holds."
     assert blocks[1].entries == ["It is warm."]
     assert blocks[2].rows[0][:4] == ["first", "250 mm (212.3 to 298.8)", "75.0%", "long"]
     assert blocks[2].rows[0][4].end == 0.75
-    assert "assumed" not in str(blocks)
+    assert blocks[4].words == "Motion; growth: an axis of two parts."
+    assert blocks[5].entries == ["Assumed: a length."]
+    assert "assumed: nothing" not in str(blocks)
 
 
 def test_csv_and_workbook(tmp_path):
@@ -130,8 +164,17 @@ def test_csv_and_workbook(tmp_path):
 def test_picture(tmp_path):
     to_file.write(tmp_path / "a.svg", SHEET)
     shown = drawn(tmp_path / "a.svg")
-    for text in ("an axis of two parts", "it holds", "position [mm]", "time [s]", "there", "end", "shares", "[mm]"):
+    charts = ("position [mm]", "time [s]", "there", "samples", "end", "half", "amplitude [mm]", "grown [mm]")
+    for text in ("an axis of two parts", "it holds", *charts, "shares", "[mm]"):
         assert text in shown.text
+    assert [len(panel.lines) for panel in shown.panels[:3]] == [3, 1, 1]
+    assert [panel.areas for panel in shown.panels[:3]] == [1, 0, 1]
+
+
+def test_axes_of_a_picture():
+    _, second, *_ = pictures.picture(SHEET).axes
+    assert second.get_yscale() == "log"
+    assert second.get_ylim()[0] == pytest.approx(1e-3)
 
 
 def test_json():
@@ -142,12 +185,14 @@ def test_json():
         "table",
         "table",
         "chart",
+        "chart",
+        "map",
         "bars",
         "columns",
     ]
     number = found["blocks"][2]["rows"][0][1]
     assert (number["value"], number["unit"], number["band"]) == (0.25, "m", [0.21234, 0.29876])
-    assert found["blocks"][6]["columns"][0]["values"] == [0.0, 0.5, None]
+    assert found["blocks"][8]["columns"][0]["values"] == [0.0, 0.5, None]
 
 
 def test_unknown_kinds_of_files_are_refused(tmp_path):
