@@ -12,6 +12,7 @@ from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.basis.sheet import (
     Axis,
     Band,
+    Bar,
     Bars,
     Chart,
     Column,
@@ -75,7 +76,17 @@ SHEET = Sheet(
             [[0.0, 1e-3, 2e-3], [0.0, 2e-3, 4e-3]],
             [Level("end", 0.05)],
         ),
-        Bars("shares", LENGTH, [("first", 0.25, "red")]),
+        Bars("shares", LENGTH, [Bar("first", [("", 0.25, "red")])]),
+        Bars(
+            "parts of a sum",
+            LENGTH,
+            [
+                Bar("with a band"),
+                Bar("sum", [("rolling", 0.2, "sky"), ("slip", 0.1, "blue")], (0.2, 0.45), "as it is"),
+                Bar("other", [("slip", -0.1, "blue"), ("rolling", 0.3, "sky")], hatched=True),
+            ],
+            [Vertical("half", 0.15)],
+        ),
         Columns("states", [Column("time", np.array([0.0, 0.5, math.nan]), TIME), Column("phase", ["a", "b", "b"])]),
     ],
 )
@@ -90,7 +101,10 @@ SHEET = Sheet(
         (Number(math.inf, TURNS), "infinite"),
         (Number(math.nan, LENGTH), "–"),
         (Number(-0.0, LENGTH), "0 mm"),
+        (Number(0.25, LENGTH, 2, (0.21234, 0.29876)), "250 mm (210 to 300)"),
         (Share(-0.125), "-12.5%"),
+        (Share(0.125, band=(0.12345, 0.13001)), "12.5% (12.3% to 13.1%)"),
+        (Share(math.nan), "–"),
         (None, "–"),
         ("long", "long"),
     ],
@@ -165,10 +179,26 @@ def test_picture(tmp_path):
     to_file.write(tmp_path / "a.svg", SHEET)
     shown = drawn(tmp_path / "a.svg")
     charts = ("position [mm]", "time [s]", "there", "samples", "end", "half", "amplitude [mm]", "grown [mm]")
-    for text in ("an axis of two parts", "it holds", *charts, "shares", "[mm]"):
+    caption = "It holds. It is warm. Assumed: a length."
+    parts = ("rolling", "slip", "as it is", "parts of a sum")
+    for text in ("an axis of two parts", caption, *charts, "shares", "[mm]", *parts):
         assert text in shown.text
     assert [len(panel.lines) for panel in shown.panels[:3]] == [3, 1, 1]
     assert [panel.areas for panel in shown.panels[:3]] == [1, 0, 1]
+
+
+def test_bars_of_parts():
+    """Parts stand one after the other, negative ones to the left of zero; a band is about the end of their sum."""
+    panel = next(panel for panel in pictures.picture(SHEET).axes if panel.get_title() == "parts of a sum")
+    edges = [(round(bar.get_x(), 9), round(bar.get_x() + bar.get_width(), 9)) for bar in panel.patches]
+    assert edges == [(0, 200), (200, 300), (0, -100), (0, 300)]
+    assert [bool(bar.get_hatch()) for bar in panel.patches] == [False, False, True, True]
+    assert panel.collections[0].get_segments()[0][:, 0] == pytest.approx([200, 450])
+
+
+def test_csv_without_columns_is_of_the_longest_table(tmp_path):
+    files.write(tmp_path / "a.csv", Sheet("s", [Table("t", "T", ("", "share"), [["half", Share(0.5)]])]))
+    assert (tmp_path / "a.csv").read_text() == "t,share\nhalf,0.5\n"
 
 
 def test_axes_of_a_picture():
@@ -188,11 +218,12 @@ def test_json():
         "chart",
         "map",
         "bars",
+        "bars",
         "columns",
     ]
     number = found["blocks"][2]["rows"][0][1]
     assert (number["value"], number["unit"], number["band"]) == (0.25, "m", [0.21234, 0.29876])
-    assert found["blocks"][8]["columns"][0]["values"] == [0.0, 0.5, None]
+    assert found["blocks"][9]["columns"][0]["values"] == [0.0, 0.5, None]
 
 
 def test_unknown_kinds_of_files_are_refused(tmp_path):

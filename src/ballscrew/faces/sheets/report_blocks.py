@@ -19,9 +19,10 @@ def blocks(sheet: Sheet, name: str) -> list[Block]:
     shown: list[Block] = [Paragraph(" ".join([f"{sentence(sheet.title)}.", *verdicts]), strong=True)]
     shown += [Bullets(warned)] if warned else []
     shown += [table(block) for block in sheet.of_kind(SheetTable) if not block.detail]
-    titles = "; ".join(block.title for block in sheet.of_kind(Chart, Map) if not block.detail)
-    if titles:
-        drawn = named(svg_of(lambda: pictures.page(sheet), name), f"{sentence(titles)}: {sheet.title}.")
+    charts = [block for block in sheet.of_kind(Chart, Map) if not block.detail]
+    if charts:
+        titles = "; ".join(chart.title for chart in charts)
+        drawn = named(svg_of(lambda: pictures.page(charts), name), f"{sentence(titles)}: {sheet.title}.")
         shown.append(Picture(drawn, f"{sentence(titles)}: {sheet.title}.", f"{sentence(titles)}."))
     shown += [Bullets(others)] if others else []
     return shown
