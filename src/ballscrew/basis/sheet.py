@@ -9,13 +9,15 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, ClassVar, Literal, TypeAlias
 
 from ballscrew.basis import units
 from ballscrew.basis.output.plain_numbers import plain
 from ballscrew.basis.quantities import Array, Quantity
 
+#: Digits of the ends of the band of a share.
+_SHARE_DIGITS = 3
 #: Colours by name; each renderer has its own shades of them.
 Colour = Literal["ink", "grey", "blue", "orange", "green", "purple", "sky", "red", "yellow"]
 
@@ -32,10 +34,11 @@ class Number:
 
 @dataclasses.dataclass(frozen=True)
 class Share:
-    """A share of a whole, in per cent, and as a bar where there is room."""
+    """A share of a whole, in per cent, and as a bar where there is room, with the ends of its band where it has one."""
 
     value: float
     bar: bool = True
+    band: tuple[float, float] | None = None
 
 
 #: A text, a number, a share, or nothing that is known.
@@ -95,6 +98,9 @@ class Axis:
 
     name: str
     quantity: Quantity
+    log: bool = False
+    #: Where it begins, in SI; by what is drawn where it is not given.
+    least: float | None = None
 
 
 @dataclasses.dataclass(frozen=True)
@@ -105,9 +111,20 @@ class Curve:
     x: Array
     y: Array
     colour: Colour = "ink"
-    style: Literal["line", "dashed", "dots", "circles", "area"] = "line"
+    style: Literal["line", "dashed", "dotted", "dots", "circles", "area"] = "line"
     #: Drawn on the second axis.
     second: bool = False
+
+
+@dataclasses.dataclass(frozen=True)
+class Band:
+    """The area between two curves, in a light shade."""
+
+    name: str
+    x: Array
+    low: Array
+    high: Array
+    colour: Colour = "ink"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -116,6 +133,16 @@ class Level:
 
     name: str
     y: float
+    colour: Colour = "grey"
+
+
+@dataclasses.dataclass(frozen=True)
+class Vertical:
+    """A value of the horizontal axis that holds along the whole chart."""
+
+    name: str
+    x: float
+    colour: Colour = "grey"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -126,18 +153,50 @@ class Chart:
     title: str
     x: Axis
     y: Axis
-    marks: Sequence[Curve | Level]
+    marks: Sequence[Curve | Band | Level | Vertical]
     second: Axis | None = None
+    #: Left out where room is short, on pages of a report.
+    detail: bool = False
+
+
+@dataclasses.dataclass(frozen=True)
+class Map:
+    """Values over two axes as colours, in rows along the horizontal one."""
+
+    kind: ClassVar = "map"
+    title: str
+    x: Axis
+    y: Axis
+    value: Axis
+    places: tuple[Array, Array]
+    values: Array
+    marks: Sequence[Level | Vertical] = ()
+    #: Left out where room is short, on pages of a report.
+    detail: bool = False
+
+
+@dataclasses.dataclass(frozen=True)
+class Bar:
+    """A bar by its name: parts one after the other, each with its name, value and colour; a heading has none."""
+
+    name: str
+    parts: Sequence[tuple[str, float, Colour]] = ()
+    #: The ends of the band of their sum.
+    band: tuple[float, float] | None = None
+    #: What stands to its right.
+    text: str = ""
+    hatched: bool = False
 
 
 @dataclasses.dataclass(frozen=True)
 class Bars:
-    """Values by name, from the largest down."""
+    """Values by name, from the top down."""
 
     kind: ClassVar = "bars"
     title: str
     quantity: Quantity
-    bars: Sequence[tuple[str, float, Colour]]
+    bars: Sequence[Bar]
+    marks: Sequence[Vertical] = ()
 
 
 @dataclasses.dataclass(frozen=True)
@@ -158,7 +217,7 @@ class Columns:
     columns: Sequence[Column]
 
 
-Block: TypeAlias = Lines | Table | Chart | Bars | Columns
+Block: TypeAlias = Lines | Table | Chart | Map | Bars | Columns
 
 
 @dataclasses.dataclass(frozen=True)
@@ -179,17 +238,20 @@ def words(cell: Cell) -> str:
         case None:
             return "–"
         case Number(value, quantity, digits, band):
-            text = _in_words(value, quantity, digits)
-            if band is None or not all(map(math.isfinite, band)) or not band[1] > band[0]:
-                return text
-            low, high = (
-                plain(units.rounded(end + 0.0, quantity, toward=to)) for end, to in zip(band, (-1, 1), strict=True)
-            )
-            return f"{text} ({low} to {high})"
-        case Share(value):
-            return f"{value:.1%}"
+            ends = _band_in_words(band, lambda end, to: plain(units.rounded(end, quantity, digits, to)))
+            return f"{_in_words(value, quantity, digits)}{ends}"
+        case Share(value, _, band):
+            ends = _band_in_words(band, lambda end, to: f"{units.to_digits(100 * end, _SHARE_DIGITS, to)}%")
+            return f"{value:.1%}{ends}" if math.isfinite(value) else "–"
         case _:
             return cell
+
+
+def _band_in_words(band: tuple[float, float] | None, written: Callable[[float, int], str]) -> str:
+    """The ends of a band behind a value, written as rounded down and up; nothing where they are not apart."""
+    if band is None or not all(map(math.isfinite, band)) or not band[1] > band[0]:
+        return ""
+    return f" ({written(band[0] + 0.0, -1)} to {written(band[1] + 0.0, 1)})"
 
 
 def _in_words(value: float, quantity: Quantity, digits: int) -> str:
@@ -211,7 +273,8 @@ def _data(part: Any) -> Any:
         shown = {"unit": part.quantity.unit, "shown_in": part.quantity.shown_in, "digits": part.digits}
         return {"value": _data(part.value), **shown, **band}
     if isinstance(part, Share):
-        return {"share": _data(part.value), "bar": part.bar}
+        band = {} if part.band is None else {"band": [_data(end) for end in part.band]}
+        return {"share": _data(part.value), "bar": part.bar, **band}
     if dataclasses.is_dataclass(part):
         return {field.name: _data(getattr(part, field.name)) for field in dataclasses.fields(part)}
     if isinstance(part, float):

@@ -11,6 +11,8 @@ import pytest
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.basis.sheet import (
     Axis,
+    Band,
+    Bar,
     Bars,
     Chart,
     Column,
@@ -19,14 +21,16 @@ from ballscrew.basis.sheet import (
     Level,
     Line,
     Lines,
+    Map,
     Number,
     Share,
     Sheet,
     Table,
+    Vertical,
     document,
     words,
 )
-from ballscrew.faces.sheets import files, report_blocks, terminal, to_file
+from ballscrew.faces.sheets import files, pictures, report_blocks, terminal, to_file
 from support.pictures import drawn
 
 LENGTH = Quantity("stroke", "m", Info("s", "stroke", "mm"))
@@ -36,7 +40,7 @@ SHEET = Sheet(
     "an axis of two parts",
     [
         Lines([Line("assumed: nothing", "small")], detail=True),
-        Lines([Line("it holds", "verdict"), Line("it is warm", "warning", "heat")]),
+        Lines([Line("it holds", "verdict"), Line("it is warm", "warning", "heat"), Line("assumed: a length", "small")]),
         Table(
             "parts",
             "Parts",
@@ -49,9 +53,40 @@ SHEET = Sheet(
             "motion",
             Axis("time", TIME),
             Axis("position", LENGTH),
-            [Curve("there", [0.0, 1.0], [0.0, 0.25], "blue"), Level("end", 0.25)],
+            [
+                Curve("there", [0.0, 1.0], [0.0, 0.25], "blue"),
+                Band("samples", [0.0, 1.0], [0.0, 0.2], [0.0, 0.3], "blue"),
+                Level("end", 0.25, "red"),
+                Vertical("half", 0.5),
+            ],
         ),
-        Bars("shares", LENGTH, [("first", 0.25, "red")]),
+        Chart(
+            "orders",
+            Axis("order", TURNS),
+            Axis("amplitude", LENGTH, log=True, least=1e-6),
+            [Curve("", [1.0, 2.0, 3.0], [1e-9, 1e-3, 1e-2], style="dotted")],
+            detail=True,
+        ),
+        Map(
+            "growth",
+            Axis("time", TIME),
+            Axis("place", LENGTH),
+            Axis("grown", LENGTH),
+            ([0.0, 1.0, 2.0], [0.0, 0.1]),
+            [[0.0, 1e-3, 2e-3], [0.0, 2e-3, 4e-3]],
+            [Level("end", 0.05)],
+        ),
+        Bars("shares", LENGTH, [Bar("first", [("", 0.25, "red")])]),
+        Bars(
+            "parts of a sum",
+            LENGTH,
+            [
+                Bar("with a band"),
+                Bar("sum", [("rolling", 0.2, "sky"), ("slip", 0.1, "blue")], (0.2, 0.45), "as it is"),
+                Bar("other", [("slip", -0.1, "blue"), ("rolling", 0.3, "sky")], hatched=True),
+            ],
+            [Vertical("half", 0.15)],
+        ),
         Columns("states", [Column("time", np.array([0.0, 0.5, math.nan]), TIME), Column("phase", ["a", "b", "b"])]),
     ],
 )
@@ -66,7 +101,10 @@ SHEET = Sheet(
         (Number(math.inf, TURNS), "infinite"),
         (Number(math.nan, LENGTH), "–"),
         (Number(-0.0, LENGTH), "0 mm"),
+        (Number(0.25, LENGTH, 2, (0.21234, 0.29876)), "250 mm (210 to 300)"),
         (Share(-0.125), "-12.5%"),
+        (Share(0.125, band=(0.12345, 0.13001)), "12.5% (12.3% to 13.1%)"),
+        (Share(math.nan), "–"),
         (None, "–"),
         ("long", "long"),
     ],
@@ -83,6 +121,7 @@ def test_terminal():
         "",
         "it holds",
         "warning  heat: it is warm",
+        "assumed: a length",
         "",
         "Parts                     stroke  share  why",
         "  first  250 mm (212.3 to 298.8)  75.0%  long",
@@ -103,12 +142,21 @@ def test_bars_on_the_terminal():
 
 def test_report_leaves_detail_out():
     blocks = report_blocks.blocks(SHEET, "axis")
-    assert [type(block).__name__ for block in blocks] == ["Paragraph", "Bullets", "Table", "Table", "Picture"]
+    assert [type(block).__name__ for block in blocks] == [
+        "Paragraph",
+        "Bullets",
+        "Table",
+        "Table",
+        "Picture",
+        "Bullets",
+    ]
     assert blocks[0].text == "An axis of two parts. It holds."
     assert blocks[1].entries == ["It is warm."]
     assert blocks[2].rows[0][:4] == ["first", "250 mm (212.3 to 298.8)", "75.0%", "long"]
     assert blocks[2].rows[0][4].end == 0.75
-    assert "assumed" not in str(blocks)
+    assert blocks[4].words == "Motion; growth: an axis of two parts."
+    assert blocks[5].entries == ["Assumed: a length."]
+    assert "assumed: nothing" not in str(blocks)
 
 
 def test_csv_and_workbook(tmp_path):
@@ -130,8 +178,33 @@ def test_csv_and_workbook(tmp_path):
 def test_picture(tmp_path):
     to_file.write(tmp_path / "a.svg", SHEET)
     shown = drawn(tmp_path / "a.svg")
-    for text in ("an axis of two parts", "it holds", "position [mm]", "time [s]", "there", "end", "shares", "[mm]"):
+    charts = ("position [mm]", "time [s]", "there", "samples", "end", "half", "amplitude [mm]", "grown [mm]")
+    caption = "It holds. It is warm. Assumed: a length."
+    parts = ("rolling", "slip", "as it is", "parts of a sum")
+    for text in ("an axis of two parts", caption, *charts, "shares", "[mm]", *parts):
         assert text in shown.text
+    assert [len(panel.lines) for panel in shown.panels[:3]] == [3, 1, 1]
+    assert [panel.areas for panel in shown.panels[:3]] == [1, 0, 1]
+
+
+def test_bars_of_parts():
+    """Parts stand one after the other, negative ones to the left of zero; a band is about the end of their sum."""
+    panel = next(panel for panel in pictures.picture(SHEET).axes if panel.get_title() == "parts of a sum")
+    edges = [(round(bar.get_x(), 9), round(bar.get_x() + bar.get_width(), 9)) for bar in panel.patches]
+    assert edges == [(0, 200), (200, 300), (0, -100), (0, 300)]
+    assert [bool(bar.get_hatch()) for bar in panel.patches] == [False, False, True, True]
+    assert panel.collections[0].get_segments()[0][:, 0] == pytest.approx([200, 450])
+
+
+def test_csv_without_columns_is_of_the_longest_table(tmp_path):
+    files.write(tmp_path / "a.csv", Sheet("s", [Table("t", "T", ("", "share"), [["half", Share(0.5)]])]))
+    assert (tmp_path / "a.csv").read_text() == "t,share\nhalf,0.5\n"
+
+
+def test_axes_of_a_picture():
+    _, second, *_ = pictures.picture(SHEET).axes
+    assert second.get_yscale() == "log"
+    assert second.get_ylim()[0] == pytest.approx(1e-3)
 
 
 def test_json():
@@ -142,12 +215,15 @@ def test_json():
         "table",
         "table",
         "chart",
+        "chart",
+        "map",
+        "bars",
         "bars",
         "columns",
     ]
     number = found["blocks"][2]["rows"][0][1]
     assert (number["value"], number["unit"], number["band"]) == (0.25, "m", [0.21234, 0.29876])
-    assert found["blocks"][6]["columns"][0]["values"] == [0.0, 0.5, None]
+    assert found["blocks"][9]["columns"][0]["values"] == [0.0, 0.5, None]
 
 
 def test_unknown_kinds_of_files_are_refused(tmp_path):

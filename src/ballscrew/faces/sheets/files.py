@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -18,12 +19,13 @@ _DIGITS = 12
 
 
 def write(to: Path, sheet: Sheet) -> None:
-    """Write .csv (the longest table of columns) or .xlsx (all tables), whole or not at all."""
+    """Write .csv (the longest table, of columns where there are some) or .xlsx (all tables), whole or not at all."""
     with atomic_write("--to", to) as path:
         if to.suffix.lower() == ".xlsx":
             path.write_bytes(xlsx_bytes({block.name: rows_of(block) for block in sheet.of_kind(Table, Columns)}))
         else:
-            write_csv(path, max(map(rows_of, sheet.of_kind(Columns)), key=lambda table: len(table.rows)))
+            tables = list(sheet.of_kind(Columns)) or list(sheet.of_kind(Table))
+            write_csv(path, max(map(rows_of, tables), key=lambda table: len(table.rows)))
 
 
 def rows_of(block: Table | Columns) -> RowTable:
@@ -60,10 +62,9 @@ def _of_table(table: Table) -> Iterator[tuple[str, Sequence[Any]]]:
             quantity = next(cell.quantity for cell in cells if isinstance(cell, Number))
             heading = units.heading(quantity, heading)
         yield heading, [_value(cell) for cell in cells]
-        if any(isinstance(cell, Number) and cell.band for cell in cells):
-            bands = [cell.band if isinstance(cell, Number) else None for cell in cells]
+        if any(isinstance(cell, Number | Share) and cell.band for cell in cells):
             for end, of in enumerate(("from", "to")):
-                yield of, [_end(cell, band, end) for cell, band in zip(cells, bands, strict=True)]
+                yield of, [_end(cell, end) for cell in cells]
         if len(quantities) > 1:
             yield "unit", [units.label(cell.quantity) if isinstance(cell, Number) else None for cell in cells]
 
@@ -78,5 +79,7 @@ def _value(cell: Cell) -> Any:
             return cell
 
 
-def _end(cell: Cell, band: tuple[float, float] | None, end: int) -> float | None:
-    return None if band is None or not isinstance(cell, Number) else _value(Number(band[end], cell.quantity))
+def _end(cell: Cell, end: int) -> float | None:
+    if not isinstance(cell, Number | Share) or cell.band is None:
+        return None
+    return _value(dataclasses.replace(cell, value=cell.band[end]))

@@ -1,8 +1,8 @@
-"""A sheet as blocks of a report: its verdicts first, tables without those in detail, its charts as one picture."""
+"""A sheet as blocks of a report: verdicts, warnings, tables, charts as one picture, other lines; no details."""
 
 from __future__ import annotations
 
-from ballscrew.basis.sheet import Chart, Lines, Sheet, words
+from ballscrew.basis.sheet import Chart, Lines, Map, Sheet, words
 from ballscrew.basis.sheet import Table as SheetTable
 from ballscrew.questions.shared.chart_svg import named, svg_of
 from ballscrew.questions.shared.report_blocks import Bar, Block, Bullets, Paragraph, Picture, Table, sentence
@@ -15,14 +15,16 @@ def blocks(sheet: Sheet, name: str) -> list[Block]:
     lines = [line for block in sheet.of_kind(Lines) if not block.detail for line in block.lines]
     verdicts = [f"{sentence(line.text)}." for line in lines if line.kind == "verdict"]
     warned = [f"{sentence(line.text)}." for line in lines if line.kind == "warning"]
+    others = [f"{sentence(line.text)}." for line in lines if line.kind in {"plain", "small"}]
     shown: list[Block] = [Paragraph(" ".join([f"{sentence(sheet.title)}.", *verdicts]), strong=True)]
     shown += [Bullets(warned)] if warned else []
     shown += [table(block) for block in sheet.of_kind(SheetTable) if not block.detail]
-    charts = list(sheet.of_kind(Chart))
+    charts = [block for block in sheet.of_kind(Chart, Map) if not block.detail]
     if charts:
         titles = "; ".join(chart.title for chart in charts)
-        drawn = named(svg_of(lambda: pictures.page(sheet), name), f"{sentence(titles)}: {sheet.title}.")
+        drawn = named(svg_of(lambda: pictures.page(charts), name), f"{sentence(titles)}: {sheet.title}.")
         shown.append(Picture(drawn, f"{sentence(titles)}: {sheet.title}.", f"{sentence(titles)}."))
+    shown += [Bullets(others)] if others else []
     return shown
 
 
