@@ -118,13 +118,14 @@ class Curve:
 
 @dataclasses.dataclass(frozen=True)
 class Band:
-    """The area between two curves, in a light shade."""
+    """The area between two curves, in a light shade, or solid as a part of what is stacked."""
 
     name: str
     x: Array
     low: Array
     high: Array
     colour: Colour = "ink"
+    solid: bool = False
 
 
 @dataclasses.dataclass(frozen=True)

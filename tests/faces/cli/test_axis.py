@@ -32,7 +32,7 @@ def test_all_forms(ballscrew, tmp_path):
     assert process.returncode == 0, process.stderr
     assert process.stderr == ""
     for words in ("fixed–supported shaft of 1100 mm", "lost motion", "softest in its travel with the nut at 850 mm",
-                  "bearings 800 N/µm", "mount rigid"):  # fmt: skip
+                  "bearings 800 N/µm", "mount rigid", "Share of the compliance"):  # fmt: skip
         assert words in " ".join(process.stdout.split())
     shown = drawn(picture)
     assert len(shown.panels) == 4

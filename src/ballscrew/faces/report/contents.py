@@ -138,9 +138,15 @@ def _stiffness(case: case_file.Case) -> list[Section]:
     """The section on what gives way between motor and table, and on what the shaft stands."""
     if not _has_stiffness(case):
         return []
-    from ballscrew.questions.axis import report
+    from ballscrew.faces.sheets import report_blocks
+    from ballscrew.questions.axis.compute import chain_of
+    from ballscrew.questions.axis.sheet import sheet
 
-    return [Section("Stiffness over the stroke", report.blocks_of(case))]
+    try:
+        blocks = report_blocks.blocks(sheet(chain_of(case)), "axis")
+    except InputError as error:
+        blocks = [Paragraph(f"Stiffness is not computed: {'; '.join(map(str, error.faults))}.")]
+    return [Section("Stiffness over the stroke", blocks)]
 
 
 def _heat(case: case_file.Case) -> list[Section]:

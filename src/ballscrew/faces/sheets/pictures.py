@@ -117,7 +117,8 @@ def _chart(panel: Axes, chart: Chart) -> None:
             case Band():
                 x, low, high = (_shown(v, a) for v, a in ((mark.x, chart.x), (mark.low, chart.y), (mark.high, chart.y)))
                 colour, name = _COLOURS[mark.colour], mark.name or None
-                panel.fill_between(x, low, high, color=colour, alpha=_SHADE, linewidth=0, label=name)
+                shade = 1.0 if mark.solid else _SHADE
+                panel.fill_between(x, low, high, color=colour, alpha=shade, linewidth=0, label=name)
             case Level() | Vertical():
                 _mark(panel, mark, chart, color=_COLOURS[mark.colour], label=mark.name or None)
     _axes(panel, chart)
@@ -219,4 +220,5 @@ def _bar(panel: Axes, place: int, bar: Bar, quantity: Quantity) -> None:
 
 
 def _label(axis: Axis) -> str:
-    return units.heading(axis.quantity, axis.name)
+    unit = units.label(axis.quantity)
+    return f"{axis.name} [{unit}]" if unit else axis.name
