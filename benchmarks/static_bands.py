@@ -13,13 +13,16 @@ import sys
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+from random import Random
 from typing import Any
 
 import numpy as np
 
+from ballscrew.cases.case_files import case_file, uncertain_inputs
 from ballscrew.engine.uncertainty import bands
 from ballscrew.faces.site import banding, kinds
-from ballscrew.questions.band.compute import alternatives
+from ballscrew.physics.sizing.catalogue import catalogue
+from ballscrew.questions.band.compute import alternatives, of_makers
 
 sys.path.append(str(Path(__file__).parents[1] / "tests"))
 from support.bands_in_node import BandsPage, arguments_of, band_of_program, fan_of_program
@@ -28,6 +31,7 @@ from support.judged_in_node import case_at
 NUTS = {"balls alone": "row", "double, rigid": "double", "double, elastic": "double+elastic"}
 STARTS = {"paper's screw": kinds.PAPER, "40×10": "rexroth-40x10x6-6-double"}
 ENDS = "low", "high"
+RANDOM_CASES = 30
 HEADING = (
     "screw", "nut", "page, N m", "program, N m", "its ends lower by", "its band wider by", "difference", "ends, s",
     "with the fan, s",
@@ -67,8 +71,31 @@ def compared(page: BandsPage, start: str, structure: tuple[str, str]) -> dict[st
     }
 
 
+def random_ends() -> Iterator[tuple[float, float]]:
+    """The ends of the page over those of the program, of random cases: a start, its nut or another, a point."""
+    random = Random(46)
+    for _ in range(RANDOM_CASES):
+        start = random.choice(list(kinds.start_tables()))
+        kind = kinds.kind_of_start(start) if random.random() < 0.7 else random.choice([*NUTS.values(), "single"])
+        tables = kinds.tables_of(start, "reference", kind)
+        load = random.choice([0.2, 0.5, 1, 2]) * kinds.case_of(start, "reference", kind).operation.axial_load
+        point = {"axial_load": f"{load} N", "screw_speed": f"{random.choice([30, 120, 600, 1500])} rpm"}
+        if "grade" in tables["lubricant"]:
+            grade, warmth = random.choice(["ISO VG 46", "ISO VG 100", "ISO VG 220"]), random.choice([20, 40, 60])
+            tables["lubricant"] = {"grade": grade, "temperature": f"{warmth} degC"}
+        case = case_file.build({**tables, "operation": point}, rows=catalogue())
+        given = {name: getattr(case, name) for name in ("model", "screw", "lubricant")}
+        given |= {name: float(getattr(case.operation, name)) for name in point}
+        given["uncertain"] = {name: one.distribution for name, one in uncertain_inputs.all_of(case).items()}
+        (low, high), (least, most) = (
+            bands.band(**given, alternatives=others, outputs=["screw_torque"], samples=1024)["screw_torque"].both
+            for others in (of_makers(case), alternatives(case))
+        )
+        yield low / least, high / most
+
+
 def main() -> None:
-    """Print the table."""
+    """Print the table, and quantiles of the ends of random cases."""
     print(f"| {' | '.join(HEADING)} |")
     print("|---" * len(HEADING) + "|")
     with tempfile.TemporaryDirectory() as folder:
@@ -86,6 +113,9 @@ def main() -> None:
                     f"{fan:.1f}",
                 )  # fmt: skip
                 print(f"| {' | '.join(cells)} |", flush=True)
+    for end, ratios in zip(ENDS, np.transpose(list(random_ends())), strict=True):
+        least, lower, median, upper, most = np.quantile(ratios, [0, 0.25, 0.5, 0.75, 1])
+        print(f"{end} end, page over program: {median:.2f}, {lower:.2f} to {upper:.2f}, all {least:.2f} to {most:.2f}")
 
 
 if __name__ == "__main__":

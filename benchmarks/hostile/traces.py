@@ -16,9 +16,11 @@ from benchmarks.hostile.tally import Outcome, Tally
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.json_text import as_json
 from ballscrew.cases.case_files import case_file
-from ballscrew.questions.duty import compute, text
+from ballscrew.faces.sheets import terminal
+from ballscrew.questions.duty import compute
 from ballscrew.questions.duty import document as documents
 from ballscrew.questions.duty import verdicts as duty_verdicts
+from ballscrew.questions.duty.sheet import sheet
 
 COUNT, SECONDS = 300, 120.0
 TRIED = (
@@ -117,7 +119,7 @@ def attempt(seed: int, number: int, _: int) -> Outcome:
         tables = {**_tables(), "motion": {"kind": "trajectory", "file": str(path)}}
         report = compute.duty(case_file.build(tables, None, ROOT / "examples", moves=True))
         as_json(documents.document(report))
-        text.text(report, "utf-8")
+        terminal.text(sheet(report))
     except InputError:
         return Outcome(refused=1)
     except Exception as error:

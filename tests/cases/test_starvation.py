@@ -10,12 +10,13 @@ import ballscrew as bs
 from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.cases.case_files import case_file
 from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.faces.sheets import report_blocks
 from ballscrew.physics.components.film_laws import Inlet
 from ballscrew.questions.band import compute as band
 from ballscrew.questions.band import document as band_documents
 from ballscrew.questions.duty import document as duty_documents
-from ballscrew.questions.duty import report as duty_report
 from ballscrew.questions.duty.compute import duty as duty_of
+from ballscrew.questions.duty.sheet import sheet as duty_sheet
 from ballscrew.questions.run import document as run_documents
 from ballscrew.questions.run.compute import run
 from ballscrew.questions.service import compute as service
@@ -347,11 +348,10 @@ def test_an_export_is_judged_without_load_too():
     assert record.value == pytest.approx(float(idle.flooded_torque[place]), rel=1e-6)
 
 
-def test_the_report_has_both_torques_of_a_cycle_and_of_warming_up(monkeypatch):
-    monkeypatch.setattr(duty_report, "_bands", lambda report: None)
+def test_the_report_has_both_torques_of_a_cycle_and_of_warming_up():
     case = case_file.build(tables_of_duty("-5 degC"), moves=True)
     cold = warm_up.warmed_up(warm_up.load(ROOT / "examples" / "warm_up.toml", ["surroundings.ambient=-5 degC"], None))
-    for blocks in (duty_report.blocks(duty_of(case)), warm_up_report.blocks(cold)):
+    for blocks in (report_blocks.blocks(duty_sheet(duty_of(case)), "duty"), warm_up_report.blocks(cold)):
         assert "in a full bath of oil" in blocks[0].text
     steady = warm_up_report.blocks(cold)[1].left[0]
     assert steady.columns == ("", "value", "in a full bath of oil")

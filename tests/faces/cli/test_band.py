@@ -139,7 +139,7 @@ def test_words(drive, ballscrew):
     assert process.returncode == 0, process.stderr
     text = process.stdout
     assert text.startswith("5000 N, 600 rpm, model reference\n")
-    assert "95 % of the samples between" in text
+    assert "95 % of the samples of inputs and laws between" in text
     assert "self-locking in none of the samples" in text
     assert "  temperature 45 degC ± 5 K\n" in text
     assert "  full film: arana" in text

@@ -11,10 +11,11 @@ import pytest
 from ballscrew.basis.output.json_text import plain
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.cli.main import main
+from ballscrew.faces.sheets import terminal
 from ballscrew.questions.duty import answer
 from ballscrew.questions.duty import document as documents
 from ballscrew.questions.duty.compute import duty
-from ballscrew.questions.duty.text import text
+from ballscrew.questions.duty.sheet import sheet
 from support.commands import ROOT
 from support.pictures import drawn
 
@@ -137,7 +138,7 @@ def test_example_in_all_forms(ballscrew, tmp_path):
 
 def test_words_say_what_stands_in_the_document(found):
     report = found(VERTICAL)
-    said, written = text(report), document(report)
+    said, written = terminal.text(sheet(report)), document(report)
     assert said.startswith("vertical axis, 100 kg, trapezoid over 300 mm at up to 15 m/min: model reference\n")
     for record in (*written["verdicts"], *written["warnings"]):
         assert record["text"].split()[0] in said

@@ -1,13 +1,18 @@
 """The modules of the static page give the numbers of the model: node runs them, with the script of the page."""
 
+import tomllib
+
 import numpy as np
 import pytest
 
 import ballscrew as bs
+from ballscrew.cases.case_files import case_file
+from ballscrew.cases.screw_tables.catalogue import case_text
 from ballscrew.engine.evaluation.outputs import OPERATION, known_outputs
 from ballscrew.engine.evaluation.structures import structure_key
 from ballscrew.exports.wasm_modules import BALL, NUT_DIAMETER, KeptModule, module_of, module_of_oils, outputs_of
 from ballscrew.faces.site import kinds, modules
+from ballscrew.physics.sizing.catalogue import catalogue
 from support.modules_in_node import Modules, start_of
 
 pytestmark = pytest.mark.implausible
@@ -125,6 +130,20 @@ def test_every_start_has_the_structure_that_its_module_was_made_of(kind):
             outputs = known_outputs(subject.nut)
             keys.add(structure_key(subject, tuple(outputs), names))
         assert len(keys) == 1
+
+
+def test_a_row_starts_as_the_case_that_catalogue_show_writes():
+    """The served page starts from that case: one part number, one torque."""
+    for name, row in catalogue().items():
+        tables = kinds.tables_of(name, kinds.MODELS[0], kinds.kind_of_start(name))
+        torques = [torque_of(one) for one in (tables, tomllib.loads(case_text(row)))]
+        assert torques[0] == pytest.approx(torques[1], rel=1e-12), name
+
+
+def torque_of(tables):
+    case = case_file.build(tables, rows=catalogue())
+    point = {name: getattr(case.operation, name) for name in OPERATION}
+    return float(case.model(case.screw, case.lubricant, **point).screw_torque)
 
 
 def test_the_oils_follow_their_temperature(built):

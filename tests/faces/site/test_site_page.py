@@ -22,7 +22,7 @@ MODELS = ("reference",)
 NUTS = ("row", "double", "double+elastic")
 #: As that of the fixture: the folder below the root of the server.
 PATH = "tools/screws/"
-DOUBLE = "#start=rexroth-32x10x3.969-5-double"
+DOUBLE = "#start=rexroth-32x10x3.969-5-double&kind=double"
 ELASTIC = "#start=hiwin-40-8k5&kind=double%2Belastic"
 AXE = (Path(axe_playwright_python.__file__).parent / "axe.min.js").read_text(encoding="utf-8")
 OPEN_ALL = "for (const one of document.querySelectorAll('details')) one.open = true"
@@ -135,6 +135,7 @@ def test_the_band_is_that_of_the_program(visit, fragment):
     here.rest()
     for place in ("#band", "#fan"):
         assert f"{low:.4f} to {high:.4f}" in here.page.locator(place).inner_text()
+    assert "inputs alone" in here.page.locator("#band").inner_text()  # that of the program is of inputs and laws
 
 
 def test_a_band_of_numbers_that_were_changed_is_dropped(visit):

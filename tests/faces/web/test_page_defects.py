@@ -70,7 +70,7 @@ def test_digits_are_those_of_every_number(go):
     assert float(low) < float(torque) < float(high)
     exact = here.numbers()["results"]["screw_torque"]
     assert torque == to_digits(exact)
-    assert f"{torque} N·m ({low} to {high} N·m)" in here.text("#summary")
+    assert f"{torque} N·m (inputs and laws: {low} to {high} N·m)" in here.text("#summary")
 
 
 def test_the_band_comes_later_where_the_server_is_busy(go):

@@ -1,6 +1,11 @@
 """What the page says of a screw: one verdict, in one language."""
 
+import json
 import re
+import tomllib
+import urllib.parse
+
+from .conftest import ROOT
 
 #: A screw that its operating point would wear out, and its cycle does not.
 MOVING = "#A=vertical-axis&band=0&view=duty"
@@ -53,3 +58,16 @@ def test_safety_in_german(visit):
             assert not re.search(r"\d\.\d| N m\b|\bthe\b|\bload\b", words), words
     finally:
         here.page.context.clear_cookies()
+
+
+def test_the_headline_of_a_cold_axis_whose_load_drives(visit, ballscrew):
+    """Its efficiency is known, and its torque lies above its own band, which is said."""
+    path = ROOT / "examples" / "cold_axis" / "grade.toml"
+    answer = json.loads(ballscrew("run", str(path), "--band", "--json").stdout)
+    results, band = answer["results"], answer["band"]["screw_torque"]
+    tables = json.dumps({"losses": None, **tomllib.loads(path.read_text(encoding="utf-8"))})
+    here = visit().open("#" + urllib.parse.urlencode({"A": "paper", "A.tables": tables, "band": "1"}))
+    here.page.wait_for_selector("#numbers .interval:text-matches('to')")
+    assert results["efficiency"] is None
+    assert f"efficiency {results['back_driving_efficiency']:.4g} (the load drives)" in here.text("#summary")
+    assert ("above its band" in here.text("#summary")) == (results["screw_torque"] > band["high"])

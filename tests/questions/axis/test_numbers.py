@@ -7,6 +7,7 @@ import pytest
 
 from ballscrew.cases.case_files import case_file
 from ballscrew.questions.axis.compute import chain_of, load
+from ballscrew.questions.check.compute import checked
 from support.commands import ROOT
 
 EXAMPLE = ROOT / "examples" / "feed_axis.toml"
@@ -81,3 +82,13 @@ def test_the_travel_is_in_the_middle_unless_it_is_told_where_it_begins():
     told = chain_of(changed("surroundings.first_position=100 mm"))
     assert told.travel == pytest.approx((0.1, 0.7), rel=1e-12)
     assert not any("travels in the middle" in str(line) for line in told.assumed)
+
+
+def test_the_coarse_answers_beside_the_fine_ones_are_those_of_the_checks():
+    """One length for both questions; without the nut as a support it is what ``check`` judges."""
+    case = load(EXAMPLE, ["surroundings.shaft_length=1.3 m"])
+    coarse = {one.id: one.message.values["alone"].value for one in chain_of(case).verdicts[1:]}
+    judged, limits = checked("", case), case.limits
+    speed = judged.check("critical_speed").limit / limits.critical_speed_share
+    force = judged.check("buckling").limit * limits.buckling_safety
+    assert coarse == pytest.approx({"verdict.critical_speed": speed, "verdict.buckling": force}, rel=1e-12)

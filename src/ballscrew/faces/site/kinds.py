@@ -7,29 +7,22 @@ that every screw with such a nut is computed by the same one.
 from __future__ import annotations
 
 import functools
+import tomllib
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from ballscrew.basis import units
-from ballscrew.basis.quantities import fields_of
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.screw_tables.catalogue import EXAMPLE_PRELOADS
+from ballscrew.cases.screw_tables.catalogue import EXAMPLE_PRELOADS, case_text
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.evaluation.structures import numbers_alone
 from ballscrew.faces.web.starts import starts
-from ballscrew.physics.components.nut_losses import Seals
-from ballscrew.physics.components.operating_state import OperatingState
-from ballscrew.physics.sizing.catalogue import CatalogueRow, catalogue
-from ballscrew.physics.sizing.ratings import ratings_of
-from ballscrew.questions.check.compute import GRADE, SHARE_OF_RATING, SPEED, TEMPERATURE
+from ballscrew.physics.sizing.catalogue import catalogue
 
 #: The models of which modules are made, the one to begin with first.
 MODELS = ("reference", "olaru2005", "corrected")
 #: The start of the paper.
 PAPER = "paper"
-#: The oil of a screw of the catalogue, as ``ballscrew check`` takes it.
-OIL: Mapping[str, str] = {"grade": GRADE, "temperature": TEMPERATURE}
 
 
 class Kind(NamedTuple):
@@ -74,20 +67,27 @@ def _go_together(model: str, kind: str) -> bool:
 
 
 @functools.cache
+def _start_cases() -> Mapping[str, Mapping[str, Any]]:
+    """The whole cases to start from, by name: a row as ``ballscrew catalogue show --case`` writes it."""
+    paper = {section: table for section, table in starts()[PAPER]["case"].items() if section != "model"}
+    rows = {name: {**tomllib.loads(case_text(row)), "screw": {"catalogue": name}} for name, row in catalogue().items()}
+    return {PAPER: paper, **rows}
+
+
+@functools.cache
 def start_tables() -> Mapping[str, Mapping[str, Any]]:
     """The tables of the cases to start from, by name, without model and nut."""
-    found: dict[str, Mapping[str, Any]] = {PAPER: {n: t for n, t in starts()[PAPER]["case"].items() if n != "model"}}
-    load = fields_of(OperatingState)["axial_load"]
-    for name, row in catalogue().items():
-        force = units.written(_rounded(SHARE_OF_RATING * _rating(row)), load)
-        operation = {"axial_load": force, "screw_speed": SPEED}
-        found[name] = {"screw": {"catalogue": name}, "lubricant": dict(OIL), "operation": operation}
-    return found
+    return {
+        name: {section: case[section] for section in ("screw", "lubricant", "operation")}
+        for name, case in _start_cases().items()
+    }
 
 
 def kind_of_start(name: str) -> str:
-    """The kind of nut that a start begins with: that which its row lists."""
-    return "row" if name == PAPER else next(k for k, kind in KINDS.items() if kind.nut == catalogue()[name].nut)
+    """The kind of nut that a start begins with."""
+    case = _start_cases()[name]
+    begun = Kind(case.get("nut", {}).get("type", ""), "", elastic="bodies" in case)
+    return next(k for k, kind in KINDS.items() if (kind.nut, kind.elastic) == (begun.nut, begun.elastic))
 
 
 def tables_of(start: str, model: str, kind: str) -> dict[str, Any]:
@@ -116,26 +116,11 @@ def subject_of(case: Case) -> Configuration:
 
 
 def _preload(start: str, nut: str) -> str:
-    """The preload as a row lists it, else an example of its kind."""
-    row = catalogue().get(start) if start != PAPER else None
-    if row is not None and row.nut == nut:
-        if row.preload_share is not None:
-            return f"{100 * row.preload_share:.12g} %"
-        if row.preload is not None:
-            return units.written(row.preload, fields_of(CatalogueRow)["preload"])
-    return EXAMPLE_PRELOADS[nut]
+    """The preload of a start with such a nut, else an example of its kind."""
+    own = _start_cases()[start].get("nut", {})
+    return own["preload"] if own.get("type") == nut else EXAMPLE_PRELOADS[nut]
 
 
 def _seals(start: str) -> str:
-    """The torque of the seals as a row lists it, else none."""
-    row = catalogue().get(start) if start != PAPER else None
-    return units.written((row and row.seal_torque) or 0.0, fields_of(Seals)["seal_torque"])
-
-
-def _rating(row: CatalogueRow) -> float:
-    return ratings_of(row).dynamic if row.dynamic_load_rating is None else row.dynamic_load_rating
-
-
-def _rounded(force: float) -> float:
-    """A force to two digits, as people set one."""
-    return float(f"{force:.2g}")
+    """The torque of the seals of a start, else none."""
+    return _start_cases()[start].get("losses", {"seals": {"seal_torque": "0 N m"}})["seals"]["seal_torque"]

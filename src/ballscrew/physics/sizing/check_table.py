@@ -214,7 +214,7 @@ CHECKS: tuple[Judgement, ...] = (
         unit="N",
         sentences=(
             Sentence(
-                Message("largest load, if it pushes, against Euler's over {safety}, ends {ends}"),
+                Message("largest load, if it pushes, against Euler's over {safety}, ends {ends}, the nut no support"),
                 places={"safety": Shown("safety", digits=6), "ends": Words("ends")},
             ),
         ),
@@ -228,7 +228,7 @@ CHECKS: tuple[Judgement, ...] = (
         unit="rad/s",
         sentences=(
             Sentence(
-                Message("speed against {share} of the critical speed, ends {ends}"),
+                Message("speed against {share} of the critical speed, ends {ends}, the nut no support"),
                 places={"share": Shown("share", digits=6), "ends": Words("ends")},
             ),
         ),

@@ -48,10 +48,10 @@ class Installation(ByValue):
         Length,
         Info(
             "l",
-            "longest stretch of shaft between two supports",
+            "length of the shaft between its bearings",
             "mm",
             above=0,
-            hint="bearing to bearing or to nut",
+            hint="bearing to bearing",
             usual=(0.01, 20.0),
         ),
     ]

@@ -62,7 +62,9 @@ class AxialRigidity:
     ]
     shaft: Annotated[Stiffness, Info("R_s", "rigidity of the shaft where it is least", "N/um")]
     bearings: Annotated[Stiffness, Info("R_b", "rigidity of the support bearings", "N/um")]
-    drive: Annotated[Stiffness, Info("R", "rigidity of nut, shaft and bearings in series", "N/um")]
+    drive: Annotated[
+        Stiffness, Info("R", "rigidity of nut, shaft and bearings in series, where the shaft is softest", "N/um")
+    ]
     deflection: Annotated[Length, Info("x", "axial deflection of nut, shaft and bearings by the load", "um")]
     #: Number that turns R_nu into R_nu,ar, given or of the make of the nut; None where neither is known.
     accuracy_factor: float | None = None

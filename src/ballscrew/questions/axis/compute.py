@@ -21,7 +21,6 @@ from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Quanti
 from ballscrew.basis.records import Measured, Message, Record, translatable
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
-from ballscrew.questions.warm_up.compute import length_of
 
 #: Places within the travel that the terminal shows.
 SHOWN = 5
@@ -108,7 +107,8 @@ class ChainReport:
         most = max(shares, key=lambda name: shares[name])
         total = float(self.chain.total[at])
         message = Message(
-            "softest with the nut at {place}: {rigidity}, {share} % of the compliance is that of the {part}",
+            "softest in its travel with the nut at {place}: {rigidity}, {share} % of the compliance is that of the "
+            "{part}",
             {
                 "place": self._place(at),
                 "rigidity": Measured(total, SERIES["total"]),
@@ -123,12 +123,13 @@ class ChainReport:
         critical = float(self.chain.critical_speed[at])
         holds = self.largest_speed <= share * critical
         message = Message(
-            "highest speed {speed}, {ratio} of the critical speed {critical} with the nut at {place}; {share} is "
-            "permitted",
+            "highest speed {speed}, {ratio} of the critical speed {critical} with the nut a support at {place}; "
+            "{share} is permitted; {alone} is critical without it, as in the checks",
             {
                 "speed": Measured(self.largest_speed, SPEED),
                 "ratio": Measured(self.largest_speed / critical, digits=2),
                 "critical": Measured(critical, SPEED),
+                "alone": Measured(float(self.chain.without_nut[0]), SPEED),
                 "place": self._place(at),
                 "share": Measured(share),
             },
@@ -143,10 +144,11 @@ class ChainReport:
         buckling = float(self.chain.buckling_load[at])
         holds = self.largest_load * safety <= buckling
         message = Message(
-            "buckling load {buckling} with the nut at {place}; the largest load is {load}, and a safety of {safety} "
-            "is asked for",
+            "buckling load {buckling} with the nut a support at {place}, {alone} without it as in the checks; the "
+            "largest load is {load}, and a safety of {safety} is asked for",
             {
                 "buckling": Measured(buckling, SERIES["buckling_load"]),
+                "alone": Measured(float(self.chain.without_nut[1]), SERIES["buckling_load"]),
                 "place": self._place(at),
                 "load": Measured(self.largest_load, LOAD),
                 "safety": Measured(safety),
@@ -178,7 +180,7 @@ def chain_of(case: Case, positions: Sequence[Length] = ()) -> ChainReport:
     if case.installation is None:
         remedy = 'add a table [installation] with unsupported_length = "1 m" and ends = "fixed-supported"'
         raise InputError(Fault("installation", "missing section", "", remedy))
-    length = length_of(case, case.surroundings) if case.surroundings else float(case.installation.unsupported_length)
+    length = float(case.installation.unsupported_length)
     loads, speeds = _loads_and_speeds(case)
     largest = float(np.max(np.abs(loads)))
     installation, words = case.installation, list[str]()
@@ -187,7 +189,6 @@ def chain_of(case: Case, positions: Sequence[Length] = ()) -> ChainReport:
         if rigidity is not None:
             words.append(units.filled_text("rigidity of the fixed bearing {of_what}", of_what=Message(of_what)))
         installation = dataclasses.replace(installation, bearing_rigidity=rigidity)
-    installation = dataclasses.replace(installation, unsupported_length=length)
     travel = _travel(case, length)
     ends = travel or (SHARES[0] * length, SHARES[-1] * length)
     places = positions or np.unique(np.concatenate([length * SHARES, np.linspace(*ends, SHOWN)]))

@@ -80,11 +80,12 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
     }
     message = Message(
         "friction torque {torque} at the values of the case, median {median}, "
-        "{level} % of the samples between {low} and {high}",
+        "{level} % of the samples of {causes} between {low} and {high}",
         {
             **{name: Measured(value, quantity) for name, value in numbers.items()},
             **ends,
             "level": Measured(100 * band.level),
+            "causes": Message("inputs and laws" if band.alternatives else "the inputs alone"),
         },
     )
     records = [units.record(message, id="band.torque", subject=_TORQUE, value=torque.median, unit=quantity.unit)]

@@ -36,7 +36,8 @@ def answer(run: Run, report: BandReport) -> Paragraph:
     """The answer in some sentences, the numbers of the first one with their bands."""
     said = [_headline(run, report), *(f"{sentence(record.text)}." for record in run.verdicts)]
     if has_band(report):
-        said.append(f"The ends in brackets hold {100 * report.band.level:.4g} % of the samples of the band.")
+        causes = "inputs and laws" if report.band.alternatives else "the inputs alone"
+        said.append(f"The ends in brackets hold {100 * report.band.level:.4g} % of the samples of {causes}.")
     return Paragraph(" ".join(said), strong=True)
 
 

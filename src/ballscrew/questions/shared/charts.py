@@ -103,16 +103,21 @@ def new_figure(
     caption: str, *, rows: int = 1, columns: int = 2, height: float = PANEL_HEIGHT, **subplots: Any
 ) -> tuple[Figure, list[Axes]]:
     """A figure of panels with room for its caption, and the panels row by row."""
-    width = max(PANEL_WIDTH * columns, 2 * PANEL_WIDTH)
+    figure = captioned_figure(caption, max(PANEL_WIDTH * columns, 2 * PANEL_WIDTH), height * rows)
+    panels: Any = figure.subplots(rows, columns, squeeze=False, **subplots)
+    return figure, list(panels.ravel())
+
+
+def captioned_figure(caption: str, width: float, height: float) -> Figure:
+    """A figure without panels, of a size in inches to which the room for its caption is added."""
     lines = textwrap.wrap(caption, int(width * _CAPTION_CHARACTERS_PER_INCH))
     margin = CAPTION_LINE * len(lines) + 0.14
-    figure = Figure(figsize=(width, height * rows + margin), layout="constrained")
+    figure = Figure(figsize=(width, height + margin), layout="constrained")
     total = float(figure.get_figheight())
     engine: Any = figure.get_layout_engine()
     engine.set(rect=(0, margin / total, 1, 1 - margin / total), w_pad=0.08, h_pad=0.06)
     figure.text(0.012, 0.07 / total, "\n".join(lines), ha="left", va="bottom", fontsize=8.5, color=GREY)
-    panels: Any = figure.subplots(rows, columns, squeeze=False, **subplots)
-    return figure, list(panels.ravel())
+    return figure
 
 
 def save(figure: Figure, folder: Path, name: str) -> list[Path]:

@@ -10,6 +10,7 @@ from ballscrew.basis import units
 from ballscrew.basis.output.plain_numbers import plain
 from ballscrew.basis.output.wrapping import beside
 from ballscrew.basis.quantities import Info, Quantity
+from ballscrew.basis.sheet import Cell, Number, Share, Table
 from ballscrew.physics.sizing.checks import Check
 from ballscrew.physics.sizing.sources import QUALIFICATIONS
 
@@ -39,6 +40,21 @@ def shown(check: Check, value: float | None) -> str:
     quantity = quantity_of(check)
     rounded = float(f"{value:.4g}") if quantity.unit == "1" else float(units.rounded(value, quantity))
     return plain(f"{rounded:.6g}") + ("" if quantity.unit == "1" else f" {quantity.shown_in}")
+
+
+def check_table(checks: Sequence[Check], give: Mapping[str, str] | None = None) -> Table:
+    """The checks with their limits; ``give`` names what to give for inputs they lack."""
+    rows: list[Sequence[Cell]] = []
+    for check in checks:
+        text = check.text
+        for missing, remedy in (_GIVE if give is None else give).items():
+            text = text.replace(missing, remedy) if check.missing == missing else text
+        value, limit = (None if v is None else Number(v, quantity_of(check)) for v in (check.value, check.limit))
+        used = check.utilisation
+        share = None if used is None or not math.isfinite(used) else Share(used, bar=False)
+        verdict = ": ".join(filter(None, [verdict_of(check), text]))
+        rows.append((check.name.replace("_", " "), value, limit, share, verdict))
+    return Table("checks", "Checks", ("", "value", "limit", "used", "verdict"), rows, detail=True)
 
 
 def check_lines(checks: Sequence[Check], give: Mapping[str, str] | None = None) -> list[str]:

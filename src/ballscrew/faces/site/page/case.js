@@ -74,7 +74,8 @@ export class Case {
   begin(name, model = Object.keys(this.contents.models)[0]) {
     const start = this.contents.starts[name];
     const kinds = this.kindsOf(model);
-    const kind = kinds.includes(start.kind) ? start.kind : kinds[0];
+    // a page without elastic nuts begins with rigid ones
+    const kind = [start.kind, this.contents.kinds[start.kind].nut].find((one) => kinds.includes(one)) ?? kinds[0];
     return { start: name, model, kind, grade: start.grade ?? "", edits: {}, given: {} };
   }
 

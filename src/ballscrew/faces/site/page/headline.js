@@ -69,7 +69,7 @@ export class Headline {
   writeBand() {
     const { point, isMissing } = this.scene.banded();
     const ends = point ? wordsOfEnds(this.scene, "screw_torque", point.ends.screw_torque) : isMissing ? "–" : "…";
-    byId("band").textContent = `${levelOf(this.scene)}: ${ends}`;
+    byId("band").textContent = `${levelOf(this.scene)}, ${say("inputs alone")}: ${ends}`;
     byId("band-laws").style.visibility = isMissing ? "hidden" : "";
   }
 

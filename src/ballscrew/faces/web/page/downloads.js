@@ -54,7 +54,7 @@ async function saveAs(kind, making) {
     if (address) {
       if (!(await saveMade(kind, address, bodyOf(address, whole), making))) return;
     } else if (kind === "JSON") {
-      const { words, display, ...document } = answer;
+      const { words, display, ...document } = await (await send("run", whole)).json();
       save(".json", new Blob([JSON.stringify(document, null, 2)], { type: "application/json" }));
     } else if (alongSpeed) saveTorqueCsv(alongSpeed);
     say(text("download.saved", { kind }));

@@ -111,6 +111,19 @@ export function rounded(name, value, band) {
   return { text: written, interval: `${text("answer.interval", { low, high })}${end}` };
 }
 
+/** The ends of a band with what they are of. @param {string} interval @param {BandAnswer} known */
+function ofCauses(interval, { band }) {
+  return text(Object.keys(band.laws).length ? "answer.of_inputs_and_laws" : "answer.of_inputs", { interval });
+}
+
+/** Why a torque lies outside its band, for the headline. @param {number | null} torque @param {BandAnswer | undefined} band */
+function outsideBand(torque, band) {
+  const { low, high } = band?.band.screw_torque ?? {};
+  if (torque === null) return "";
+  if (typeof low === "number" && torque < low) return ` ${text("answer.below_band")}`;
+  return typeof high === "number" && torque > high ? ` ${text("answer.above_band")}` : "";
+}
+
 /** What screen readers are told of the answer. */
 class Announcer {
   #words = "";
@@ -147,12 +160,16 @@ export function show(answer, { band, checks }, isWanted = () => true) {
   const wants = (/** @type {string} */ id) => isWanted(byId(id));
   update(byId("case"), said(display.title));
   const torque = rounded("screw_torque", results.screw_torque, known);
+  const isDriven = results.efficiency === null && results.back_driving_efficiency !== null;
+  const efficiency = isDriven ? "back_driving_efficiency" : "efficiency";
+  const shown = rounded(efficiency, results[efficiency], known).text;
   const numbersInWords = text("answer.summary", {
-    friction: `${torque.text}${torque.interval ? ` (${torque.interval})` : ""}`,
+    friction: `${torque.text}${torque.interval && known ? ` (${ofCauses(torque.interval, known)})` : ""}`,
     drive: rounded("drive_torque", results.drive_torque, known).text,
-    efficiency: rounded("efficiency", results.efficiency, known).text,
+    efficiency: isDriven ? text("answer.load_drives", { efficiency: shown }) : shown,
   });
-  const summary = `${numbersInWords}${inHeadline(answer)}${checks ? ` ${verdict(checks)}` : ""}`;
+  const beside = `${outsideBand(results.screw_torque, known)}${inHeadline(answer)}`;
+  const summary = `${numbersInWords}${beside}${checks ? ` ${verdict(checks)}` : ""}`;
   write("summary", summary);
   if (!byId("results").classList.contains("stale")) {
     announcer.announce(summary);

@@ -42,6 +42,8 @@ export const OF_CARDS = {
   bearings: text("section.bearings"),
   guides: text("section.guides"),
 };
+/** One of these that the answer follows, too: a rigidity is that of the nut with its bearings. */
+const OF_ANSWER = "bearings";
 /** Fields that the form does not have. */
 export const LEFT_OUT = ["screw.catalogue", "screw.catalogue_file", "lubricant.oil_file"];
 
@@ -111,7 +113,7 @@ export function fieldOf(path) {
  * @param {string[]} sections
  */
 export function areOfCards(sections) {
-  return sections.every((one) => own(OF_CARDS, one));
+  return sections.every((one) => isOfCards(one));
 }
 
 /**
@@ -120,7 +122,12 @@ export function areOfCards(sections) {
  * @param {Record<string, any>} tables
  */
 export function withoutCards(tables) {
-  return Object.fromEntries(Object.entries(tables).filter(([name]) => !own(OF_CARDS, name)));
+  return Object.fromEntries(Object.entries(tables).filter(([name]) => !isOfCards(name)));
+}
+
+/** @param {string} name */
+function isOfCards(name) {
+  return name !== OF_ANSWER && own(OF_CARDS, name) !== undefined;
 }
 
 /** @param {SchemaNode} node */

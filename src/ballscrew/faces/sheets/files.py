@@ -1,0 +1,85 @@
+"""A sheet as tables in files: all of them in a workbook, the longest in CSV; numbers in the units of their headings."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ballscrew.basis import units
+from ballscrew.basis.atomic_files import atomic_write
+from ballscrew.basis.sheet import Cell, Column, Columns, Number, Share, Sheet, Table
+from ballscrew.questions.shared.row_tables import RowTable, write_csv, xlsx_bytes
+
+_DIGITS = 12
+
+
+def write(to: Path, sheet: Sheet) -> None:
+    """Write .csv (the longest table, of columns where there are some) or .xlsx (all tables), whole or not at all."""
+    with atomic_write("--to", to) as path:
+        if to.suffix.lower() == ".xlsx":
+            path.write_bytes(xlsx_bytes({block.name: rows_of(block) for block in sheet.of_kind(Table, Columns)}))
+        else:
+            tables = list(sheet.of_kind(Columns)) or list(sheet.of_kind(Table))
+            write_csv(path, max(map(rows_of, tables), key=lambda table: len(table.rows)))
+
+
+def rows_of(block: Table | Columns) -> RowTable:
+    """A block as headings and rows of plain numbers and texts."""
+    columns = list(_of_columns(block) if isinstance(block, Columns) else _of_table(block))
+    rows = zip(*(values for _, values in columns), strict=True)
+    return RowTable([heading for heading, _ in columns], [list(row) for row in rows])
+
+
+def _of_columns(block: Columns) -> Iterator[tuple[str, Sequence[Any]]]:
+    for column in block.columns:
+        if column.quantity is None:
+            yield column.name, column.values
+        else:
+            yield units.heading(column.quantity, column.name), _numbers(column)
+
+
+def _numbers(column: Column) -> list[float | None]:
+    assert column.quantity is not None
+    return [_plain(value) for value in np.asarray(units.from_si(np.asarray(column.values, float), column.quantity))]
+
+
+def _plain(value: float) -> float | None:
+    return float(f"{value:.{_DIGITS}g}") + 0.0 if math.isfinite(value) else None
+
+
+def _of_table(table: Table) -> Iterator[tuple[str, Sequence[Any]]]:
+    """The columns of a table: one unit in the heading, or a column of units where rows have their own."""
+    for index, name in enumerate(table.columns):
+        cells = [row[index] for row in table.rows]
+        quantities = {(cell.quantity.unit, cell.quantity.shown_in) for cell in cells if isinstance(cell, Number)}
+        heading = name or table.name
+        if len(quantities) == 1:
+            quantity = next(cell.quantity for cell in cells if isinstance(cell, Number))
+            heading = units.heading(quantity, heading)
+        yield heading, [_value(cell) for cell in cells]
+        if any(isinstance(cell, Number | Share) and cell.band for cell in cells):
+            for end, of in enumerate(("from", "to")):
+                yield of, [_end(cell, end) for cell in cells]
+        if len(quantities) > 1:
+            yield "unit", [units.label(cell.quantity) if isinstance(cell, Number) else None for cell in cells]
+
+
+def _value(cell: Cell) -> Any:
+    match cell:
+        case Number(value, quantity):
+            return _plain(float(units.from_si(value, quantity)))
+        case Share(value):
+            return _plain(value)
+        case _:
+            return cell
+
+
+def _end(cell: Cell, end: int) -> float | None:
+    if not isinstance(cell, Number | Share) or cell.band is None:
+        return None
+    return _value(dataclasses.replace(cell, value=cell.band[end]))

@@ -1,0 +1,38 @@
+"""A sheet as text on the terminal: its lines and tables; charts and long tables are for pictures and files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ballscrew.basis.output.wrapping import aligned, beside, wrapped
+from ballscrew.basis.sheet import Line, Lines, Sheet, Table, words
+
+_BAR = 24
+
+
+def text(sheet: Sheet, encoding: str = "utf-8") -> str:
+    """The title, then each block after an empty line; bars in letters that the encoding has."""
+    bar = "█" if "utf" in encoding.lower() else "#"
+    lines = [wrapped(sheet.title)]
+    for block in sheet.of_kind(Lines, Table):
+        shown = [_line(line) for line in block.lines] if isinstance(block, Lines) else list(_table(block, bar))
+        lines += ["", *shown] if shown else []
+    return "\n".join(lines)
+
+
+def _line(line: Line) -> str:
+    return wrapped(f"warning  {line.name}: {line.text}" if line.kind == "warning" else line.text)
+
+
+def _table(table: Table, bar: str) -> Iterator[str]:
+    texts, last = table.text_columns(), len(table.columns) - 1
+    rows = [[table.title, *table.columns[1:]], *([f"  {row[0]}", *map(words, row[1:])] for row in table.rows)]
+    if last > 0 and last in texts:  # words go on below themselves
+        ends = [row.pop() for row in rows]
+    else:
+        ends = ["", *(bar * round(_BAR * max(0.0, min(share or 0.0, 1.0))) for share in table.bars())]
+    prefixes = aligned(rows, texts)
+    width = max(map(len, prefixes)) + 2
+    for prefix, end in zip(prefixes, ends, strict=True):
+        yield beside(prefix.ljust(width), end).rstrip()
+    yield from (wrapped(f"  {note}") for note in table.notes)

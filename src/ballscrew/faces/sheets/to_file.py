@@ -1,0 +1,36 @@
+"""A sheet written to a file: tables (.csv, .xlsx) or a picture (.png, .svg, .pdf)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from ballscrew.basis.errors import Fault, raise_if_any
+from ballscrew.basis.records import Message
+from ballscrew.basis.sheet import Sheet
+from ballscrew.questions.shared import chart_files, row_tables
+
+
+def check(paths: Iterable[Path]) -> None:
+    """Raise :class:`~ballscrew.basis.errors.InputError` now for files that could not be written later."""
+    *others, last = (*row_tables.KINDS, *chart_files.SUFFIXES)
+    remedy = Message("end it in {names} or {known}", {"names": ", ".join(others), "known": last})
+    unknown = [path for path in paths if path.suffix.lower() not in (*others, last)]
+    raise_if_any([Fault("--to", "unknown kind of file", str(path), remedy) for path in unknown])
+    for path in paths:
+        if path.suffix.lower() in row_tables.KINDS:
+            row_tables.check_path(path)
+        else:
+            chart_files.check_picture(path)
+
+
+def write(to: Path, sheet: Sheet) -> None:
+    """Write one file, whole or not at all."""
+    if to.suffix.lower() in row_tables.KINDS:
+        from ballscrew.faces.sheets import files
+
+        files.write(to, sheet)
+    else:
+        from ballscrew.faces.sheets import pictures  # matplotlib is slow to import
+
+        chart_files.draw(lambda: pictures.picture(sheet), to)
