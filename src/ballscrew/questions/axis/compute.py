@@ -21,7 +21,6 @@ from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Quanti
 from ballscrew.basis.records import Measured, Message, Record, translatable
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
-from ballscrew.questions.warm_up.compute import length_of
 
 #: Places within the travel that the terminal shows.
 SHOWN = 5
@@ -178,7 +177,8 @@ def chain_of(case: Case, positions: Sequence[Length] = ()) -> ChainReport:
     if case.installation is None:
         remedy = 'add a table [installation] with unsupported_length = "1 m" and ends = "fixed-supported"'
         raise InputError(Fault("installation", "missing section", "", remedy))
-    length = length_of(case, case.surroundings) if case.surroundings else float(case.installation.unsupported_length)
+    length = case.shaft_length
+    assert length is not None
     loads, speeds = _loads_and_speeds(case)
     largest = float(np.max(np.abs(loads)))
     installation, words = case.installation, list[str]()
@@ -236,16 +236,8 @@ def _travel(case: Case, length: Length) -> tuple[Length, Length] | None:
     """Places of the nut at the ends of its motion; None without a motion that moves."""
     if case.motion is None or case.axis is None:
         return None
-    position = case.motion.states().position
-    stroke = float(np.ptp(position))
-    if not stroke:
+    states = case.motion.states()
+    if not states.stroke:
         return None
-    given = None if case.surroundings is None else case.surroundings.first_position
-    start = (length - stroke) / 2 - float(np.min(position)) if given is None else float(given)
-    ends = start + float(np.min(position)), start + float(np.max(position))
-    if not 0 < ends[0] < ends[1] < length:
-        shown = " and ".join(units.shown(end, SERIES["position"]) for end in ends)
-        remedy = "shorten the stroke, move surroundings.first_position, or lengthen the shaft"
-        given_text = f"from {shown} on {units.shown(length, SERIES['position'])}"
-        raise InputError(Fault("motion", "does not fit between the bearings", given_text, remedy))
-    return ends
+    places = states.places_on(length, None if case.surroundings is None else case.surroundings.first_position)
+    return float(np.min(places)), float(np.max(places))
