@@ -194,7 +194,7 @@ def test_the_vertical_example_of_thk(found):
 
 def test_the_peak_of_a_rise_by_hand(found):
     """One efficiency: m (a + g) P/(2 pi eta) upwards, and (2 - 1/eta) of the weight downwards."""
-    settings = ("model.name=constant-efficiency", "model.efficiency=0.8")
+    settings = ("model.name=constant-efficiency", "model.efficiency=0.8", "axis.screw_inertia=0 kg cm^2")
     results = document(found(VERTICAL, *settings))["results"]
     arm = 0.01 / (2 * math.pi)
     assert results["rules"]["mechanics"]["torque_peak"] == pytest.approx(100 * (9.80665 + 1.5) * arm / 0.8, rel=1e-12)
@@ -217,14 +217,24 @@ def test_the_peak_of_a_rise_by_hand(found):
     ids=lambda value: value if isinstance(value, str) and "." in value and " " not in value else "",
 )  # fmt: skip
 def test_warnings_name_the_remedy(found, settings, name, words):
-    settings = [*settings, "model.name=constant-efficiency", "model.efficiency=0.9"]
+    settings = [
+        *settings,
+        "model.name=constant-efficiency",
+        "model.efficiency=0.9",
+        'screw.dynamic_load_rating="37 kN"',
+    ]
     by_id = records(document(found(VERTICAL, *settings)), "warnings")
     assert words in by_id[name]["text"]
     assert by_id[name]["severity"] == "warning"
 
 
 def test_a_plain_cycle_warns_of_nothing(found):
-    given = ("model.name=constant-efficiency", "model.efficiency=0.9", "axis.inertia=1 kg cm^2")
+    given = (
+        "model.name=constant-efficiency",
+        "model.efficiency=0.9",
+        "axis.inertia=45 kg cm^2",
+        "screw.dynamic_load_rating=37 kN",
+    )
     assert document(found(VERTICAL, *given))["warnings"] == []
 
 
@@ -292,6 +302,7 @@ def test_a_recorded_motion(ballscrew, tmp_path):
     (tmp_path / "run.csv").write_text("\n".join(["t [s],x [mm]", *rows]), encoding="utf-8")
     (tmp_path / "case.toml").write_text(VERTICAL.partition("[motion]")[0], encoding="utf-8")
     rule = ("--set", "model.name=constant-efficiency", "--set", "model.efficiency=0.9")
+    rule += ("--set", "axis.screw_inertia=0 kg cm^2")
     done = ballscrew("duty", "case.toml", "--trace", "run.csv", *rule, "--json")
     assert done.returncode == 0, done.stderr
     found = json.loads(done.stdout)

@@ -121,3 +121,17 @@ def test_root_diameters_of_a_catalogue(row):
 def test_dn_value_of_a_catalogue():
     # 70000 mm rpm: 35 mm at 2000 rpm
     assert shaft.diameter_speed_product(0.035, 2000 * RPM) == pytest.approx(70 * RPM, rel=RELATIVE)
+
+
+@pytest.mark.parametrize(("diameter", "length", "printed"), [(0.020, 1.2, 1.48e-4), (0.015, 0.8, 3.12e-5)])
+def test_inertia_of_a_catalogue(diameter, length, printed):
+    # THK 514E, its examples of selecting a motor: the nominal diameter, to three digits
+    assert shaft.shaft_inertia(diameter, 0.0, length, 7850.0) == pytest.approx(printed, rel=5e-3)
+
+
+def test_inertia_is_that_of_rings():
+    """The sum over thin rings of their mass times the square of their radius."""
+    radius = np.linspace(0.005, 0.02, 20_001)
+    middle = (radius[1:] + radius[:-1]) / 2
+    rings = 7850 * 1.5 * 2 * math.pi * middle**3 * np.diff(radius)
+    assert shaft.shaft_inertia(0.04, 0.01, 1.5, 7850.0) == pytest.approx(np.sum(rings), rel=1e-8)

@@ -1,9 +1,11 @@
 """What is said of a cycle: which way an axis goes with its motor off, what holds it, and what is strange."""
 
 import dataclasses
+import math
 
 import pytest
 
+from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
 from ballscrew.questions.duty.compute import duty
 from ballscrew.questions.duty.verdicts import verdicts, warnings
@@ -72,6 +74,57 @@ def test_of_all_conditions_the_one_that_holds_the_least_counts(report):
     twice = dataclasses.replace(one, breakaway_torque=2 * one.breakaway_torque)
     vars(found)["brake"] = dataclasses.replace(found.brake, conditions=[twice, one])
     assert "at least 1.22 times" in of_brake(found).text
+
+
+#: A shaft of 40 mm and 1 m: half its mass times the square of its radius, kg m².
+SHAFT = math.pi * 0.020**2 * 7850 * 0.020**2 / 2
+MOUNTED = '[installation]\nunsupported_length = "1 m"\nends = "fixed-supported"\n'
+FIRM = RULE.replace("0.9", "1.0")
+
+
+def torque(inertia):
+    """Of 100 kg and this inertia at 2 m/s² and a lead of 10 mm, without friction, N m."""
+    return 100 * 2 * 0.010 / math.tau + inertia * 2 * math.tau / 0.010
+
+
+@pytest.mark.parametrize(
+    ("axis", "more", "inertia", "said"),
+    [
+        ({}, MOUNTED, SHAFT, "screw (a cylinder of 40 mm and 1000 mm) 19.73 kg cm^2; not given: motor, coupling"),
+        ({}, "", 0.3 * SHAFT, "as long as the stroke of 300 mm: give its length) 5.919 kg cm^2; not given: motor"),
+        ({"motor_inertia": "20 kg cm^2", "coupling_inertia": "3 kg cm^2"}, MOUNTED, SHAFT + 23e-4, "motor 20 kg cm^2"),
+        ({"screw_inertia": "15 kg cm^2"}, MOUNTED, 15e-4, "screw 15 kg cm^2; not given: motor, coupling"),
+        ({"inertia": "45 kg cm^2"}, MOUNTED, 45e-4, "as given for motor, coupling and screw: none is added"),
+        ({}, MOUNTED + '[surroundings]\nbore = "20 mm"\nshaft_length = "1 m"\n', SHAFT * 15 / 16, "screw"),
+    ],
+)
+def test_what_turns_is_accelerated_and_named(report, axis, more, inertia, said):
+    found = report({"mass": "100 kg", **axis}, FIRM, more=more)
+    assert found.numbers["torque_peak"] == pytest.approx(torque(inertia), rel=1e-9)
+    (counted,) = (record for record in verdicts(found) if record.id == "verdict.inertia")
+    assert counted.value == pytest.approx(inertia, rel=1e-9)
+    assert said in counted.text
+
+
+def test_gears_reduce_the_inertia_of_the_screw_alone(report):
+    """At half the speed of the motor a quarter of it counts."""
+    found = report({"mass": "100 kg", "transmission_ratio": 2.0, "motor_inertia": "20 kg cm^2"}, FIRM, more=MOUNTED)
+    assert found.axis.turning_inertia == pytest.approx(SHAFT / 4 + 20e-4, rel=1e-9)
+
+
+def test_an_inertia_that_is_missing_or_too_small_is_a_warning(report):
+    def warned(axis, more=MOUNTED):
+        return {one.id: one.text for one in warnings(report({"mass": "100 kg", **axis}, more=more))}
+
+    assert "accelerates: motor, coupling; give [axis] motor_inertia" in warned({})["duty.no_inertia"]
+    assert "screw alone has 19.73 kg cm^2" in warned({"inertia": "15 kg cm^2"})["duty.inertia_too_small"]
+    for complete in ({"inertia": "45 kg cm^2"}, {"motor_inertia": "20 kg cm^2"}):
+        assert not {"duty.no_inertia", "duty.inertia_too_small"} & set(warned(complete))
+
+
+def test_the_inertia_of_all_that_turns_has_no_parts_beside_it(report):
+    with pytest.raises(InputError, match="motor_inertia: is given beside the inertia of all that turns"):
+        report({"mass": "100 kg", "inertia": "45 kg cm^2", "motor_inertia": "20 kg cm^2"})
 
 
 def test_strange_numbers_of_segments_and_of_bearings_are_named(report):

@@ -100,7 +100,11 @@ def test_requirements_of_designs_by_hand(nut):
     operation = types.SimpleNamespace(axial_load=9e3)
     material = types.SimpleNamespace(young_modulus=206e9)
     case = types.SimpleNamespace(
-        operation=operation, screw=types.SimpleNamespace(screw_material=material), installation=None, limits=Limits()
+        operation=operation,
+        screw=types.SimpleNamespace(screw_material=material),
+        installation=None,
+        limits=Limits(),
+        turning_shaft=None,
     )
     asked = Requirements(
         largest_drive_torque=5.0, largest_preload_torque=1.0, least_rigidity=4e8, least_remaining_preload=1e3,

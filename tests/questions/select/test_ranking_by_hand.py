@@ -11,6 +11,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis import units
 from ballscrew.basis.records import Message
+from ballscrew.cases.case_files import case_file
 from ballscrew.physics.sizing.checks import Check
 from ballscrew.questions.select import candidates, requirement_checks
 from ballscrew.questions.select.candidates import Candidate, Variant
@@ -211,11 +212,24 @@ def test_steps_and_bounds_by_hand():
     bounds = Requirements(largest_drive_torque=5.0, largest_preload_torque=1.0, least_rigidity=4e8)
     run = types.SimpleNamespace(brake=None)
     numbers = {"drive_torque": 4.0, "preload_torque": 1.2, "rigidity": math.nan}
-    drive, idle, rigidity = requirement_checks.of_friction(bounds, None, run, numbers)
+
+    def with_rigidities(**by_standard):
+        every = {**dict.fromkeys(("nut", "nut_corrected", "drive"), math.nan), **by_standard}
+        return types.SimpleNamespace(nut=types.SimpleNamespace(rigidity=types.SimpleNamespace(**every)))
+
+    drive, idle, rigidity = requirement_checks.of_friction(bounds, with_rigidities(), run, numbers)
     assert (drive.utilisation, drive.holds) == (pytest.approx(0.8), True)
     assert (idle.utilisation, idle.holds) == (pytest.approx(1.2), False)
     assert (rigidity.utilisation, rigidity.holds, rigidity.limit) == (None, None, 4e8)
     assert "rigidity of the nut under the load: not known here" in units.filled(rigidity.message)
+    # of the balls under the load and of the nut as catalogues print it the smaller; shaft and bearings stand beside it
+    printed = with_rigidities(nut=6e8, nut_corrected=3e8, drive=2e8)
+    for balls, value in ((5e8, 3e8), (2.5e8, 2.5e8), (math.nan, 3e8)):
+        *_, rigidity = requirement_checks.of_friction(bounds, printed, run, {**numbers, "rigidity": balls})
+        assert (rigidity.value, rigidity.holds) == (value, False)
+        assert "by ISO 3408-4, 300 N/µm; nut, shaft and bearings together 200 N/µm" in units.filled(rigidity.message)
+    *_, rigidity = requirement_checks.of_friction(bounds, with_rigidities(nut=6e8), run, {**numbers, "rigidity": 9e8})
+    assert (rigidity.value, rigidity.holds) == (6e8, True)
 
 
 # -- numbers compared -----------------------------------------------------------------------------
@@ -253,18 +267,20 @@ def test_numbers_of_a_cycle_in_a_full_bath(starves):
 
 def test_the_shaft_by_hand():
     """A steel cylinder of 40 mm and 1 m has 9.86 kg and 19.7 kg cm²; at a lead of 10 mm that is 779 kg."""
-    case = types.SimpleNamespace(installation=None, screw=types.SimpleNamespace(lead=0.010))
+    tables = {"screw": {"catalogue": "rexroth-40x10x6-6-double"}, "lubricant": {"grade": "ISO VG 100"}}
+    tables |= {"operation": {"axial_load": "1 kN", "screw_speed": "100 rpm"}}
     need = types.SimpleNamespace(requirements=Requirements())
     # numbers of a candidate by hand, without the model that a selection asks
-    found = candidates._of_shaft(need, case, 0.040)
+    found = candidates._of_shaft(need, case_file.build(tables))
     mass = 7850 * math.pi * 0.020**2
     assert found["inertia"] == pytest.approx(mass * 0.020**2 / 2)
     assert found["reflected_mass"] == pytest.approx(mass * 0.020**2 / 2 * (2 * math.pi / 0.010) ** 2)
     need = types.SimpleNamespace(requirements=Requirements(stroke=0.5))
-    assert candidates._of_shaft(need, case, 0.040)["inertia"] == pytest.approx(found["inertia"] / 2)
-    case.installation = types.SimpleNamespace(unsupported_length=2.0, shaft_density=2700.0)
+    assert candidates._of_shaft(need, case_file.build(tables))["inertia"] == pytest.approx(found["inertia"] / 2)
+    mounted = {"unsupported_length": "2 m", "ends": "fixed-fixed", "shaft_density": "2700 kg/m^3"}
     longer = 2 * found["inertia"] * 2700 / 7850
-    assert candidates._of_shaft(need, case, 0.040)["inertia"] == pytest.approx(longer)
+    mounted_case = case_file.build({**tables, "installation": mounted})
+    assert candidates._of_shaft(need, mounted_case)["inertia"] == pytest.approx(longer)
 
 
 # -- what is tried --------------------------------------------------------------------------------

@@ -14,6 +14,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.faces.cli.progress import progress
+from ballscrew.questions.select import case_text
 from ballscrew.questions.select import compute as selection
 from ballscrew.questions.select.candidates import BY_LOADS, NEARLY, USUAL_LIFE
 from ballscrew.questions.select.document import document, verdict
@@ -70,6 +71,55 @@ UP = {
 ROWS = {"rows": "rexroth-32x"}
 #: One row of them in three nuts, of which loads rule out one or two: a cycle takes each candidate a second.
 ROW = {"rows": "rexroth-32x20"}
+
+
+def test_the_motor_accelerates_the_shaft_that_the_list_prints(ballscrew, tmp_path):
+    """The torque is that of ``duty`` with the printed inertia given, and that of steel of 32 mm and 1 m is in it."""
+    need = {**UP, **ROW, "acceleration": "3.6 m/s^2", "nut": "single", "length": "1 m", "ends": "fixed-supported"}
+    found = bs.select(need, complete=True)
+    (only,) = found.ranked
+    path = tmp_path / "case.toml"
+    path.write_text(case_text.text(found, only, ""), encoding="utf-8")
+
+    def peak(setting):
+        return json.loads(ballscrew("duty", str(path), "--set", setting, "--json").stdout)["results"]["torque_peak"]
+
+    counted = peak(f"axis.inertia={only.candidate.objectives['inertia']!r} kg m^2")
+    mine = document(found)["candidates"][0]
+    assert mine["duty"]["torque_peak"] == pytest.approx(counted, rel=1e-12)
+    steel = math.pi * 0.016**2 * 7850 * 0.016**2 / 2
+    without = peak("axis.screw_inertia=0 kg m^2")
+    assert counted - without == pytest.approx(steel * 3.6 * math.tau / 0.020, rel=1e-9)
+    said = {one["id"]: one["text"] for one in mine["verdicts"]}["verdict.inertia"]
+    assert said.endswith("not given: motor, coupling")
+    printed = " ".join(text(found, [only]).split())
+    assert "1: what turns has 8.081 kg cm^2 at the motor: screw (a cylinder of 32 mm" in printed
+
+
+def test_a_preload_that_is_asked_for_is_not_dropped():
+    """HIWIN's rows list single nuts: they hold nothing of it, unless the need names that kind itself."""
+    need = {**POINT, "force": "2 kN", "life": "100 h", "rows": "hiwin-50-20k4", "preload": "5 %"}
+    (only,) = bs.select(need).ranked
+    assert [check.name for check in only.candidate.failed] == ["preload"]
+    assert not only.candidate.holds
+    assert only.candidate.failed[0].text.startswith("a preload is asked for, and this nut has none")
+    del need["preload"]
+    for nut in ({"type": ["single", "double"], "preload": "5 %"}, {"type": "single"}):
+        assert all(each.candidate.holds for each in bs.select({**need, "nut": nut}).ranked)
+
+
+def test_the_list_names_what_each_was_compared_with():
+    """The limit of the DN value is an estimate, and decides: one that is given is none."""
+    need = {**POINT, "force": "2 kN", "life": "100 h", "feed": "20 m/min", "rows": "63x10x6-4", "preload": "5 %"}
+    found = bs.select(need)
+    (only,) = found.ranked
+    assert verdict(only.candidate).startswith("cannot hold: diameter speed product 1.8 times an estimated limit")
+    printed = " ".join(text(found, found.ranked).split())
+    assert "compared with diameter speed product 70000 mm rpm; of standard nuts in general (THK514E" in printed
+    assert "it may be more: 1 candidates 1 fail by an estimated limit alone" in printed
+    given = bs.select({**need, "limits": {"diameter_speed_product": "100000 mm rpm"}})
+    assert verdict(given.ranked[0].candidate).startswith("cannot hold: diameter speed product 1.26 times")
+    assert "estimated" not in text(given, given.ranked)
 
 
 #: Checks that loads, speeds and sizes decide.

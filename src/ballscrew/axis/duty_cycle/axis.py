@@ -115,10 +115,43 @@ class Axis(ByValue):
             "moment of inertia of motor, coupling and screw, at the motor",
             "kg cm^2",
             at_least=0,
-            hint="a data sheet has that of the motor",
+            hint="all that turns; or left out, and that of the motor alone: a case adds its screw's",
             usual=(0, 100.0),
         ),
     ] = 0.0
+    motor_inertia: Annotated[
+        MomentOfInertia,
+        Info(
+            "J_m",
+            "moment of inertia of the motor with its brake, in place of that of all that turns",
+            "kg cm^2",
+            at_least=0,
+            hint="a data sheet has it",
+            usual=(0, 100.0),
+        ),
+    ] = 0.0
+    coupling_inertia: Annotated[
+        MomentOfInertia,
+        Info(
+            "J_c",
+            "moment of inertia of coupling or pulleys, at the motor, in place of that of all that turns",
+            "kg cm^2",
+            at_least=0,
+            hint="a data sheet has it",
+            usual=(0, 100.0),
+        ),
+    ] = 0.0
+    screw_inertia: Annotated[
+        MomentOfInertia | None,
+        Info(
+            "J_s",
+            "moment of inertia of the screw about its axis, in place of that of all that turns",
+            "kg cm^2",
+            at_least=0,
+            hint="left out: that of a cylinder of its nominal diameter and length",
+            usual=(0, 100.0),
+        ),
+    ] = None
     bearing_torque: Annotated[
         Torque,
         Info(
@@ -151,7 +184,18 @@ class Axis(ByValue):
     table: GuidedTable | None = None
 
     def __post_init__(self) -> None:
-        faults = faults_of("axis", self)
+        faults = faults_of("axis", self, optional=("screw_inertia",))
+        if not faults and self.inertia:
+            faults += [
+                Fault(
+                    f"axis.{name}",
+                    "is given beside the inertia of all that turns",
+                    f"{getattr(self, name):g} kg m^2",
+                    "leave one of the two out",
+                )
+                for name in ("motor_inertia", "coupling_inertia", "screw_inertia")
+                if getattr(self, name)
+            ]
         if not faults and self.guides is not None:
             faults += [
                 Fault(f"axis.{name}", "is given beside the guides", f"{getattr(self, name):g}", "give one of the two")
@@ -211,6 +255,23 @@ class Axis(ByValue):
     def resting_guide_friction(self) -> Force:
         """Force that the guides hold at rest, N."""
         return float(sum(self.guide_friction(0.0).values()))
+
+    @property
+    def inertia_by(self) -> Mapping[str, MomentOfInertia]:
+        """Moments of inertia of what turns, at the motor, kg m^2: in one, as given, or those of its parts.
+
+        That of the screw over the square of the transmission ratio.
+        """
+        if self.inertia:
+            return {"motor, coupling and screw": self.inertia}
+        of_screw = (self.screw_inertia or 0.0) / self.transmission_ratio**2
+        parts = {"screw": of_screw, "motor": self.motor_inertia, "coupling": self.coupling_inertia}
+        return {name: part for name, part in parts.items() if part}
+
+    @property
+    def turning_inertia(self) -> MomentOfInertia:
+        """Moment of inertia of all that turns, at the motor, kg m^2."""
+        return float(sum(self.inertia_by.values()))
 
     @property
     def moving_mass(self) -> Mass:

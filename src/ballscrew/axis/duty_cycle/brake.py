@@ -205,7 +205,7 @@ class _Off:
     ) -> LetGo:
         # a friction that is no number holds nothing
         goes_on = self.load != 0 and not running >= self.pull
-        inertia = self.duty.axis.inertia + self.duty.axis.moving_mass * self.arm**2
+        inertia = self.duty.axis.turning_inertia + self.duty.axis.moving_mass * self.arm**2
         acceleration = 0.0
         if goes_on:
             acceleration = (self.pull - running) / inertia * self.arm if inertia else math.inf

@@ -302,7 +302,7 @@ class Duty(ByValue):
         turned = total(own.values())
         lost = compact(self.transmission_loss(turned))
         alpha = self.states.acceleration / to_motor
-        own |= {"transmission": lost, "acceleration of what turns": self.axis.inertia * alpha}
+        own |= {"transmission": lost, "acceleration of what turns": self.axis.turning_inertia * alpha}
         if self.axis.brake_holds:
             own["brake"] = -np.where(direction == 0, turned, 0.0)
         return own
@@ -438,7 +438,7 @@ class Duty(ByValue):
         two phases is left out.
         """
         turns = 2 * math.pi * self.axis.transmission_ratio / float(self.driven.lead)
-        mass = self.axis.moving_mass + self.axis.inertia * turns**2
+        mass = self.axis.moving_mass + self.axis.turning_inertia * turns**2
         kinetic = sum(mass * (after**2 - before**2) / 2 for before, after in self.states.speeds_of_ends)
         rise = self.states.integral(self.states.speed)
         return float(kinetic + self.axis.gravity_force * rise)

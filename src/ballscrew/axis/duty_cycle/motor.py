@@ -27,9 +27,16 @@ class Motor(ByValue):
     rise.
     """
 
-    rated_torque: Annotated[Torque, Info("T_N", "torque that it gives for ever", "N m", above=0, hint="2.4 N m")]
-    peak_torque: Annotated[Torque, Info("T_max", "torque that it gives for a short time", "N m", above=0, hint="7 N m")]
-    largest_speed: Annotated[AngularSpeed, Info("n_max", "largest speed", "rpm", above=0, hint="3000 rpm")]
+    rated_torque: Annotated[
+        Torque, Info("T_N", "torque that it gives for ever", "N m", above=0, hint="2.4 N m", usual=(0.01, 1000.0))
+    ]
+    peak_torque: Annotated[
+        Torque,
+        Info("T_max", "torque that it gives for a short time", "N m", above=0, hint="7 N m", usual=(0.01, 3000.0)),
+    ]
+    largest_speed: Annotated[
+        AngularSpeed, Info("n_max", "largest speed", "rpm", above=0, hint="3000 rpm", usual=(1.0, 5000.0))
+    ]
     curve: tuple[tuple[float, float], ...] = ()
     torque_constant: Annotated[
         TorqueConstant | None, Info("K_t", "torque over current", "N m/A", above=0, hint="0.5 N m/A")

@@ -43,7 +43,7 @@ class VendorRule(ByValue):
         """Torque of the motor, N m."""
         axis, lead = self.duty.axis, float(self.duty.driven.lead)
         arm = lead / (2 * math.pi) / axis.transmission_ratio
-        inertia = axis.inertia + axis.moving_mass * arm**2
+        inertia = axis.turning_inertia + axis.moving_mass * arm**2
         rubs = sum(self.duty.support_friction.values(), np.zeros_like(self.force))
         friction = self.duty.states.direction * rubs / axis.transmission_ratio
         turned = self.force * arm / self.efficiency + friction

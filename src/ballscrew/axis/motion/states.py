@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Acceleration, Duration, Force, Jerk, Length, Speed, Temperature
 
 Numbers = NDArray[np.float64]
@@ -143,6 +144,20 @@ class MotionStates(ByValue):
     def stroke(self) -> float:
         """Distance between the ends of the motion, m."""
         return float(np.ptp(self.position))
+
+    def places_on(self, shaft_length: Length, first_position: Length | None = None) -> Numbers:
+        """Places of the nut on a shaft between its bearings, m from the first one.
+
+        The motion starts at ``first_position`` (m), or is in the middle. Raises
+        :class:`~ballscrew.basis.errors.InputError` where one that moves does not fit.
+        """
+        low, high = float(np.min(self.position)), float(np.max(self.position))
+        start = (shaft_length - self.stroke) / 2 - low if first_position is None else float(first_position)
+        if high > low and not 0 < start + low < start + high < shaft_length:
+            ends = f"from {1e3 * (start + low):.4g} mm to {1e3 * (start + high):.4g} mm on {1e3 * shaft_length:.4g} mm"
+            remedy = "shorten the stroke, move surroundings.first_position, or lengthen the shaft"
+            raise InputError(Fault("motion", "does not fit between the bearings", ends, remedy))
+        return start + self.position
 
 
 @functools.cache

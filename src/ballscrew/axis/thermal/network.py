@@ -19,7 +19,7 @@ from ballscrew.axis.thermal.shaft import CAPACITY, CONDUCTIVITY, DENSITY, EXPANS
 from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.quantities import AngularSpeed, Conductance, Force, HeatTransfer, Length, Power, Ratio
+from ballscrew.basis.quantities import AngularSpeed, Conductance, Force, HeatTransfer, Length, Mass, Power, Ratio
 from ballscrew.basis.records import Message
 from ballscrew.physics.components.nut import Nut, SingleNut
 from ballscrew.physics.components.screw import BallScrew
@@ -242,14 +242,7 @@ def network_of(
         convection=convection_of(surroundings, float(root), mean_speed),
         bore_convection=0.0 if surroundings.coolant is None else float(surroundings.coolant_convection),
     )
-    start = surroundings.first_position
-    if start is None:
-        start = (length - duty.states.stroke) / 2 - float(np.min(duty.states.position))
-    places = start + duty.states.position
-    if np.min(places) < 0 or np.max(places) > length:
-        given = f"{duty.states.stroke * 1e3:.4g} mm on {length * 1e3:.4g} mm"
-        remedy = "shorten the stroke, move its start, or lengthen the shaft"
-        raise InputError(Fault("motion.stroke", "does not fit between the bearings", given, remedy))
+    places = duty.states.places_on(float(length), surroundings.first_position)
     heated = duty.states.weight * np.abs(duty.screw_speed)
     heated = heated if np.any(heated) else duty.states.weight
     set_to = float(preload_of(screw, screw.nut))
@@ -260,8 +253,7 @@ def network_of(
     balls = surroundings.ball_conductance
     mass = surroundings.nut_mass
     if mass is None:
-        wall = math.pi / 4 * (NUT_WALL**2 - 1) * screw.pitch_circle_diameter**2
-        mass = DENSITY * float(wall) * nut_length
+        mass = nut_mass_of(screw)
     radial = float(heat.thermal_approach(screw.contact_angle, EXPANSION, 1.0, screw.pitch_circle_diameter))
     apart = _distance_of_halves(screw)
     along = float(heat.thermal_approach_along(screw.contact_angle, EXPANSION, 1.0, apart)) if set_to else 0.0
@@ -293,6 +285,12 @@ def convection_of(surroundings: Surroundings, diameter: Length, speed: AngularSp
 def nut_length_of(screw: BallScrew) -> Length:
     """Length of a nut: its loaded turns, and what is beyond them."""
     return nut_length(screw.loaded_turns, screw.lead, screw.nut.halves)
+
+
+def nut_mass_of(screw: BallScrew) -> Mass:
+    """Mass of the body of a nut of usual wall: an estimate."""
+    wall = math.pi / 4 * (NUT_WALL**2 - 1) * screw.pitch_circle_diameter**2
+    return DENSITY * float(wall) * nut_length_of(screw)
 
 
 def nut_length(loaded_turns: Ratio, lead: Length, halves: int) -> Length:

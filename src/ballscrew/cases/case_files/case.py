@@ -9,26 +9,33 @@ from typing import Any, NamedTuple
 
 from ballscrew.axis.duty_cycle.axis import Axis
 from ballscrew.axis.duty_cycle.motor import Motor
-from ballscrew.axis.motion.profiles import Motion
+from ballscrew.axis.motion.profiles import Motion, Segments
 from ballscrew.axis.supports.mounted_bearing import MountedBearing
+from ballscrew.axis.thermal.network import nut_mass_of
 from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.basis import units
+from ballscrew.basis.arrays import lazy
 from ballscrew.basis.displayed import Displayed
+from ballscrew.basis.quantities import Length, MomentOfInertia, fields_of
 from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.usual_ranges import unusual
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
 from ballscrew.engine.uncertainty.distributions import Distribution
-from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.materials import STEEL_DENSITY, Lubricant
 from ballscrew.physics.components.mixed_friction import FRESH_BOUNDARY_FRICTION
 from ballscrew.physics.components.nut import Nut
 from ballscrew.physics.components.oil_grades import has_additives
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.components.traits import traits_of
+from ballscrew.physics.equations.shaft import shaft_inertia
 from ballscrew.physics.friction.calibrations import Calibration
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.plausibility import IMPLAUSIBLE, implausible, named_parts
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.installation import Installation, Limits
+from ballscrew.physics.sizing.own_nut import RATED, odd_ratings, odd_root, odd_seals
+from ballscrew.physics.sizing.ratings import rated_geometry_of, ratings_of
 
 _CALIBRATED = Message("calibrated, and {verdict}")
 _TOO_MANY = Message("{balls} loaded balls, and the {turns} turns of {row} hold {most}: check the number")
@@ -43,8 +50,22 @@ _BARE_OIL = Message(
     "boundary friction of {given} is that of surfaces that have reacted with additives, and this oil has none; "
     "{fresh} was measured before a film of reacted oil had grown"
 )
+_LIGHT = Message("moved mass {mass} is less than that of the nut, about {nut}: check the number and its unit")
+#: A moved mass below this share of that of the nut is a slip: the mass of the nut is an estimate.
+_LEAST_MASS = 0.5
 #: The limits of the checks where a case gives none.
 USUAL_LIMITS = Limits()
+
+
+class TurningShaft(NamedTuple):
+    """The shaft of a screw as a cylinder that turns."""
+
+    inertia: MomentOfInertia
+    #: The nominal diameter of the row, or else that of the pitch circle.
+    diameter: Length
+    length: Length
+    #: True where no length is given, and the stroke of the motion stands for it.
+    of_stroke: bool = False
 
 
 class PreloadNote(NamedTuple):
@@ -135,23 +156,115 @@ class Case(Displayed):
         listed = row.nut_outer_diameter if bodies is None or bodies.nut_outer_diameter is None else None
         return {"nut_outer_diameter": listed, "nominal_diameter": row.nominal_diameter, "make": row.make}
 
+    @property
+    def shaft_length(self) -> Length | None:
+        """The shaft between its bearings: of the surroundings, or the unsupported one; None where none is given."""
+        if self.surroundings is not None and self.surroundings.shaft_length is not None:
+            return float(self.surroundings.shaft_length)
+        return None if self.installation is None else float(self.installation.unsupported_length)
+
+    @lazy
+    def turning_shaft(self) -> TurningShaft | None:
+        """The shaft of the screw as it turns, at least as long as the stroke; None where neither is known."""
+        if self.shaft_length is not None:
+            return self.shaft_of(self.shaft_length)
+        stroke = 0.0 if self.motion is None else self.motion.states().stroke
+        return self.shaft_of(stroke)._replace(of_stroke=True) if stroke else None
+
+    def shaft_of(self, length: Length) -> TurningShaft:
+        """The shaft of the screw as it turns, were it of this ``length`` (m)."""
+        row, screw = self.row, self.screw
+        listed = row is not None and row.ball_circle == screw.pitch_circle_diameter
+        diameter = float(row.nominal_diameter if row is not None and listed else screw.pitch_circle_diameter)
+        bore = 0.0 if self.surroundings is None else float(self.surroundings.bore)
+        density = STEEL_DENSITY if self.installation is None else float(self.installation.shaft_density)
+        return TurningShaft(shaft_inertia(diameter, bore, length, density), diameter, length)
+
+    @lazy
+    def turning_axis(self) -> Axis | None:
+        """The axis with the inertia of the screw, where it is given neither by itself nor in that of all that turns."""
+        axis = self.axis
+        if axis is None or axis.inertia or axis.screw_inertia is not None or self.turning_shaft is None:
+            return axis
+        return dataclasses.replace(axis, screw_inertia=self.turning_shaft.inertia)
+
     def implausible(self) -> list[Record]:
         """A warning for each input that no ball screw has, and :attr:`doubts`."""
         parts = named_parts(self.model, self.screw, self.lubricant, operation=self.operation)
         return [*units.in_display_units_of(implausible(parts)), *self.doubts]
 
     @property
+    def _other_parts(self) -> dict[str, Any]:
+        """What stands beside screw, nut and oil, by the section that its fields have."""
+        axis, motion = self.axis, self.motion
+        segments = motion.segments if isinstance(motion, Segments) else ()
+        parts = {
+            "installation": self.installation,
+            "limits": self.limits,
+            "axis": axis,
+            "motion": motion,
+            **{f"motion.segment {number}": part for number, part in enumerate(segments, start=1)},
+            "motor": self.motor,
+            "surroundings": self.surroundings,
+            **{f"bearings.{place}": bearing.element for place, bearing in self.bearings.items()},
+            "guides": None if axis is None else axis.guides,
+        }
+        return {section: part for section, part in parts.items() if part is not None}
+
+    def _far_from_estimates(self) -> list[Record]:
+        """Warnings of what is given beside the geometry of the screw, and is far from what follows from it.
+
+        None where the geometry itself is one that no screw has: all that follows from it would be.
+        """
+        screw, listed = self.screw, self.listed
+        if unusual("screw", screw) or _too_many_balls(screw, self.row):
+            return []
+        ratings = odd_ratings(listed, ratings_of(rated_geometry_of(screw))) if {*RATED} & {*listed} else []
+        found = [*ratings, *odd_root(listed.get("root_diameter"), screw), *odd_seals(screw)]
+        return [*units.in_display_units_of(found), *_light(self.axis, screw)]
+
+    @property
+    def unlikely(self) -> tuple[str, ...]:
+        """Inputs, by section and field, that no screw or axis has, or that could be others."""
+        return tuple(dict.fromkeys(one.subject for one in self.implausible() if one.id.startswith("inputs.")))
+
+    @property
     def doubts(self) -> list[Record]:
-        """Warnings that the parts cannot tell: fitted numbers that no screw has, numbers that could be others, balls
-        beyond the turns of the row, a calibration of other nuts, boundary friction of surfaces that have not reacted.
+        """Warnings that the parts of the friction cannot tell: fitted numbers that no screw has, numbers that could be
+        others, numbers of axis, motor and mounting that none has, ratings, root diameter, seals and mass far from those
+        by the geometry, balls beyond the turns of the row, a calibration of other nuts, boundary friction of surfaces
+        that have not reacted.
         """
         return [
+            *units.in_display_units_of(implausible(self._other_parts)),
+            *self._far_from_estimates(),
             *_of_fit(self.fit),
             *self.doubtful_numbers,
             *_too_many_balls(self.screw, self.row),
             *_of_other_nuts(self.calibration, self.screw.nut),
             *_not_reacted(self.model, self.lubricant),
         ]
+
+
+def _light(axis: Axis | None, screw: BallScrew) -> list[Record]:
+    """A warning of an axis that moves less than the nut alone weighs; without any mass it is a force that moves."""
+    nut = nut_mass_of(screw)
+    if axis is None or not 0 < axis.mass < _LEAST_MASS * nut:
+        return []
+    quantity = fields_of(Axis)["mass"]
+    message = _LIGHT.of(mass=Measured(float(axis.mass), quantity), nut=Measured(nut, quantity, digits=2))
+    return [
+        units.record(
+            message,
+            id=IMPLAUSIBLE,
+            subject="axis.mass",
+            severity="warning",
+            holds=False,
+            value=float(axis.mass),
+            limit=nut,
+            unit="kg",
+        )
+    ]
 
 
 def _of_fit(table: Mapping[str, Any]) -> list[Record]:

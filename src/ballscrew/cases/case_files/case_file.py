@@ -168,6 +168,8 @@ def build(
     screw = made.screw if made.screw is None or nut is None else dataclasses.replace(made.screw, nut=nut)
     travels = moves and "operation" not in sections
     operation = _travel(moved, screw) if travels else _operation(sections, screw, faults)
+    root = None if screw is None else nut_tables.root_diameter(screw, made.listed)
+    faults += [*duty_tables.misfits(moved, mounted, root), *nut_tables.faults_of_root(screw, made.listed)]
     if efficiency is not None and lubricant is None:
         lubricant = Lubricant.from_grade("ISO VG 100")
     if faults or screw is None or lubricant is None or operation is None or friction_model is None:

@@ -35,6 +35,7 @@ from ballscrew.cases.schema.duty_schema import (
 )
 from ballscrew.cases.schema.sections import Sections
 from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.sizing.installation import Installation
 
 #: What a question about a motion needs besides the screw.
 NEEDED = ("axis", "motion")
@@ -65,6 +66,42 @@ def needed(usual: Sequence[str], moves: bool, efficiency: float | None) -> Seque
     """The sections that a case needs: one that moves no operating point, the rule of one efficiency no oil."""
     found = [name for name in usual if not (name == "lubricant" and efficiency is not None)]
     return [*(name for name in found if name != "operation"), *NEEDED] if moves else found
+
+
+@overflow_as_input_error()
+def misfits(moved: Moved, installation: Installation | None, root_diameter: float | None) -> list[Fault]:
+    """Faults of lengths that contradict each other: of the motion, the shaft between its bearings, and its bore."""
+    surroundings = moved.surroundings or Surroundings()
+    known, lengths = fields_of(Surroundings), dict[str, float]()
+    if surroundings.shaft_length is not None:
+        lengths["surroundings.shaft_length"] = float(surroundings.shaft_length)
+    if installation is not None:
+        lengths["installation.unsupported_length"] = float(installation.unsupported_length)
+    found: list[Fault] = []
+
+    def shown(length: float) -> str:
+        return units.shown(length, known["stroke"])
+
+    if len(lengths) == 2 and lengths["installation.unsupported_length"] > lengths["surroundings.shaft_length"]:
+        place, length = [*lengths.items()][1]
+        remedy = "give the shaft between its bearings, and the part of it that nothing supports"
+        found.append(Fault(place, "is longer than the shaft between its bearings", shown(length), remedy))
+    if root_diameter is not None and surroundings.bore >= root_diameter:
+        given = f"{shown(surroundings.bore)} in a shaft of {shown(root_diameter)}"
+        found.append(Fault("surroundings.bore", "leaves no shaft", given, "give a smaller bore"))
+    if not lengths:
+        return found
+    length = next(iter(lengths.values()))
+    if surroundings.stroke is not None and surroundings.stroke >= length:
+        given = f"{shown(surroundings.stroke)} on {shown(length)}"
+        remedy = "shorten the stroke, or lengthen the shaft"
+        found.append(Fault("surroundings.stroke", "does not fit between the bearings", given, remedy))
+    if moved.motion is not None:
+        try:
+            moved.motion.states().places_on(length, surroundings.first_position)
+        except InputError as error:
+            found += error.faults
+    return found
 
 
 @overflow_as_input_error()

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from ballscrew.basis import units
 from ballscrew.basis.errors import MISSING, Fault, InputError, either, nearest
 from ballscrew.basis.quantities import fields_of
 from ballscrew.basis.records import Message
@@ -15,7 +16,7 @@ from ballscrew.cases.case_files.case import PreloadNote
 from ballscrew.cases.schema.case_schema import law_of
 from ballscrew.cases.schema.sections import Sections
 from ballscrew.cases.screw_tables import catalogue
-from ballscrew.cases.screw_tables.nut_kinds import ENDS, LOSSES, NUT_FIELDS, NUTS, Share
+from ballscrew.cases.screw_tables.nut_kinds import ENDS, LISTED, LOSSES, NUT_FIELDS, NUTS, Share
 from ballscrew.physics.components.nut import Bodies, Nut, Scatter, SingleNut
 from ballscrew.physics.components.nut_losses import ParasiticLaw
 from ballscrew.physics.components.screw import SINGLE_NUT, BallScrew
@@ -82,6 +83,16 @@ def _as_row(screw: BallScrew) -> CatalogueRow:
 def root_diameter(screw: BallScrew, listed: Mapping[str, float]) -> float:
     """The diameter at the bottom of the groove: listed, or from the conformity."""
     return listed.get("root_diameter") or float(groove_bottom(screw))
+
+
+def faults_of_root(screw: BallScrew | None, listed: Mapping[str, float]) -> list[Fault]:
+    """The fault of a listed diameter at the bottom of the groove that reaches the centres of the balls."""
+    root, quantity = listed.get("root_diameter"), LISTED["root_diameter"]
+    if screw is None or root is None or root < screw.pitch_circle_diameter:
+        return []
+    given = f"{units.shown(root, quantity)} and a pitch circle of {units.shown(screw.pitch_circle_diameter, quantity)}"
+    remedy = "give the diameter at the bottom of the groove, or leave it out: it follows from the conformity"
+    return [Fault("screw.root_diameter", "leaves no room for the balls", given, remedy)]
 
 
 def dynamic_rating(screw: BallScrew, row: CatalogueRow | None, listed: Mapping[str, float]) -> tuple[float, str]:

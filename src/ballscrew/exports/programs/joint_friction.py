@@ -398,10 +398,10 @@ def options_of_case(case: Case) -> dict[str, float]:
 
     A counterweight moves, too; its weight, and a force that balances, is the counterforce.
     """
-    found, axis = {"load": float(case.operation.axial_load)}, case.axis
+    found, axis = {"load": float(case.operation.axial_load)}, case.turning_axis
     if axis is None:
         return found
-    found["inertia"] = float(axis.inertia * axis.transmission_ratio**2)
+    found["inertia"] = float(axis.turning_inertia * axis.transmission_ratio**2)
     mass = float(axis.mass + axis.counterweight)
     if mass > 0:
         gravity = mass * GRAVITY * math.sin(axis.inclination)

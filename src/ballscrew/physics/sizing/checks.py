@@ -178,10 +178,11 @@ def _in_few_words(checks: Sequence[Check], *, by_how_much: bool = False, **said:
 
 
 def failing(check: Check, *, by_how_much: bool = True) -> Message:
-    """The name of a check that fails, and by how many times."""
+    """The name of a check that fails, and by how many times; of what limit, where that is an estimate."""
     if not by_how_much or check.utilisation is None:
         return check.title
-    return Message("{check} {times} times", {"check": check.title, "times": Measured(check.utilisation, digits=3)})
+    template = "{check} {times} times an estimated limit" if check.source == "estimate" else "{check} {times} times"
+    return Message(template, {"check": check.title, "times": Measured(check.utilisation, digits=3)})
 
 
 @accepts_units("checks")

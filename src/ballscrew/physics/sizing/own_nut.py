@@ -23,10 +23,11 @@ from ballscrew.basis.quantities import (
 )
 from ballscrew.basis.records import Measured, Message, Record
 from ballscrew.basis.usual_ranges import IMPLAUSIBLE
+from ballscrew.physics.components.nut_losses import Seals, seal_table
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import geometry
 from ballscrew.physics.sizing.catalogue import CONFORMITY_DOUBT, SMALLEST_BALL, CatalogueRow
-from ballscrew.physics.sizing.ratings import ratings_of
+from ballscrew.physics.sizing.ratings import Ratings, ratings_of
 from ballscrew.physics.solvers.rated_ball import ball_of_rating
 
 #: The rule of the ball diameter without a load rating: its factor, its exponent, and the lead over the diameter from
@@ -40,6 +41,10 @@ RATED_BAND = (0.92, 1.24)
 SMALL_BAND, SMALL_BALL = (0.92, 1.39), 2.3e-3
 #: Dynamic load rating as listed over that by the geometry, of the same rows and nuts.
 RATING_RATIOS = (0.65, 1.13)
+#: The same of the static load rating: makers have criteria of their own.
+STATIC_RATIOS = (0.6, 1.1)
+#: Torque of the seals over that of the vendor's nut of the next diameter: makers differ, by less than a slip of ten.
+SEAL_RATIO = 5.0
 #: Balls that a nut may have, over its nominal diameter and over the distance of neighbouring grooves.
 BALLS_PER_DIAMETER, BALLS_PER_PITCH = (0.04, 0.26), 0.8
 #: Conformities that makers are known to grind.
@@ -51,6 +56,8 @@ LEAST_LOADED = 0.77
 #: Usual contact angles, rad.
 ANGLES = (math.radians(40), math.radians(50))
 
+#: The load ratings of a row.
+RATED = ("dynamic_load_rating", "static_load_rating")
 #: Decimals of a length in metres, and of a conformity, that an estimate is written with.
 _WHOLE_MICROMETRES, _DIGITS = 6, 4
 
@@ -78,17 +85,30 @@ _ODD_RATING = Message(
     "dynamic_load_rating {listed} is {ratio} times that by the geometry, {computed}; rows of catalogues have 0.65 to "
     "1.13: check its unit, the ball diameter, and that the turns are those of one nut body, all circuits together"
 )
+_ODD_STATIC = Message(
+    "static_load_rating {listed} is {ratio} times that by the geometry, {computed}; rows of catalogues have 0.6 to "
+    "1.1: check its unit, the ball diameter, and that the turns are those of one nut body, all circuits together"
+)
+_STATIC_BELOW = Message(
+    "static_load_rating {static} is below the dynamic one, {dynamic}: rows of catalogues have 1.2 to 4.4 times it; "
+    "check the two and their units"
+)
+_ODD_SEALS = Message(
+    "torque of the seals {given} is {ratio} times that of a vendor's seals on {diameter}, {listed}: check the number "
+    "and its unit"
+)
 _NO_BALL = Message(
     "dynamic_load_rating {listed} goes with no ball that a nut of this size has; the ball diameter is estimated from "
     "lead and diameter: check the unit of the rating and the turns, or give the ball diameter"
 )
 _ODD_ROOT = Message(
     "root_diameter {listed} is no bottom of a groove for this ball and pitch circle: it would need a conformity "
-    "outside 0.51 to 0.58; the conformity is the usual one: leave the root diameter out or give the conformity"
+    "outside 0.51 to 0.58: check its unit, or leave it out"
 )
 
 #: What may be estimated: quantities of a row, and of the screw that it makes.
 QUANTITIES: Mapping[str, Quantity] = {**fields_of(BallScrew), **quantities_of(CatalogueRow)}
+_SEALS = fields_of(Seals)["seal_torque"]
 #: Roughnesses, with their bands as shares, which are those of ``data/uncertainties.toml``.
 _ROUGHNESSES: Mapping[str, tuple[tuple[float, float], Message]] = {
     "ball_roughness": ((1 / 3, 3.0), BY_SURFACE),
@@ -190,7 +210,9 @@ def completed(listed: Mapping[str, Any]) -> OwnNut:
     row = CatalogueRow(**fields)
     row.screw()  # raises for faults between the numbers, as of a ball that is too big for the lead
     if "ball_diameter" in listed:
-        warnings += _odd_rating(row)
+        warnings += odd_ratings(
+            {name: value for name in RATED if (value := getattr(row, name)) is not None}, ratings_of(row)
+        )
     if row.pitch_circle_diameter is None:
         estimates.append(_within("ball_circle", row.ball_circle, PITCH_CIRCLES, BY_NOMINAL))
     if "conformity" not in fields:
@@ -260,22 +282,67 @@ def _within(name: str, value: float, band: tuple[float, float], source: Message)
     return Estimate(name, value, band[0] * value, band[1] * value, source)
 
 
-def _odd_rating(row: CatalogueRow) -> list[Record]:
-    """A warning of a dynamic load rating that does not go with the geometry."""
-    rating = row.dynamic_load_rating
-    if rating is None:
-        return []
-    computed = float(ratings_of(row).dynamic)
-    low, high = RATING_RATIOS
-    if low <= rating / computed <= high:
-        return []
-    quantity = QUANTITIES["dynamic_load_rating"]
-    message = _ODD_RATING.of(
-        listed=Measured(rating, quantity),
-        ratio=Measured(rating / computed, digits=2),
-        computed=Measured(computed, quantity),
+def odd_ratings(listed: Mapping[str, float], computed: Ratings) -> list[Record]:
+    """Warnings of load ratings, as they are listed, that do not go with those by the geometry or with each other."""
+    dynamic, static = (listed.get(name) for name in RATED)
+    found = [
+        *_odd_rating("dynamic_load_rating", dynamic, computed.dynamic, RATING_RATIOS, _ODD_RATING),
+        *_odd_rating("static_load_rating", static, computed.static, STATIC_RATIOS, _ODD_STATIC),
+    ]
+    if dynamic is None or static is None or static >= dynamic or found:
+        return found
+    numbers = {"static": static, "dynamic": dynamic}
+    message = _STATIC_BELOW.of(
+        **{name: Measured(value, QUANTITIES[f"{name}_load_rating"]) for name, value in numbers.items()}
     )
-    return [_warning("dynamic_load_rating", rating / computed, message, high if rating > computed else low)]
+    return [_warning("static_load_rating", static, message, dynamic)]
+
+
+def _odd_rating(
+    name: str, listed: float | None, computed: Force, ratios: tuple[float, float], template: Message
+) -> list[Record]:
+    """A warning of a load rating whose ratio to that by the geometry no row of a catalogue has."""
+    low, high = ratios
+    ratio = math.nan if listed is None else listed / float(computed)
+    if listed is None or not math.isfinite(ratio) or low <= ratio <= high:
+        return []
+    quantity = QUANTITIES[name]
+    message = template.of(
+        listed=Measured(listed, quantity), ratio=Measured(ratio, digits=2), computed=Measured(float(computed), quantity)
+    )
+    return [_warning(name, ratio, message, high if ratio > high else low)]
+
+
+def odd_root(root_diameter: float | None, screw: BallScrew) -> list[Record]:
+    """A warning of a diameter at the bottom of the groove that no conformity of a maker has on this screw."""
+    if root_diameter is None:
+        return []
+    sizes = screw.pitch_circle_diameter, screw.ball_diameter
+    deepest, highest = (
+        float(geometry.groove_root_diameter(*sizes, share, screw.contact_angle)) for share in CONFORMITIES[::-1]
+    )
+    if deepest <= root_diameter <= highest:
+        return []
+    listed = Measured(root_diameter, QUANTITIES["root_diameter"])
+    return [_warning("root_diameter", root_diameter, _ODD_ROOT.of(listed=listed))]
+
+
+def odd_seals(screw: BallScrew) -> list[Record]:
+    """A warning of seals whose known torque is far above that of a vendor's seals on about this diameter."""
+    torque = getattr(screw.nut.losses.get("seals"), "seal_torque", None)
+    if torque is None:
+        return []
+    row = min(seal_table(), key=lambda row: row.distance(float(screw.pitch_circle_diameter), float(screw.lead)))
+    ratio = float(torque) / row.torque
+    if not ratio > SEAL_RATIO:
+        return []
+    message = _ODD_SEALS.of(
+        given=Measured(float(torque), _SEALS),
+        listed=Measured(row.torque, _SEALS),
+        ratio=Measured(ratio, digits=2),
+        diameter=Measured(row.nominal_diameter, QUANTITIES["nominal_diameter"]),
+    )
+    return [dataclasses.replace(_warning("", ratio, message, SEAL_RATIO), subject="losses.seals.seal_torque")]
 
 
 def _conformity(row: CatalogueRow, *, is_listed: bool) -> tuple[Estimate, list[Record]]:
@@ -285,11 +352,9 @@ def _conformity(row: CatalogueRow, *, is_listed: bool) -> tuple[Estimate, list[R
     )
     if not is_listed or row.pitch_circle_diameter is None or row.root_diameter is None:
         return usual, []
+    if odd := odd_root(row.root_diameter, row.screw()):
+        return usual, odd
     low, high = CONFORMITIES
-    deepest, highest = (_bottom(row, share) for share in (high, low))
-    if not deepest <= row.root_diameter <= highest:
-        listed = Measured(row.root_diameter, QUANTITIES["root_diameter"])
-        return usual, [_warning("root_diameter", row.root_diameter, _ODD_ROOT.of(listed=listed))]
     for _ in range(40):
         middle = (low + high) / 2
         low, high = (middle, high) if _bottom(row, middle) > row.root_diameter else (low, middle)

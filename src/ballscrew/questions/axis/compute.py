@@ -237,16 +237,8 @@ def _travel(case: Case, length: Length) -> tuple[Length, Length] | None:
     """Places of the nut at the ends of its motion; None without a motion that moves."""
     if case.motion is None or case.axis is None:
         return None
-    position = case.motion.states().position
-    stroke = float(np.ptp(position))
-    if not stroke:
+    states = case.motion.states()
+    if not states.stroke:
         return None
-    given = None if case.surroundings is None else case.surroundings.first_position
-    start = (length - stroke) / 2 - float(np.min(position)) if given is None else float(given)
-    ends = start + float(np.min(position)), start + float(np.max(position))
-    if not 0 < ends[0] < ends[1] < length:
-        shown = " and ".join(units.shown(end, SERIES["position"]) for end in ends)
-        remedy = "shorten the stroke, move surroundings.first_position, or lengthen the shaft"
-        given_text = f"from {shown} on {units.shown(length, SERIES['position'])}"
-        raise InputError(Fault("motion", "does not fit between the bearings", given_text, remedy))
-    return ends
+    places = states.places_on(length, None if case.surroundings is None else case.surroundings.first_position)
+    return float(np.min(places)), float(np.max(places))

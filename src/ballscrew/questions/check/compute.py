@@ -28,6 +28,7 @@ from ballscrew.physics.sizing.ratings import Ratings, ratings_of
 from ballscrew.questions.check.options import flags
 from ballscrew.questions.run.compute import Run, with_nut
 from ballscrew.questions.run.nut_state import NutState
+from ballscrew.questions.shared.check_lines import with_unlikely
 from ballscrew.questions.shared.every_row import Done, OfRows, copied, each, place_of
 from ballscrew.questions.shared.own_screws import tables_of_row
 
@@ -107,7 +108,8 @@ class Checked:
     @property
     def message(self) -> Message:
         """All checks in a few words; of what, where the case has a cycle too."""
-        return verdict_at_point(self.checks, valid=bool(self.run.friction.valid), has_cycle=self.moves)
+        found = verdict_at_point(self.checks, valid=bool(self.run.friction.valid), has_cycle=self.moves)
+        return with_unlikely(found, self.case)
 
     @property
     def verdict(self) -> str:
@@ -123,7 +125,7 @@ class Checked:
     def verdicts(self) -> list[Record]:
         """The verdict on all checks, then those on the operating point."""
         holds = all_hold(self.checks)
-        severity: Severity = "error" if holds is False else "info"
+        severity: Severity = "error" if holds is False else "warning" if self.case.unlikely else "info"
         whole = units.record(self.message, id="verdict.checks", subject="checks", severity=severity, holds=holds)
         return [whole, *self.run.verdicts]
 

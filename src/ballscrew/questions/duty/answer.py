@@ -42,6 +42,9 @@ from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, Answer, table_
 MOST_STATES = 2000
 
 
+_INERTIA = Unit("kg m^2")
+
+
 def _by_slug(parts: Mapping[str, Any]) -> dict[str, float]:
     return {slug_of(name): float(value) for name, value in parts.items()}
 
@@ -291,6 +294,11 @@ class DutyResults(CycleNumbers):
     def torque_rms_by(self) -> Mapping[str, Torque]:
         """Parts of the RMS torque."""
         return _by_slug(self._report.torque_rms_by)
+
+    @property
+    def inertia_by(self) -> Annotated[Mapping[str, float], _INERTIA, Info("J", "moment of inertia at the motor")]:
+        """Moment of inertia at the motor by what turns, or of all in one as it is given."""
+        return _by_slug(self._report.axis.inertia_by)
 
     @property
     def energy_by(self) -> Mapping[str, Energy]:

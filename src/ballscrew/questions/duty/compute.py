@@ -515,17 +515,18 @@ def planned(case: Case) -> DutyReport:
 
 
 def _report(case: Case, cycle: Callable[..., axis_duty.Duty], *, recorded: bool) -> DutyReport:
-    assert case.axis is not None
+    axis = case.turning_axis
+    assert axis is not None
     assert case.motion is not None
     driver = case.model if case.efficiency is None else case.efficiency
     found = cycle(
-        driver, case.screw, case.lubricant, axis=case.axis, motion=case.motion, also=beside(case), recorded=recorded
+        driver, case.screw, case.lubricant, axis=axis, motion=case.motion, also=beside(case), recorded=recorded
     )
     rating, source = _rating(case)
     screw = _in_motion(case, found)
     life = CycleLife(found, screw.nut, float(preload_of(screw, screw.nut)), rating)
     rule = VendorRule(found, RULE_EFFICIENCY if case.efficiency is None else case.efficiency)
-    return DutyReport(case, case.axis, case.motion, found, life, source, rule)
+    return DutyReport(case, axis, case.motion, found, life, source, rule)
 
 
 def _in_motion(case: Case, found: axis_duty.Duty) -> BallScrew:

@@ -8,7 +8,7 @@ import numpy as np
 
 from ballscrew.axis.duty_cycle.axis import Axis
 from ballscrew.axis.duty_cycle.drive import FULL_BATH, MotorCheck
-from ballscrew.axis.motion.profiles import Segments, Trapezoid
+from ballscrew.axis.motion.profiles import Trapezoid
 from ballscrew.axis.motion.trajectory import Trajectory
 from ballscrew.axis.supports.bearing import DIRECTION
 from ballscrew.basis import units
@@ -16,11 +16,11 @@ from ballscrew.basis.quantities import Quantity, fields_of
 from ballscrew.basis.records import Measured, Message, Record, Severity, in_file
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction import starvation
-from ballscrew.physics.friction.plausibility import implausible
 from ballscrew.physics.friction.validity import CONDITIONS, NUT_CONDITIONS
 from ballscrew.physics.sizing.checks import Check, all_hold, verdict_of
 from ballscrew.questions.duty.compute import NUMBERS, OF_BATH, DutyReport
 from ballscrew.questions.duty.short_reversal import BACK, TRAVEL
+from ballscrew.questions.shared.check_lines import with_unlikely
 
 _LENGTH, _SPEED = fields_of(Trapezoid)["stroke"], fields_of(Trapezoid)["speed"]
 _TORQUE, _TURNING = NUMBERS["torque_rms"], NUMBERS["mean_speed"]
@@ -36,8 +36,8 @@ _PART_OF_TIME = Message("{condition} (in {share} of the time in motion)")
 
 
 def verdicts(report: DutyReport) -> list[Record]:
-    """Starvation; whether the axis falls, whether the motor suffices, and whether all checks hold."""
-    return [*starved(report), _brake(report), *_motor(report), _checks(report)]
+    """Starvation; what turns; whether the axis falls, whether the motor suffices, and whether all checks hold."""
+    return [*starved(report), *inertia(report), _brake(report), *_motor(report), _checks(report)]
 
 
 def starved(report: DutyReport) -> list[Record]:
@@ -48,6 +48,49 @@ def starved(report: DutyReport) -> list[Record]:
     given = {"torque_peak": duty.torque_peak, "screw_torque": duty.screw_torque, "energy_lost": duty.energy_lost}
     numbers = [starvation.BothTorques(OF_BATH[name], value, full[name]) for name, value in given.items()]
     return units.in_display_units_of(starvation.records(numbers))
+
+
+def inertia(report: DutyReport) -> list[Record]:
+    """The moment of inertia that the motor accelerates, by what was counted, and what is missing in it."""
+    axis = report.axis
+    parts = axis.inertia_by
+    if not parts:
+        return []
+    whole = {"inertia": Measured(axis.turning_inertia, _INERTIA)}
+    if axis.inertia:
+        message = Message(
+            "what turns has {inertia} at the motor, as given for motor, coupling and screw: none is added to it",
+            whole,
+        )
+    else:
+        counted = [
+            Message("{part} {inertia}", {"part": _part(report, name), "inertia": Measured(value, _INERTIA)})
+            for name, value in parts.items()
+        ]
+        message = Message("what turns has {inertia} at the motor: {parts}", {**whole, "parts": counted})
+        if missing := _not_given(report):
+            message = Message("{counted}; not given: {missing}", {"counted": message, "missing": missing})
+    return [
+        units.record(
+            message, id="verdict.inertia", subject="inertia", severity="info", value=axis.turning_inertia,
+            unit=_INERTIA.unit,
+        )
+    ]  # fmt: skip
+
+
+def _part(report: DutyReport, name: str) -> Message:
+    """A part of what turns, of the screw with what its inertia is that of, where it was computed."""
+    shaft = report.case.turning_shaft
+    if name != "screw" or shaft is None or report.case.axis is report.axis:
+        return Message(name)
+    numbers = {"diameter": Measured(shaft.diameter, _LENGTH), "length": Measured(shaft.length, _LENGTH)}
+    if shaft.of_stroke:
+        return Message("screw (a cylinder of {diameter} as long as the stroke of {length}: give its length)", numbers)
+    return Message("screw (a cylinder of {diameter} and {length})", numbers)
+
+
+def _not_given(report: DutyReport) -> list[Message]:
+    return [Message(name) for name in ("screw", "motor", "coupling") if name not in report.axis.inertia_by]
 
 
 def _brake(report: DutyReport) -> Record:
@@ -125,25 +168,17 @@ def _with_condition(torque: float, condition: str) -> Measured | Message:
 
 def _checks(report: DutyReport) -> Record:
     holds = all_hold(report.checks)
-    message = Message("over the cycle: {verdict}", {"verdict": verdict_of(report.checks, passes=_PASSES)})
-    severity: Severity = "error" if holds is False else "info"
+    words = with_unlikely(verdict_of(report.checks, passes=_PASSES), report.case)
+    message = Message("over the cycle: {verdict}", {"verdict": words})
+    severity: Severity = "error" if holds is False else "warning" if report.case.unlikely else "info"
     return units.record(message, id="verdict.checks", subject="checks", severity=severity, holds=holds)
 
 
 def warnings(report: DutyReport) -> list[Record]:
     """What is strange about inputs and motion, what fails and how to mend it, and where the model ends."""
-    parts: dict[str, object] = {"axis": report.axis, "motion": report.motion}
-    if isinstance(report.motion, Segments):
-        parts |= {f"motion.segment {i}": part for i, part in enumerate(report.motion.segments, start=1)}
-    for place, bearing in report.case.bearings.items():
-        parts |= {f"bearings.{place}": bearing.element}
-    if report.axis.guides is not None:
-        parts |= {"guides": report.axis.guides}
-    strange = units.in_display_units_of(implausible(parts))
     return [
         *report.case.implausible(),
-        *strange,
-        *_nothing_turns(report),
+        *inertia_warnings(report),
         *_open_cycle(report),
         *_jumps(report),
         *_short_stroke(report),
@@ -164,16 +199,37 @@ def _warning(
     )  # fmt: skip
 
 
-def _nothing_turns(report: DutyReport) -> list[Record]:
-    """Inertia that is not given, where something accelerates."""
-    if report.axis.inertia or not np.any(report.duty.states.acceleration):
+def inertia_warnings(report: DutyReport) -> list[Record]:
+    """Inertia that is not given where something accelerates, and one of all that turns that the screw alone exceeds."""
+    axis, shaft = report.axis, report.case.turning_shaft
+    if not np.any(report.duty.states.acceleration):
+        return []
+    if not axis.inertia_by:
+        message = Message(
+            "the inertia of motor, coupling and screw is zero: no torque is counted that accelerates them, often a "
+            'quarter of the peak; give {inertia} = "45 kg cm^2"',
+            {"inertia": in_file("axis.inertia")},
+        )
+        return [_warning("no_inertia", "axis.inertia", message, 0.0, None, _INERTIA)]
+    if not axis.inertia and not axis.motor_inertia:
+        message = Message(
+            'no torque is counted that accelerates: {missing}; give {inertia} = "20 kg cm^2"',
+            {"missing": _not_given(report), "inertia": in_file("axis.motor_inertia")},
+        )
+        return [_warning("no_inertia", "axis.motor_inertia", message, axis.turning_inertia, None, _INERTIA)]
+    alone = 0.0 if shaft is None else shaft.inertia / float(axis.transmission_ratio) ** 2
+    if not axis.inertia or alone <= axis.inertia:
         return []
     message = Message(
-        "the inertia of motor, coupling and screw is zero: no torque is counted that accelerates them, often a quarter "
-        'of the peak; give {inertia} = "45 kg cm^2"',
-        {"inertia": in_file("axis.inertia")},
+        "the inertia of motor, coupling and screw is given as {given}, and the screw alone has {alone}: leave it out "
+        "and give {motor}, and the screw counts as it is",
+        {
+            "given": Measured(float(axis.inertia), _INERTIA),
+            "alone": Measured(alone, _INERTIA),
+            "motor": in_file("axis.motor_inertia"),
+        },
     )
-    return [_warning("no_inertia", "axis.inertia", message, 0.0, None, _INERTIA)]
+    return [_warning("inertia_too_small", "axis.inertia", message, float(axis.inertia), alone, _INERTIA)]
 
 
 def _open_cycle(report: DutyReport) -> list[Record]:

@@ -302,7 +302,7 @@ def _built(need: Need, tables: Mapping[str, Any], options: Mapping[str, Any]) ->
 
 
 def _length(need: Need, case: Case) -> float:
-    return shaft_length(need.requirements, case.installation) or USUAL_LENGTH
+    return shaft_length(need.requirements, case) or USUAL_LENGTH
 
 
 def _member(
@@ -316,7 +316,7 @@ def _member(
     tables = tables_of(need, space, variables, balls=balls, preload=preload)
     case = _built(need, tables, options)
     whole = checked(f"design {place + 1}", case, need.notes)
-    numbers = objectives_of(need, whole, None, variables["pitch_circle_diameter"])
+    numbers = objectives_of(need, whole, None)
     searched = {
         name: OBJECTIVES[name].sign * float(cost)
         for name, cost in zip(space.objectives, found.costs[place], strict=True)

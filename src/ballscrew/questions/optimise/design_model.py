@@ -15,12 +15,13 @@ from ballscrew.engine.evaluation.engines import Engine
 from ballscrew.engine.evaluation.evaluator import Evaluator, evaluator
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.sampling import Sampler, sobol_sequence
-from ballscrew.physics.sizing.installation import Installation
+from ballscrew.physics.components.materials import STEEL_DENSITY
+from ballscrew.physics.equations.shaft import shaft_inertia
 from ballscrew.physics.sizing.listed_nut import PRELOADED
 from ballscrew.questions.optimise.design_space import RATIOS, DesignSpace
 from ballscrew.questions.optimise.designs import Designs, Numbers
 from ballscrew.questions.select.need import Need
-from ballscrew.questions.select.objectives import OBJECTIVES, reflected_mass, shaft_inertia, shaft_length
+from ballscrew.questions.select.objectives import OBJECTIVES, reflected_mass, shaft_length
 from ballscrew.questions.select.requirement_checks import preload_used
 from ballscrew.questions.select.requirements import ALLOWED, FORBIDDEN, Requirements
 
@@ -33,7 +34,6 @@ _OUTPUTS = (
 )  # fmt: skip
 #: The objectives that the model has a say in, which uncertain inputs move.
 OF_MODEL = ("loss", "rigidity", "drive_torque", "preload_torque")
-_DENSITY = Installation.__dataclass_fields__["shaft_density"].default
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -116,8 +116,9 @@ class DesignModel:
     def objectives(self, designs: Designs, speed: Numbers, at: Mapping[str, Numbers]) -> dict[str, Numbers]:
         """The numbers compared, by name, at the central inputs."""
         wanted = {*self.space.objectives, *(["preload_torque"] if self.requirements.largest_preload_torque else [])}
-        density = _DENSITY if self.case.installation is None else self.case.installation.shaft_density
-        inertia = shaft_inertia(designs.pitch_circle_diameter, self.length, density)
+        density = STEEL_DENSITY if self.case.installation is None else self.case.installation.shaft_density
+        bore = 0.0 if self.case.surroundings is None else self.case.surroundings.bore
+        inertia = shaft_inertia(designs.pitch_circle_diameter, bore, self.length, density)
         found = {
             "loss": at["friction_power"],
             "inertia": inertia,
@@ -154,7 +155,7 @@ class DesignModel:
         if required.least_remaining_preload is not None:
             with np.errstate(divide="ignore"):
                 found["remaining_preload"] = required.least_remaining_preload / at["remaining_preload"]
-        if required.largest_inertia is not None and shaft_length(required, case.installation) is not None:
+        if required.largest_inertia is not None and shaft_length(required, case) is not None:
             found["inertia"] = numbers["inertia"] / required.largest_inertia
         if required.largest_step is not None and required.counts_per_turn is not None:
             found["step"] = designs.lead / required.counts_per_turn / required.largest_step

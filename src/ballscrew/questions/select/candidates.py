@@ -34,7 +34,7 @@ from ballscrew.questions.duty import verdicts as duty_verdicts
 from ballscrew.questions.duty.compute import DutyReport
 from ballscrew.questions.select import requirement_checks
 from ballscrew.questions.select.need import Need
-from ballscrew.questions.select.objectives import OBJECTIVES, USUAL_LENGTH, reflected_mass, shaft_inertia, shaft_length
+from ballscrew.questions.select.objectives import OBJECTIVES, USUAL_LENGTH, reflected_mass, shaft_length
 from ballscrew.questions.select.requirements import Requirements
 from ballscrew.questions.shared.every_row import copied
 from ballscrew.questions.shared.own_screws import tables_of_row
@@ -55,7 +55,6 @@ USUAL_LIFE = 10_000 * 3600.0
 #: How a length is made of a stroke.
 LENGTH_OF_STROKE = "the stroke and a nut of its loaded turns and two leads; add what lies between it and the bearings"
 _FEED = fields_of(Requirements)["feed"]
-_DENSITY = Installation.__dataclass_fields__["shaft_density"].default
 
 
 @dataclasses.dataclass(frozen=True)
@@ -212,6 +211,11 @@ def assumes_preload(need: Need, variant: Variant) -> bool:
     return bool(variant.preload) and not need.preloads
 
 
+def lacks_preload(need: Need, variant: Variant) -> bool:
+    """Whether a need that names no kinds of nuts asks for a preload, and that of the row is of a kind without."""
+    return bool(need.preloads) and not need.nuts and variant.nut not in PRELOADED
+
+
 def tables_of(need: Need, variant: Variant) -> dict[str, Any]:
     """The tables of the case of a variant, as a case file has them.
 
@@ -290,12 +294,18 @@ def by_loads(need: Need, variant: Variant, case: Case) -> Candidate:
         time = _life_of(own)
     numbers = {
         **dict.fromkeys(OBJECTIVES, math.nan),
-        **_of_shaft(need, case, variant.row.nominal_diameter),
+        **_of_shaft(need, case),
         "life": time,
         "price_index": _price(need, variant),
     }
     required = requirement_checks.by_loads(
-        need.requirements, case, numbers, preload=preload, largest_load=load, balls=balls
+        need.requirements,
+        case,
+        numbers,
+        preload=preload,
+        largest_load=load,
+        balls=balls,
+        lacks_preload=lacks_preload(need, variant),
     )
     return Candidate(variant, case, (*own, *required), numbers, preload, balls, life_looked_for=_looked_for(need))
 
@@ -310,7 +320,7 @@ def judged(need: Need, variant: Variant, case: Case, *, recorded: bool = False) 
     found = checked(row.name, case, [*need.notes, *notes])
     report = duties.duty(case, recorded=recorded) if need.moves else None
     starves = Starved.of(found, report)
-    numbers = objectives(need, found, report, row.nominal_diameter, _price(need, variant), starves)
+    numbers = objectives(need, found, report, _price(need, variant), starves)
     own = found.checks if report is None else report.checks
     balls = found.nut.loads if report is None else report.balls_under_largest_load
     load = float(case.operation.axial_load) if report is None else report.largest_load
@@ -321,7 +331,13 @@ def judged(need: Need, variant: Variant, case: Case, *, recorded: bool = False) 
         (
             *own,
             *requirement_checks.by_loads(
-                need.requirements, case, numbers, preload=preload, largest_load=load, balls=balls
+                need.requirements,
+                case,
+                numbers,
+                preload=preload,
+                largest_load=load,
+                balls=balls,
+                lacks_preload=lacks_preload(need, variant),
             ),
             *requirement_checks.of_friction(need.requirements, found, report, numbers),
         ),
@@ -352,13 +368,10 @@ def _life_of(checks: Sequence[Check]) -> Duration:
     return math.nan if value is None else float(value)
 
 
-def _of_shaft(need: Need, case: Case, diameter: Length) -> dict[str, float]:
-    """Inertia and reflected mass of a cylinder of this diameter, 1 m long where no length is known."""
-    installation = case.installation
-    length = shaft_length(need.requirements, installation) or USUAL_LENGTH
-    density = _DENSITY if installation is None else installation.shaft_density
-    inertia = shaft_inertia(diameter, length, density)
-    return {"inertia": inertia, "reflected_mass": reflected_mass(inertia, case.screw.lead)}
+def _of_shaft(need: Need, case: Case) -> dict[str, float]:
+    """Inertia and reflected mass of the shaft, 1 m long where no length is known."""
+    shaft = case.shaft_of(shaft_length(need.requirements, case) or USUAL_LENGTH)
+    return {"inertia": shaft.inertia, "reflected_mass": reflected_mass(shaft.inertia, case.screw.lead)}
 
 
 class Starved(NamedTuple):
@@ -388,11 +401,10 @@ def objectives(
     need: Need,
     found: Checked,
     report: DutyReport | None,
-    diameter: float,
     price_index: float = math.nan,
     starved: Starved | None = None,
 ) -> dict[str, float]:
-    """The numbers compared, in SI. The shaft is a cylinder of this diameter, 1 m long where no length is known.
+    """The numbers compared, in SI.
 
     Where they are ``starved``, loss and torques are the larger of those with the inlet as it is given, which oil that
     comes back late starves, and those in a full bath of oil: which of them a ball screw has is not measured. None
@@ -403,7 +415,7 @@ def objectives(
     return {
         **dict.fromkeys(OBJECTIVES, math.nan),
         **(_of_point(found, starves=starves) if report is None else _of_cycle(report, starves=starves)),
-        **_of_shaft(need, found.case, diameter),
+        **_of_shaft(need, found.case),
         "rigidity": float(found.nut.loads.rigidity),
         "preload_torque": float(found.nut.preload_drag) if idle is None else idle.flooded,
         "price_index": float(price_index),

@@ -12,6 +12,7 @@ from ballscrew.physics.friction.starvation import STARVED
 from ballscrew.physics.sizing.checks import failing, judged, verdict_of
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.check import document as check_documents
+from ballscrew.questions.duty import verdicts as duty_verdicts
 from ballscrew.questions.select import case_text
 from ballscrew.questions.select.answer import (
     OfMotion,
@@ -27,6 +28,7 @@ from ballscrew.questions.select.compute import Plan, Ranked, Selection
 from ballscrew.questions.select.need import Need
 from ballscrew.questions.select.requirements import Requirements
 from ballscrew.questions.shared import declared
+from ballscrew.questions.shared.check_lines import with_unlikely
 
 _LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
 #: What is the same for all candidates, or too long for a list.
@@ -105,8 +107,8 @@ def candidate_document(ranked: Ranked, need: Need, model: str | None = None) -> 
     if found.run is not None:
         whole = check_documents.list_document([found.run])[0]
         if found.duty is not None:  # of the cycle, and not of steady travel
-            for name in ("verdicts", "warnings"):
-                whole[name] = [one for one in whole[name] if one["id"] != STARVED]
+            for name, more in (("verdicts", duty_verdicts.inertia), ("warnings", duty_verdicts.inertia_warnings)):
+                whole[name] = [one for one in whole[name] if one["id"] != STARVED] + documents(more(found.duty))
         if not any(one["id"] == STARVED for name in ("verdicts", "warnings") for one in whole[name]):
             # of the cycle, or of the nut without load
             whole["warnings"] = [*documents(found.starved), *whole["warnings"]]
@@ -126,7 +128,7 @@ def verdict(found: Candidate) -> str:
         said = verdict_of(found.checks, passes=Message("holds"), by_how_much=True)
     else:
         said = Message("cannot hold: {names}", {"names": [failing(check) for check in found.failed]})
-    text = units.filled(said)
+    text = units.filled(with_unlikely(said, found.case))
     limit = found.rigid_lift_off_load
     if limit is not None:
         text += f"; preload lost (rigid bodies: above {units.shown(limit, _LIFT_OFF)})"

@@ -21,6 +21,7 @@ from ballscrew.cases.schema.case_schema import read_table, sections
 from ballscrew.cases.schema.fields import section_of
 from ballscrew.physics.components.materials import grades
 from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.physics.sizing.installation import Installation
 from ballscrew.questions.select.need_motion import OF_MOTION, with_motion
 from ballscrew.questions.select.objectives import USUAL_LENGTH, USUAL_OBJECTIVES, objectives_named
 from ballscrew.questions.select.requirements import ALLOWED, FORBIDDEN, NEEDED, Requirements
@@ -65,6 +66,7 @@ _BACK_DRIVING = {
 #: Sections in which any short name is what it is at the top.
 _ANYWHERE = ("operation", "installation")
 _FEED, _SPEED = fields_of(Requirements)["feed"], fields_of(OperatingState)["screw_speed"]
+_LENGTH = fields_of(Installation)["unsupported_length"]
 _PLAIN = fields_of(Requirements)["counts_per_turn"]
 _TURNS = ("need.feed", "operation.screw_speed")
 #: What tells an oil, besides its temperature.
@@ -283,6 +285,7 @@ def _need(tables: dict[str, Any], folder: Path, name: str, faults: list[Fault], 
         _operation(tables, has_feed, faults)
     raise_if_any(faults)
     required = Requirements(**values)
+    raise_if_any(_misfit(tables.get("installation"), required))
     by_stroke = _installation(tables, required, notes)
     if required.accuracy:
         notes.append(
@@ -382,6 +385,19 @@ def _operation(tables: dict[str, Any], has_feed: bool, faults: list[Fault]) -> N
         faults.append(Fault("operation.screw_speed", MISSING, "", remedy))
     elif has_feed and "screw_speed" in table:
         faults.append(Fault("need.feed", "is given beside a screw speed", "", "leave one of them out"))
+
+
+def _misfit(table: Any, required: Requirements) -> list[Fault]:
+    """The fault of a stroke that the shaft is too short for."""
+    if required.stroke is None or not isinstance(table, dict) or "unsupported_length" not in table:
+        return []
+    length = units.parse("", table["unsupported_length"], _LENGTH)
+    if isinstance(length, Fault) or required.stroke < length:
+        return []
+    given = f"{units.shown(required.stroke, _LENGTH)} on {units.shown(length, _LENGTH)}"
+    return [
+        Fault("need.stroke", "does not fit between the bearings", given, "shorten the stroke, or lengthen the shaft")
+    ]
 
 
 def _installation(tables: dict[str, Any], required: Requirements, notes: list[str]) -> bool:

@@ -7,9 +7,9 @@ import math
 from collections.abc import Mapping, Sequence
 
 from ballscrew.basis.errors import Fault, nearest, raise_if_any
-from ballscrew.basis.quantities import Density, Info, Length, Mass, MomentOfInertia, Quantity
+from ballscrew.basis.quantities import Info, Length, Mass, MomentOfInertia, Quantity
 from ballscrew.basis.records import Message
-from ballscrew.physics.sizing.installation import Installation
+from ballscrew.cases.case_files.case import Case
 from ballscrew.questions.select.requirements import Requirements
 
 #: The length of shaft whose inertia counts where a need gives neither a length nor a stroke, m.
@@ -65,18 +65,9 @@ def objectives_named(names: Sequence[str], where: str, known: Sequence[str] = tu
     return tuple(dict.fromkeys(names))
 
 
-def shaft_length(required: Requirements, installation: Installation | None) -> Length | None:
-    """The length of shaft whose inertia counts: the unsupported one, else the stroke; None where neither is given."""
-    return required.stroke if installation is None else installation.unsupported_length
-
-
-def shaft_inertia(diameter: Length, length: Length, density: Density) -> MomentOfInertia:
-    r"""Moment of inertia of a solid shaft about its axis, :math:`J = \pi \rho d^4 l / 32`.
-
-    Half the mass of a uniform cylinder times its radius squared. With the nominal diameter of a screw it is too large
-    by what the groove leaves out.
-    """
-    return math.pi * density * diameter**4 * length / 32
+def shaft_length(required: Requirements, case: Case) -> Length | None:
+    """The length of shaft whose inertia counts: that of the case, else the stroke; None where neither is given."""
+    return required.stroke if case.turning_shaft is None else case.turning_shaft.length
 
 
 def reflected_mass(inertia: MomentOfInertia, lead: Length) -> Mass:

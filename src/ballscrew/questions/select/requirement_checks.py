@@ -12,6 +12,7 @@ from ballscrew.basis.records import Measured, Message
 from ballscrew.cases.case_files.case import Case
 from ballscrew.physics.friction import directions
 from ballscrew.physics.sizing.checks import Check
+from ballscrew.physics.sizing.rigidity import AxialRigidity
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.check.compute import Checked
 from ballscrew.questions.duty.compute import DutyReport
@@ -22,6 +23,8 @@ from ballscrew.questions.select.requirements import ALLOWED, FORBIDDEN, Requirem
 BY_LOADS = ("preload", "remaining_preload", "inertia", "step")
 _LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
 _LEFT = Message("preload that the largest load leaves on the relieved half or flank")
+_NO_PRELOAD = Message("a preload is asked for, and this nut has none: name the kinds of nuts that have one")
+_RIGIDITY = quantities_of(AxialRigidity)["nut"]
 _NOT_KNOWN = Message("{what}: not known here")
 
 
@@ -33,13 +36,16 @@ def by_loads(
     preload: Force,
     largest_load: Force,
     balls: BallLoads,
+    lacks_preload: bool = False,
 ) -> tuple[Check, ...]:
     """A check for the preload of a nut and for each requirement that is set and knows no friction.
 
-    ``balls`` are under the largest load of the need.
+    ``balls`` are under the largest load of the need. A nut ``lacks_preload`` where the need asks for one and its kind
+    has none.
     """
+    lacking = Check.saying(_NO_PRELOAD, "preload", 0.0, None, "N", None, False)
     found = (
-        kept_preload(preload, largest_load, balls),
+        lacking if lacks_preload else kept_preload(preload, largest_load, balls),
         _bounded(
             Check.at_least, _LEFT,
             "remaining_preload", float(balls.remaining_preload), required.least_remaining_preload, "N",
@@ -63,10 +69,7 @@ def of_friction(
             Check.at_most, Message("drag torque of the nut"),
             "preload_torque", numbers["preload_torque"], required.largest_preload_torque, "N m",
         ),
-        _bounded(
-            Check.at_least, Message("rigidity of the nut under the load"),
-            "rigidity", numbers["rigidity"], required.least_rigidity, "N/m",
-        ),
+        _rigidity(required, found, numbers["rigidity"]),
     )  # fmt: skip
     drives = back_driving(required, found) if report is None else _of_axis(required, report)
     return tuple(check for check in (*bounds, drives) if check is not None)
@@ -109,10 +112,35 @@ def _bounded(
     return check(message, name, value, limit, unit)
 
 
+def _rigidity(required: Requirements, found: Checked, of_balls: float) -> Check | None:
+    """The nut against the least rigidity: that of its balls under the load, or that of ISO 3408-4 where it is smaller.
+
+    Catalogues print the latter. That of the drive stands beside it, where shaft and bearings are known.
+    """
+    if required.least_rigidity is None:
+        return None
+    by_standard = found.nut.rigidity
+    corrected, nut, drive = (float(value) for value in (by_standard.nut_corrected, by_standard.nut, by_standard.drive))
+    printed = nut if math.isnan(corrected) else corrected
+    shown = {
+        "balls": Measured(of_balls, _RIGIDITY), "nut": Measured(printed, _RIGIDITY), "drive": Measured(drive, _RIGIDITY)
+    }  # fmt: skip
+    message = Message("rigidity of the nut under the load")
+    if not math.isnan(printed):
+        message = Message(
+            "the smaller of the balls under the load, {balls}, and of the nut by ISO 3408-4, {nut}", shown
+        )
+    if not math.isnan(drive):
+        message = Message("{rigidity}; nut, shaft and bearings together {drive}", {**shown, "rigidity": message})
+    return _bounded(
+        Check.at_least, message, "rigidity", float(np.fmin(of_balls, printed)), required.least_rigidity, "N/m"
+    )
+
+
 def _inertia(required: Requirements, case: Case, value: float) -> Check | None:
     """Inertia of the shaft; not judged where its length is not known."""
     limit = required.largest_inertia
-    if limit is not None and shaft_length(required, case.installation) is None:
+    if limit is not None and shaft_length(required, case) is None:
         message = Message("not judged: give the length of the shaft, or the stroke")
         return Check.saying(message, "inertia", None, limit, "kg m^2", None, None, "installation.unsupported_length")
     return _bounded(Check.at_most, Message("inertia of a solid shaft"), "inertia", value, limit, "kg m^2")

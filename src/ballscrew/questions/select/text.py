@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 
 from ballscrew.basis import units
 from ballscrew.basis.output.wrapping import aligned_beside, wrapped
 from ballscrew.basis.quantities import fields_of
+from ballscrew.questions.duty import verdicts as duty_verdicts
 from ballscrew.questions.duty.compute import NUMBERS, DutyReport
 from ballscrew.questions.run import makers
 from ballscrew.questions.select.candidates import Candidate
@@ -16,7 +18,10 @@ from ballscrew.questions.select.document import verdict
 from ballscrew.questions.select.need import Need
 from ballscrew.questions.select.objectives import OBJECTIVES
 from ballscrew.questions.select.requirements import ALLOWED, Requirements
+from ballscrew.questions.shared import check_lines
 
+#: What stands against a limit, where the list prints something else.
+_OF_LIMIT = {"rigidity": ["that of the balls under the load, in the list, or of the nut by ISO 3408-4 if it is less"]}
 #: Lines shown where nothing else is said.
 USUAL_LINES = 20
 #: Objectives in the headings of tables.
@@ -103,13 +108,14 @@ def text(found: Selection, ranked: Sequence[Ranked], most: int = USUAL_LINES) ->
             f"{first.rank}: {first.candidate.starved[0].text}"
         )
         lines += ["", wrapped(words)]
+    lines += compared_with(found)
     ruled_out = sum(not each.candidate.complete for each in found.ranked)
     if ruled_out:
         words = f"{ruled_out} cannot hold by their loads alone; their friction was not computed: --complete computes it"
         lines.append(wrapped(words))
     if not ranked:
         lines.append("none is left of these")
-    lines += beside_rules(found)
+    lines += [*what_turns(ranked), *beside_rules(found)]
     *others, last = (LABELS[name] for name in found.objectives)
     named = f"{', '.join(others)} and {last}" if others else last
     lines += [
@@ -123,6 +129,52 @@ def text(found: Selection, ranked: Sequence[Ranked], most: int = USUAL_LINES) ->
     elif found.best is None and not reason:
         lines += ["", "no candidate holds within the validity of the model: look at what fails first, and by how much"]
     return "\n".join(lines)
+
+
+def compared_with(found: Selection) -> list[str]:
+    """The limits that any candidate fails, from the least to the largest of all candidates.
+
+    Whose they are, with how many were compared with each, where makers have their own; and how many fail by an
+    estimated limit alone.
+    """
+    every = [check for each in found.ranked for check in each.candidate.checks if check.limit is not None]
+    lines: list[str] = []
+    for name in dict.fromkeys(check.name for check in every if check.holds is False and check.limit):
+        own = sorted((check for check in every if check.name == name), key=lambda check: check.limit or 0.0)
+        limits = dict.fromkeys(check_lines.shown(check, check.limit) for check in (own[0], own[-1]))
+        makers = Counter(
+            units.filled(check.message.values["source"]) for check in own if "source" in check.message.values
+        )
+        words = [
+            " to ".join(limits),
+            *_OF_LIMIT.get(name, ()),
+            *(f"{maker}: {count} candidates" for maker, count in makers.items()),
+        ]
+        lines.append(f"{name.replace('_', ' ')} {'; '.join(words)}")
+    alone = [each for each in found.ranked if _estimate_decides(each.candidate)]
+    if alone:
+        lines.append(f"{len(alone)} fail by an estimated limit alone: ask the maker, and give it by [limits]")
+    return ["", "compared with", *(wrapped(f"  {line}") for line in lines)] if lines else []
+
+
+def _estimate_decides(candidate: Candidate) -> bool:
+    return bool(candidate.failed) and all(check.source == "estimate" for check in candidate.failed)
+
+
+def what_turns(ranked: Sequence[Ranked]) -> list[str]:
+    """What the torque of the first candidate's motor accelerates, and what is missing in it.
+
+    Beside it how many have a shaft with a larger inertia than the need gives for all that turns.
+    """
+    moving = [(each.rank, each.candidate.duty) for each in ranked if each.candidate.duty is not None]
+    lines = [f"{rank}: {one.text}" for rank, duty in moving[:1] for one in duty_verdicts.inertia(duty)]
+    warned = [(rank, one) for rank, duty in moving for one in duty_verdicts.inertia_warnings(duty)]
+    if too_small := [(rank, one) for rank, one in warned if one.id == "duty.inertia_too_small"]:
+        rank, first = too_small[0]
+        lines.append(f"{len(too_small)} have a shaft of more inertia than is given; {rank}: {first.text}")
+    elif warned and not lines:
+        lines.append(f"{warned[0][0]}: {warned[0][1].text}")
+    return [wrapped(line) for line in lines]
 
 
 def beside_rules(found: Selection) -> list[str]:

@@ -10,12 +10,14 @@ from ballscrew.basis import units
 from ballscrew.basis.output.plain_numbers import plain
 from ballscrew.basis.output.wrapping import beside
 from ballscrew.basis.quantities import Info, Quantity
+from ballscrew.basis.records import Message, in_file
 from ballscrew.basis.sheet import Cell, Number, Share, Table
+from ballscrew.cases.case_files.case import Case
 from ballscrew.physics.sizing.checks import Check
 from ballscrew.physics.sizing.sources import QUALIFICATIONS
 
 #: The display units of the checks, by SI unit.
-_SHOWN_IN = {"N": "kN", "Pa": "MPa", "s": "h", "rad/s": "rpm", "m rad/s": "mm rpm", "N m": "N m"}
+_SHOWN_IN = {"N": "kN", "Pa": "MPa", "s": "h", "rad/s": "rpm", "m rad/s": "mm rpm", "N m": "N m", "N/m": "N/um"}
 #: The options for an input that is missing.
 _GIVE = {
     "installation": "--length and --ends, or [installation]",
@@ -77,6 +79,12 @@ def verdict_of(check: Check) -> str:
     said = {True: "passes", False: "FAILS", None: ""}[check.holds]
     by = None if check.source is None or check.value is None else QUALIFICATIONS[check.source]
     return "; ".join(filter(None, [said, "" if by is None else units.filled(by)]))
+
+
+def with_unlikely(verdict: Message, case: Case) -> Message:
+    """A verdict, and the inputs of the case that are unlikely: what is computed with them may hold by a slip."""
+    names = [Message("{input}", {"input": in_file(name)}) for name in case.unlikely]
+    return Message("{verdict}; unlikely: {names}", {"verdict": verdict, "names": names}) if names else verdict
 
 
 def source_document(check: Check) -> dict[str, Any]:

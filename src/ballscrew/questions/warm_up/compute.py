@@ -310,10 +310,8 @@ def duty_of(case: Case, surroundings: Surroundings) -> tuple[Duty, Length | None
         raise InputError(Fault("model.name", problem, "constant-efficiency", "take a model"))
     check_oil(case)
     also = bearings_of(case)
-    if case.motion is not None and case.axis is not None:
-        return axis_duty.cycle(
-            case.model, case.screw, case.lubricant, axis=case.axis, motion=case.motion, also=also
-        ), None
+    if case.motion is not None and (axis := case.turning_axis) is not None:
+        return axis_duty.cycle(case.model, case.screw, case.lubricant, axis=axis, motion=case.motion, also=also), None
     stroke = stroke_of(case, surroundings)
     point = case.operation
     duty = to_and_fro(
@@ -336,10 +334,8 @@ def stroke_of(case: Case, surroundings: Surroundings) -> Length:
 
 def length_of(case: Case, surroundings: Surroundings) -> Length:
     """The shaft between its bearings: of the surroundings, of the installation, or else twice the stroke."""
-    if surroundings.shaft_length is not None:
-        return float(surroundings.shaft_length)
-    if case.installation is not None:
-        return float(case.installation.unsupported_length)
+    if case.shaft_length is not None:
+        return case.shaft_length
     stroke = surroundings.stroke
     if case.motion is not None and case.axis is not None:
         stroke = case.motion.states().stroke
