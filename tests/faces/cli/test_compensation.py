@@ -8,10 +8,12 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.basis.output.json_text import plain
+from ballscrew.basis.sheet import Table
+from ballscrew.faces.sheets import terminal
 from ballscrew.questions.compensation.compute import position_compensation
 from ballscrew.questions.compensation.document import document
+from ballscrew.questions.compensation.sheet import sheet
 from ballscrew.questions.compensation.table import isg, sinumerik
-from ballscrew.questions.compensation.text import text
 from ballscrew.questions.warm_up.compute import load, warmed_up
 from support.commands import ROOT
 
@@ -148,14 +150,18 @@ def test_a_state_that_was_never_reached_has_no_table(report):
     assert "(4) · write --hours 0.7 at most, or look at ballscrew warm-up" in str(fault.value)
 
 
-def test_text_and_document_tell_of_the_warm_up():
+def test_sheet_and_document_tell_of_the_warm_up():
     report = warmed_up(load(EXAMPLE, ["model.name=olaru2005"], None), 0.01)
     found = position_compensation(report, 0.01)
-    told, said = plain(document(found, report)), " ".join(text(found, report).split())
+    made = sheet(found, report)
+    told, said = plain(document(found, report)), " ".join(terminal.text(made).split())
     assert told["assumed"] == list(report.assumed)
     assert told["verdicts"][0]["id"] == "verdict.equilibrium"
     assert told["results"]["error"] == found.errors.tolist()
-    for words in (*report.assumed, told["verdicts"][0]["text"]):
+    (numbers,) = made.of_kind(Table)
+    assert [cell.value for cell in numbers.rows[0][1:]] == [found.positions[0], found.positions[-1]]
+    assert [cell.value for cell in numbers.rows[1][1:]] == [found.errors.min(), found.errors.max()]
+    for words in (*report.assumed, told["verdicts"][0]["text"], found.missed, found.mounting):
         assert words in said
 
 

@@ -8,7 +8,9 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
+from ballscrew.basis.sheet import Columns, Table
 from ballscrew.cases.case_files import case_file
+from ballscrew.faces.sheets import terminal
 from ballscrew.physics.components.chain_force import ChainBallForce
 from ballscrew.physics.components.nut_losses import ReturnBraking
 from ballscrew.physics.moving_balls.ripple import (
@@ -19,10 +21,11 @@ from ballscrew.physics.moving_balls.ripple import (
     Spall,
     torque_ripple,
 )
-from ballscrew.questions.ripple import document, text
+from ballscrew.questions.ripple import document
 from ballscrew.questions.ripple.answer import RippleResults
 from ballscrew.questions.ripple.compute import ALL, defects_of, given_of, ripple_of
 from ballscrew.questions.ripple.options import RippleOptions
+from ballscrew.questions.ripple.sheet import sheet
 from support.answers import undescribed, without_unit
 from support.commands import ROOT
 
@@ -80,7 +83,7 @@ def test_every_part_is_described_and_has_a_unit(report):
 
 
 def test_words_say_what_torque_shows(report):
-    said = " ".join(text.text(report).split())
+    said = " ".join(terminal.text(sheet(report)).split())
     verdicts = {one["id"]: one for one in document.document(report)["verdicts"]}
     assert verdicts["ripple.preload"]["holds"] is True
     assert verdicts["ripple.spall"]["holds"] is False
@@ -88,6 +91,27 @@ def test_words_say_what_torque_shows(report):
     assert "spall=2 mm x 2 um: torque is a poor sensor of it" in said
     assert "ball pass" in said
     assert "no catalogue has them" in said
+
+
+def test_the_sheet_has_the_numbers_of_the_document(report):
+    results = document.document(report)["results"]
+    sizes, nuts, orders = sheet(report).of_kind(Table)
+    named = ("mean", "peak_to_peak", "relative", "deviation", "share")
+    for row, result in zip(sizes.rows, [results, *results["faults"]], strict=True):
+        assert [cell.value for cell in row[1:]] == [result[name] for name in named]
+    assert [row[0] for row in sizes.rows[1:]] == [fault["fault"] for fault in results["faults"]]
+    assert nuts.rows[0][1].value == results["range"]["median"]
+    assert nuts.rows[0][1].band == (results["range"]["low"], results["range"]["high"])
+    for index, row in enumerate(orders.rows):
+        amplitudes = [result["orders"][index]["amplitude"] for result in (results, *results["faults"])]
+        assert [cell.value for cell in row[2:]] == amplitudes
+        assert (row[0], row[1].value) == (results["orders"][index]["name"], results["orders"][index]["order"])
+    curves, spectra = sheet(report).of_kind(Columns)
+    for block, name in ((curves, "torque"), (spectra, "spectrum")):
+        nut, x, y = (np.array(column.values) for column in block.columns)
+        assert x[nut == "as it is"].tolist() == results[name]["x"]
+        assert y[nut == "as it is"].tolist() == results[name]["y"]
+        assert set(nut) == {"as it is", *report.faults}
 
 
 def test_the_return_of_a_case_is_that_of_the_chain(case):
@@ -146,7 +170,7 @@ def test_all_leaves_out_a_preload_that_is_not_there(case):
     found = ripple_of(loaded, dataclasses.replace(OPTIONS, fault=["all"]))
     assert [name.partition("=")[0] for name in found.faults] == ["missing-ball", "full", "spall", "groove"]
     assert math.isnan(document.document(found)["results"]["displacement"])
-    assert "moves by" not in text.text(found)
+    assert "moves against the screw" not in terminal.text(sheet(found))
 
 
 @pytest.mark.parametrize(

@@ -23,6 +23,7 @@ def compensation(
     model: ModelName = None,
     settings: Settings = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+    as_sheet: Annotated[bool, typer.Option("--sheet", help="What people see as one JSON object.")] = False,
     allow_code: AllowCode = False,
 ) -> None:
     """Growth of a warm shaft as a table for a control.
@@ -36,23 +37,35 @@ def compensation(
     from ballscrew.basis.atomic_files import atomic_write, check_writable
     from ballscrew.basis.errors import Fault, InputError, nearest
     from ballscrew.basis.output.json_text import as_json as json_text
-    from ballscrew.questions.compensation import compute, text
+    from ballscrew.basis.sheet import document as sheet_document
+    from ballscrew.faces.sheets import terminal
+    from ballscrew.questions.compensation import compute
     from ballscrew.questions.compensation import document as documents
-    from ballscrew.questions.compensation import table as compensation_lists
+    from ballscrew.questions.compensation.sheet import sheet
+    from ballscrew.questions.compensation.table import LISTS
     from ballscrew.questions.shared.option_values import read
     from ballscrew.questions.warm_up import compute as warm_up
 
-    if to not in compensation_lists.LISTS:
-        raise InputError(Fault("--to", "unknown control", to, nearest(to, compensation_lists.LISTS)))
+    if to not in LISTS:
+        raise InputError(Fault("--to", "unknown control", to, nearest(to, LISTS)))
     options = read(CompensationOptions, written)
     compute.check(options)
     check_writable("--out", out)
     report = warm_up.warmed_up(warm_up.load(case, settings or [], model, allow_code=allow_code), options.hours)
-    made = compute.position_compensation(
-        report, options.hours, zero=options.zero, direction=options.direction or "away", step=options.step,
+    result = compute.position_compensation(
+        report,
+        options.hours,
+        zero=options.zero,
+        direction=options.direction or "away",
+        step=options.step,
         reference=options.reference,
-    )  # fmt: skip
+    )
     with atomic_write("--out", out) as path:
-        path.write_text(compensation_lists.LISTS[to](made, options.axis), encoding="utf-8")
-    typer.echo(f"{out}", err=as_json)
-    typer.echo(json_text(documents.document(made, report)) if as_json else text.text(made, report))
+        path.write_text(LISTS[to](result, options.axis), encoding="utf-8")
+    typer.echo(f"{out}", err=as_json or as_sheet)
+    if as_sheet:
+        typer.echo(json_text(sheet_document(sheet(result, report))))
+    elif as_json:
+        typer.echo(json_text(documents.document(result, report)))
+    else:
+        typer.echo(terminal.text(sheet(result, report)))

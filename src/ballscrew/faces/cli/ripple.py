@@ -25,9 +25,12 @@ def ripple(
         typer.Option("--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set nut.preload="4 kN".'),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+    as_sheet: Annotated[bool, typer.Option("--sheet", help="What people see as one JSON object.")] = False,
     to: Annotated[
         Path | None,
-        typer.Option("--to", metavar="FILE", help="Draw torque and orders: .png, .svg or .pdf."),
+        typer.Option(
+            "--to", metavar="FILE", help="Draw torque and orders (.png, .svg, .pdf) or write them (.xlsx, .csv)."
+        ),
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:
@@ -39,20 +42,23 @@ def ripple(
     one of lost preload and of circuits without room: --fault all has the figures for this nut.
     """
     from ballscrew.basis.output.json_text import as_json as json_text
+    from ballscrew.basis.sheet import document as sheet_document
     from ballscrew.cases.case_files import case_file
-    from ballscrew.questions.ripple import compute, text
+    from ballscrew.faces.sheets import terminal, to_file
+    from ballscrew.questions.ripple import compute
     from ballscrew.questions.ripple import document as documents
-    from ballscrew.questions.shared import chart_files as files
+    from ballscrew.questions.ripple.sheet import sheet
     from ballscrew.questions.shared.option_values import read
 
     options = read(RippleOptions, written)
     loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
-    if to is not None:
-        files.check_picture(to)
+    to_file.check([to] if to else [])
     report = compute.ripple_of(loaded, options)
-    typer.echo(json_text(documents.document(report)) if as_json else text.text(report))
+    seen = sheet(report)
+    if as_sheet:
+        typer.echo(json_text(sheet_document(seen)))
+    else:
+        typer.echo(json_text(documents.document(report)) if as_json else terminal.text(seen))
     if to is not None:
-        from ballscrew.questions.ripple import figure as figures  # matplotlib is slow to import
-
-        files.draw(lambda: figures.picture(report), to)
-        typer.echo(f"{to}: {len(report.ripple.angle)} angles", err=as_json)
+        to_file.write(to, seen)
+        typer.echo(f"{to}: {len(report.ripple.angle)} angles", err=as_json or as_sheet)

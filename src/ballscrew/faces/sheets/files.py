@@ -18,13 +18,17 @@ from ballscrew.questions.shared.row_tables import RowTable, write_csv, xlsx_byte
 _DIGITS = 12
 
 
-def write(to: Path, sheet: Sheet) -> None:
-    """Write .csv (the longest table, of columns where there are some) or .xlsx (all tables), whole or not at all."""
+def write(to: Path, sheet: Sheet, name: str = "") -> None:
+    """Write .xlsx (all tables) or .csv, whole or not at all.
+
+    CSV has the table of a name, or else the longest, of columns where there are some.
+    """
     with atomic_write("--to", to) as path:
         if to.suffix.lower() == ".xlsx":
             path.write_bytes(xlsx_bytes({block.name: rows_of(block) for block in sheet.of_kind(Table, Columns)}))
         else:
-            tables = list(sheet.of_kind(Columns)) or list(sheet.of_kind(Table))
+            named = [block for block in sheet.of_kind(Columns, Table) if block.name == name]
+            tables = named or list(sheet.of_kind(Columns)) or list(sheet.of_kind(Table))
             write_csv(path, max(map(rows_of, tables), key=lambda table: len(table.rows)))
 
 

@@ -136,7 +136,7 @@ def _map(panel: Axes, block: Map) -> None:
     for mark in block.marks:
         _mark(panel, mark, block, color="white")
     panel.grid(visible=False)
-    bar = panel.figure.colorbar(colours, ax=panel)
+    bar = panel.figure.colorbar(colours, cax=panel.inset_axes((1.03, 0.0, 0.05, 1.0)))
     bar.set_label(_label(block.value))
     bar.ax.tick_params(labelsize=_LABEL_SIZE)
     _axes(panel, block)
@@ -220,5 +220,5 @@ def _bar(panel: Axes, place: int, bar: Bar, quantity: Quantity) -> None:
 
 
 def _label(axis: Axis) -> str:
-    unit = units.label(axis.quantity)
+    unit = units.label(axis.quantity).replace("degC", "°C")
     return f"{axis.name} [{unit}]" if unit else axis.name

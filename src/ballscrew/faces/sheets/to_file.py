@@ -24,12 +24,12 @@ def check(paths: Iterable[Path]) -> None:
             chart_files.check_picture(path)
 
 
-def write(to: Path, sheet: Sheet) -> None:
-    """Write one file, whole or not at all."""
+def write(to: Path, sheet: Sheet, name: str = "") -> None:
+    """Write one file, whole or not at all; .csv has the columns of a name, or the longest."""
     if to.suffix.lower() in row_tables.KINDS:
         from ballscrew.faces.sheets import files
 
-        files.write(to, sheet)
+        files.write(to, sheet, name)
     else:
         from ballscrew.faces.sheets import pictures  # matplotlib is slow to import
 
