@@ -20,6 +20,7 @@ FORK_SERVER = Path(__file__).with_name("fork_server.py")
 _SMALL_FILES = """
 import os, resource, sys
 resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, 10_000))
+os.environ["PYTHONDONTWRITEBYTECODE"] = "1"  # else bytecode of libraries is cut, too, and stays
 os.execv(sys.argv[1], sys.argv[1:])
 """
 
