@@ -24,8 +24,8 @@ def check(paths: Iterable[Path]) -> None:
             chart_files.check_picture(path)
 
 
-def write(to: Path, sheet: Sheet) -> None:
-    """Write one file, whole or not at all."""
+def write(to: Path, sheet: Sheet, option: str = "--to") -> None:
+    """Write one file, whole or not at all; ``option`` has its name where that can't be done."""
     if to.suffix.lower() in row_tables.KINDS:
         from ballscrew.faces.sheets import files
 
@@ -33,4 +33,4 @@ def write(to: Path, sheet: Sheet) -> None:
     else:
         from ballscrew.faces.sheets import pictures  # matplotlib is slow to import
 
-        chart_files.draw(lambda: pictures.picture(sheet), to)
+        chart_files.draw(lambda: pictures.picture(sheet), to, option)
