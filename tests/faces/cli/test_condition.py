@@ -7,6 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from ballscrew.basis.sheet import Chart, Columns, Table
+from ballscrew.cases.case_files import case_file
+from ballscrew.questions.condition import compute
+from ballscrew.questions.condition.options import ConditionOptions
+from ballscrew.questions.condition.sheet import sheet
 from support.pictures import drawn
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
@@ -59,8 +64,23 @@ def test_without_temperatures_that_is_said_first(ballscrew, tmp_path):
     assert done.returncode == 0, done.stderr
     said = done.stdout.splitlines()
     assert said[0] == "cold.csv: double nut, preload 4326 N, model olaru2005"
-    assert said[2].startswith("beware  no temperature is logged, and each kelvin is ")
+    assert said[2].startswith("warning  no_temperature: no temperature is logged, and each kelvin is ")
     assert "of the torque" in said[2]
+
+
+def test_the_sheet_has_every_test_with_its_intervals():
+    case = case_file.load(CASE, model="olaru2005")
+    result = compute.of_files(case, [TABLE], ConditionOptions())
+    shown = sheet(case, result)
+    (table,), (columns,) = shown.of_kind(Table), shown.of_kind(Columns)
+    for row, state in zip(table.rows, result.states, strict=True):
+        assert (row[1].value, row[2].value, row[3].value) == (state.temperature, state.torque, state.preload)
+        assert row[2].band == (state.torque_low, state.torque_high)
+        assert row[3].band == (state.preload_low, state.preload_high)
+    assert [row[0].endswith(" alarm") for row in table.rows].index(True) == result.alarm
+    assert list(columns.columns[3].values) == [state.torque for state in result.states]
+    marks = {mark.name: mark for mark in next(shown.of_kind(Chart)).marks}
+    assert marks["alarm"].x * 86400 == pytest.approx(result.states[result.alarm].time)
 
 
 def test_logs(ballscrew, tmp_path):

@@ -35,9 +35,13 @@ def test_every_number_of_a_preload_is_on_every_face(ballscrew):
             assert answer["results"][of][name] > 0
             assert answer["units"][of][name] == quantity.unit == described[name]["x-si-unit"]
             assert described[name]["description"].startswith(quantity.info.meaning)
-        for name, toward in {"preload": 0, "low": -1, "high": 1}.items():  # ends of an interval are rounded outwards
-            value = answer["results"][of][name]
-            assert units.shown(value, quantities_of(Estimate)["preload"], toward=toward) in words
+        preload = quantities_of(Estimate)["preload"]
+        # ends of an interval are rounded outwards
+        value, low, high = (
+            units.rounded(answer["results"][of][name], preload, toward=toward)
+            for name, toward in {"preload": 0, "low": -1, "high": 1}.items()
+        )
+        assert f"{value} N ({low} to {high})" in words
 
 
 def test_results_are_valid_by_their_schema(answer):

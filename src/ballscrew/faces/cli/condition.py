@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any
@@ -34,9 +35,10 @@ def condition(
         typer.Option("--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set nut.preload="4 kN ± 10 %".'),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+    as_sheet: Annotated[bool, typer.Option("--sheet", help="What people see as one JSON object.")] = False,
     to: Annotated[
         Path | None,
-        typer.Option("--to", metavar="FILE", help="Draw torque, preload and alarm over time: .png, .svg or .pdf."),
+        typer.Option("--to", metavar="FILE", help="Also write tables (.xlsx, .csv) or a picture (.pdf, .png, .svg)."),
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:
@@ -46,30 +48,32 @@ def condition(
     output says so first.
     """
     from ballscrew.basis.output.json_text import as_json as json_text
+    from ballscrew.basis.sheet import document as sheet_document
     from ballscrew.cases.case_files import case_file
     from ballscrew.faces.cli.progress import progress
-    from ballscrew.questions.condition import compute, text
-    from ballscrew.questions.condition import document as documents
-    from ballscrew.questions.shared import chart_files as files
+    from ballscrew.faces.sheets import terminal, to_file
+    from ballscrew.questions.condition import compute
+    from ballscrew.questions.condition.document import document
+    from ballscrew.questions.condition.sheet import sheet
     from ballscrew.questions.shared.option_values import read
 
     file = _check_question(tests or [], case)
     loaded = case_file.load(file, settings or [], model, calibration=calibration, allow_code=allow_code)
-    if to is not None:
-        files.check_picture(to)
+    to_file.check([] if to is None else [to])
     compute.check_kind(len(tests or []), written)
     options = read(ConditionOptions, written)
     with progress("condition") as done:
-        found = compute.of_files(loaded, tests or [], options, done)
-    if as_json:
-        typer.echo(json_text(documents.document(loaded, found)))
+        result = compute.of_files(loaded, tests or [], options, done)
+    seen = sheet(loaded, result)
+    if as_sheet:
+        typer.echo(json_text(sheet_document(seen)))
+    elif as_json:
+        typer.echo(json_text(document(loaded, result)))
     else:
-        text.print_condition(loaded, found)
+        typer.echo(terminal.text(seen, getattr(sys.stdout, "encoding", None) or ""))
     if to is not None:
-        from ballscrew.questions.condition import figure as figures  # matplotlib is slow to import
-
-        files.draw(lambda: figures.picture(loaded, found), to)
-        typer.echo(f"{to}: {len(found.states)} tests", err=as_json)
+        to_file.write(to, seen)
+        typer.echo(f"{to}: {len(result.states)} tests", err=as_json or as_sheet)
 
 
 def _check_question(tests: Sequence[Path], case: Path | None) -> Path:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
@@ -33,6 +34,7 @@ def service(
         typer.Option("--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set nut.preload="4 kN ± 10 %".'),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+    as_sheet: Annotated[bool, typer.Option("--sheet", help="What people see as one JSON object.")] = False,
     picture: Annotated[
         Path | None,
         typer.Option("--picture", metavar="FILE", help="Draw both logs and both preloads: .png, .svg or .pdf."),
@@ -47,30 +49,34 @@ def service(
     friction, the oil, the seals.
     """
     from ballscrew.basis.output.json_text import as_json as json_text
+    from ballscrew.basis.sheet import document as sheet_document
     from ballscrew.cases.case_files import case_file
     from ballscrew.faces.cli.progress import progress
-    from ballscrew.questions.service import compute, text
-    from ballscrew.questions.service import document as documents
+    from ballscrew.faces.sheets import terminal, to_file
+    from ballscrew.questions.service import compute
+    from ballscrew.questions.service.document import document
     from ballscrew.questions.service.reading import check_question, reading
-    from ballscrew.questions.shared import chart_files as files
+    from ballscrew.questions.service.sheet import sheet
+    from ballscrew.questions.shared.chart_files import check_picture
     from ballscrew.questions.shared.option_values import read
 
     file = check_question(logs or [], case, written)
     loaded = case_file.load(file, settings or [], model, calibration=calibration, allow_code=allow_code)
     if picture is not None:
-        files.check_picture(picture, "--picture")
+        check_picture(picture, "--picture")
     if written["torque"] is not None:
         report = compute.of_torque(loaded, reading(written))
     else:
         options = read(ServiceOptions, written)
         with progress("service") as done:
             report = compute.of_logs(loaded, logs or [], options, done)
-    if as_json:
-        typer.echo(json_text(documents.document(loaded, report)))
+    seen = sheet(loaded, report)
+    if as_sheet:
+        typer.echo(json_text(sheet_document(seen)))
+    elif as_json:
+        typer.echo(json_text(document(loaded, report)))
     else:
-        text.print_service(loaded, report)
+        typer.echo(terminal.text(seen, getattr(sys.stdout, "encoding", None) or ""))
     if picture is not None:
-        from ballscrew.questions.service import figure as figures  # matplotlib is slow to import
-
-        files.draw(lambda: figures.picture(loaded, report), picture, "--picture")
-        typer.echo(f"{picture}: {len(report.estimates)} preloads", err=as_json)
+        to_file.write(picture, seen, "--picture")
+        typer.echo(f"{picture}: {len(report.estimates)} preloads", err=as_json or as_sheet)

@@ -24,8 +24,8 @@ def check(paths: Iterable[Path]) -> None:
             chart_files.check_picture(path)
 
 
-def write(to: Path, sheet: Sheet, name: str = "") -> None:
-    """Write one file, whole or not at all; .csv has the columns of a name, or the longest."""
+def write(to: Path, sheet: Sheet, name: str = "", option: str = "--to") -> None:
+    """Write one file, whole or not at all: .csv has the columns of a name, or the longest; ``option`` asks for it."""
     if to.suffix.lower() in row_tables.KINDS:
         from ballscrew.faces.sheets import files
 
@@ -33,4 +33,4 @@ def write(to: Path, sheet: Sheet, name: str = "") -> None:
     else:
         from ballscrew.faces.sheets import pictures  # matplotlib is slow to import
 
-        chart_files.draw(lambda: pictures.picture(sheet), to)
+        chart_files.draw(lambda: pictures.picture(sheet), to, option)

@@ -27,8 +27,8 @@ from ballscrew.questions.hand_over import document as hand_over_documents
 from ballscrew.questions.hand_over import text as hand_over_text
 from ballscrew.questions.service import document as service_documents
 from ballscrew.questions.service import points as service_points
-from ballscrew.questions.service import text as service_text
 from ballscrew.questions.service.compute import ServiceReport
+from ballscrew.questions.service.sheet import causes, names
 
 
 def fit(case: Case, tables: Mapping[str, Any], report: FitReport) -> dict[str, Any]:
@@ -65,11 +65,11 @@ def _of_rows(report: FitReport) -> list[Message | str]:
 
 def service(case: Case, report: ServiceReport) -> dict[str, Any]:
     """The document of a service, what it says in words, and the curves to draw."""
-    causes = service_text.causes(report)
+    largest = causes(report)
     return {
         **service_documents.document(case, report),
-        "words": {"title": ", ".join(service_text.names(report)), "causes": texts(causes)},
-        "display": {"causes": messages(causes)},
+        "words": {"title": ", ".join(names(report)), "causes": texts(largest)},
+        "display": {"causes": messages(largest)},
         "picture": service_points.of_service(report),
     }
 

@@ -1,0 +1,192 @@
+"""The sheet of a condition over time: warnings first, alarm and preload left, the tests, and their charts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from ballscrew.basis import units
+from ballscrew.basis.quantities import Info, Quantity
+from ballscrew.basis.sheet import (
+    Axis,
+    Band,
+    Block,
+    Cell,
+    Chart,
+    Column,
+    Columns,
+    Curve,
+    Level,
+    Line,
+    Lines,
+    Number,
+    Share,
+    Sheet,
+    Table,
+    Vertical,
+)
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.descriptions import design, model_text, nut_text
+from ballscrew.evidence.service.condition_values import Condition
+from ballscrew.files.torque_logs.torque_series import quantities
+from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.questions.condition.points import trend_of
+
+#: More tests than these are not all listed: the baseline, those about the alarm and the last ones are.
+_MOST_ROWS = 40
+#: Tests about the alarm that are listed.
+_ABOUT = 5
+#: Days of a series from which on its charts are over days.
+_LONG, _DAY = 90, 86400.0
+#: Preloads beyond this are not drawn: without temperatures an interval may end far above.
+_MOST_DRAWN = 2.5
+_TORQUE, _SPEED = quantities()["torque"], quantities()["screw_speed"]
+_PLAIN = Quantity("ratio", "1", Info("", "ratio"))
+_HOURS = Quantity("time", "s", Info("t", "time", "h"))
+
+
+def sheet(case: Case, condition: Condition) -> Sheet:
+    """All that people see of a condition over time."""
+    warnings = [record for record in condition.warning_records if record.severity == "warning"]
+    remarks = [record.text for record in condition.warning_records if record.severity != "warning"]
+    first, *others = condition.verdict_records
+    return Sheet(
+        f"{_tests(condition)}: {nut_text(case.screw.nut)}, {model_text(case)}",
+        [
+            Lines([Line(record.text, "warning", record.name) for record in warnings]),
+            Lines([Line(first.text, "verdict"), *(Line(record.text) for record in others)]),
+            _table(condition),
+            Lines([Line(design(case, plain_text=True), "small"), Line(_meaning(condition), "small")]),
+            Lines([Line(f"note: {text}", "small") for text in (*remarks, *condition.notes)], detail=True),
+            *_charts(condition),
+            _columns(condition),
+        ],
+    )
+
+
+def _tests(condition: Condition) -> str:
+    """The files of the tests, or their number."""
+    files = [name for name, _ in condition.sources]
+    return ", ".join(files) if 0 < len(files) <= 3 else f"{len(condition.states)} tests"
+
+
+def _meaning(condition: Condition) -> str:
+    """Where the torques are reduced to, and what the numbers are."""
+    speed = units.shown(condition.reference_speed, _SPEED, 3)
+    temperature = condition.reference_temperature
+    at = f"{units.shown(temperature, TEMPERATURE, 3)} and {speed}" if math.isfinite(temperature) else speed
+    return (
+        f"torques at {at}, preload over that of the first {condition.baseline} tests, intervals of 95 %; CUSUM: sums "
+        "of the changes after them in standard deviations, with their limit"
+    )
+
+
+def _table(condition: Condition) -> Table:
+    rows: list[Sequence[Cell]] = []
+    shown = _shown_rows(condition)
+    for before, index in zip([-1, *shown], shown, strict=False):
+        if index > before + 1:
+            rows.append(["…", "", "", "", "", ""])
+        state, chart = condition.states[index], condition.chart
+        preload = (state.preload_low, state.preload_high)
+        rows.append(
+            [
+                f"{state.label}{' alarm' if index == condition.alarm else ''}",
+                None if state.temperature is None else Number(state.temperature, TEMPERATURE, 3),
+                Number(state.torque, _TORQUE, 3, (state.torque_low, state.torque_high)),
+                Share(state.preload, bar=False, band=preload),
+                Number(max(chart.fall[index], chart.rise[index]), _PLAIN, 3),
+                Number(chart.limit[index], _PLAIN, 3),
+            ]
+        )
+    return Table("tests", "Tests", ("", "logged", "torque", "preload", "CUSUM", "limit"), rows)
+
+
+def _shown_rows(condition: Condition) -> list[int]:
+    count = len(condition.states)
+    if count <= _MOST_ROWS:
+        return list(range(count))
+    alarm = condition.alarm
+    near = range(0) if alarm is None else range(alarm - _ABOUT, alarm + _ABOUT + 1)
+    rows = {*range(condition.baseline), *near, *range(count - 2 * _ABOUT, count)}
+    return sorted(row for row in rows if 0 <= row < count)
+
+
+def _charts(condition: Condition) -> Iterator[Block]:
+    """Torque, preload and sums over the time."""
+    axis, times = _time(condition)
+    common = [Vertical("end of the first tests", times[condition.baseline - 1])]
+    if condition.alarm is not None:
+        common.append(Vertical("alarm", times[condition.alarm], "red"))
+    torque, low, high = (_values(condition, name) for name in ("torque", "torque_low", "torque_high"))
+    healthy = float(np.exp(np.mean(np.log(torque[: condition.baseline]))))
+    yield Chart(
+        "torque at one temperature",
+        axis,
+        Axis("friction torque", _TORQUE, least=0.0),
+        [
+            Curve("torque", times, torque, "blue", "circles"),
+            Band("95 %", times, low, high, "blue"),
+            Level("first tests", healthy),
+            *common,
+        ],
+    )
+    preload, low, high = (_values(condition, name) for name in ("preload", "preload_low", "preload_high"))
+    trend = trend_of(condition)
+    yield Chart(
+        "preload left",
+        axis,
+        Axis("over that of the first tests", _PLAIN, least=0.0),
+        [
+            Curve("preload", times, preload, "blue", "circles"),
+            Band("95 %", times, low, np.minimum(high, _MOST_DRAWN), "blue"),
+            *([] if trend is None else [Curve("trend", times, trend)]),
+            Level("tolerance", 1 - condition.tolerance, "orange"),
+            *common,
+        ],
+    )
+    yield Chart(
+        "sums of changes (CUSUM)",
+        axis,
+        Axis("standard deviations", _PLAIN, least=0.0),
+        [
+            Curve("fall", times, np.array(condition.chart.fall), "blue"),
+            Curve("rise", times, np.array(condition.chart.rise), "green"),
+            Curve("limit", times, np.array(condition.chart.limit), "orange", "dashed"),
+            *common,
+        ],
+    )
+
+
+def _time(condition: Condition) -> tuple[Axis, np.ndarray]:
+    """The axis of the time and the places of the tests on it; days are plain numbers."""
+    times = _values(condition, "time")
+    if condition.per == "test":
+        return Axis("test", _PLAIN), times
+    if np.ptp(times) > _LONG * _DAY:
+        return Axis("days from the first test", _PLAIN), times / _DAY
+    return Axis("time", _HOURS), times
+
+
+def _values(condition: Condition, name: str) -> np.ndarray:
+    return np.array([getattr(state, name) for state in condition.states], dtype=float)
+
+
+def _columns(condition: Condition) -> Columns:
+    """One row for each test."""
+    preloads = ("preload", "preload_low", "preload_high")
+    return Columns(
+        "states",
+        [
+            Column("test", [state.label for state in condition.states]),
+            Column("time", _values(condition, "time"), _PLAIN if condition.per == "test" else _HOURS),
+            Column("temperature", _values(condition, "temperature"), TEMPERATURE),
+            *(Column(name, _values(condition, name), _TORQUE) for name in ("torque", "torque_low", "torque_high")),
+            *(Column(name, _values(condition, name), _PLAIN) for name in preloads),
+            Column("fall", np.array(condition.chart.fall), _PLAIN),
+            Column("rise", np.array(condition.chart.rise), _PLAIN),
+            Column("limit", np.array(condition.chart.limit), _PLAIN),
+        ],
+    )
