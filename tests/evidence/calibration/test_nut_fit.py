@@ -11,6 +11,7 @@ import ballscrew as bs
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.evidence.calibration import baselines
 from ballscrew.evidence.calibration import fit as calibration
+from ballscrew.evidence.calibration import next_test as next_tests
 from ballscrew.evidence.calibration.response import Response
 from support.strategies import MODELS
 from support.synthetic_logs import OIL
@@ -193,3 +194,63 @@ def test_slopes_of_a_nut_of_elastic_bodies_are_those_of_the_model():
         assert slopes[1, :, place] == pytest.approx(expected, rel=1e-4), name
     fewer = response.at({name: values[1:] for name, values in points.items()})
     assert fewer(response.start)[0] == pytest.approx(torques[:, 1:], rel=1e-9)
+
+
+SMALL = bs.catalogue()["rexroth-25x5x3-4-double"].screw(nut=bs.DoubleNut(preload=1113.0, bodies=bs.Bodies()))
+#: Loads of a nut whose bodies are strained otherwise under the opposite load.
+SIGNED = {"negative": (-2000.0, -200.0), "both": (-2000.0, 1800.0)}
+
+
+def signed_log(loads, *, column=lambda load, _: load):
+    """Exact torques on the shaft in both directions; ``column`` makes what is logged of the load and the direction."""
+    load, speed = np.tile(np.linspace(*loads, 4), 6), np.repeat([4.0, -4.0, 15.0, -15.0, 60.0, -60.0], 4)
+    torque = MODELS["reference"](SMALL, OIL, axial_load=load, screw_speed=speed).drive_torque
+    return {"axial_load": column(load, np.sign(speed)), "screw_speed": speed, "torque": torque}
+
+
+def fit_from_elsewhere(data):
+    """The friction and the preload, from a start off both."""
+    model = MODELS["reference"]
+    start = dataclasses.replace(model, friction=dataclasses.replace(model.friction, boundary_friction_coefficient=0.15))
+    screw = dataclasses.replace(SMALL, nut=dataclasses.replace(SMALL.nut, preload=1400.0))
+    found = fit(start, screw, OIL, data, [FRICTION, PRELOAD], holdout=0.0, engine="compiled")
+    return found, (found.estimates[FRICTION].value, found.estimates[PRELOAD].value)
+
+
+@pytest.mark.parametrize("name", SIGNED)
+def test_exact_torques_return_the_truth_whatever_the_signs_of_the_loads(name, quick_baselines, monkeypatch):
+    monkeypatch.setattr(next_tests, "SPEED_COUNT", 2)
+    monkeypatch.setattr(next_tests, "LOAD_COUNT", 3)
+    found, values = fit_from_elsewhere(signed_log(SIGNED[name]))
+    assert values == pytest.approx((0.12, 1113.0), rel=1e-3)
+    assert found.rows.convention.description == "torque on the shaft, load and speed with their signs"
+    # prediction, band and next test are on the same side of the nut
+    for load in (-1590.0, 1590.0):
+        true = MODELS["reference"](SMALL, OIL, axial_load=load, screw_speed=10.0).screw_torque
+        assert found.predict(load, -10.0) == pytest.approx(true, rel=1e-3)
+        assert found.band(load, -10.0).value == pytest.approx(true, rel=1e-3)
+    tests = found.next_test().tests["axial_load"]
+    assert {*np.sign(tests)} == {*np.sign(SIGNED[name])}
+
+
+def test_loads_that_are_logged_with_the_opposite_sign_are_turned_by_the_torque(quick_baselines):
+    found, values = fit_from_elsewhere(signed_log(SIGNED["negative"], column=lambda load, _: -load))
+    assert values == pytest.approx((0.12, 1113.0), rel=1e-3)
+    assert "opposite sign" in found.rows.convention.description
+
+
+def test_sizes_of_friction_torques_and_loads_are_taken_as_positive_and_that_is_said(quick_baselines):
+    data = signed_log((200.0, 2000.0))
+    load, speed = data["axial_load"], data["screw_speed"]
+    for nut, share in ((SMALL.nut, 0.01), (dataclasses.replace(SMALL.nut, bodies=None), None)):
+        screw = dataclasses.replace(SMALL, nut=nut)
+        friction = {sign: MODELS["reference"](screw, OIL, axial_load=sign * load, screw_speed=speed).screw_torque
+                    for sign in (1, -1)}  # fmt: skip
+        columns = {"axial_load": load, "screw_speed": np.abs(speed), "torque": friction[1]}
+        found = fit(MODELS["reference"], screw, OIL, columns, [FRICTION], kind="friction", holdout=0.0)
+        said = [record for record in found.warning_records if record.id == "fit.load_sign"]
+        assert len(said) == (share is not None)
+        if share is not None:
+            other = np.median(np.abs(friction[-1] - friction[1])) / np.median(friction[1])
+            assert said[0].value == pytest.approx(other, rel=1e-2)
+            assert other > share

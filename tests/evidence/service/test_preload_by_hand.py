@@ -370,6 +370,11 @@ def test_groups_of_rows_by_hand(rows, loads, sizes):
     assert not groups.constant
 
 
+def test_loads_of_both_signs_are_in_no_group_together():
+    groups = Groups.of(fitted(60, [-900.0, 900.0]))
+    assert groups.points["axial_load"] == pytest.approx([900.0] * 6 + [-900.0] * 6, rel=1e-12)
+
+
 def test_the_scatter_of_rows_is_in_the_preload_of_a_log():
     """Noise of 15 %: in the means of groups beside the 2 % of the model, and in the rows of the first fit."""
     random = np.random.default_rng(11)

@@ -31,7 +31,8 @@ _MAXIMUM_ITERATIONS, _TOLERANCE = 50, 1e-7
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Conditions:
-    """Magnitudes of load and speed at the rows of a log, the ideal torque, and whether the load helps the motion.
+    """Magnitudes of load and speed at the rows of a log, the ideal torque with the sign of the load, and whether the
+    load helps the motion.
 
     ``weights`` are the factors of ideal torque and friction torque in what was measured, of shape (2, rows); ``sensor``
     are the errors of the sensor that are fitted beside, as columns: the model has them, too.
@@ -102,7 +103,7 @@ def efficiency_pair(conditions: Conditions, torque: Vector) -> Baseline:
     """
 
     def columns(rows: Conditions) -> Vector:
-        friction = rows.weights[1] * rows.ideal_torque
+        friction = rows.weights[1] * np.abs(rows.ideal_torque)
         pair = np.stack([np.where(rows.helping, 0.0, friction), np.where(rows.helping, friction, 0.0)], axis=1)
         return np.hstack([pair, rows.sensor])
 

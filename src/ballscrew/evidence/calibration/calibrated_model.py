@@ -26,13 +26,13 @@ class CalibratedModel(FitResult):
     def predict(self, axial_load: Force, screw_speed: AngularSpeed, temperature: Temperature | None = None) -> Torque:
         """Friction torque on the screw, N m, at loads, speeds and temperatures of the oil; arrays broadcast.
 
-        The signs of ``axial_load`` (N) and ``screw_speed`` (rad/s) do not count. Without a ``temperature`` (K) the oil
-        is as it was given. Raises :class:`~ballscrew.basis.errors.InputError` for a temperature of an oil that was not
-        made from a grade.
+        ``axial_load`` (N) has the signs of the model: elastic bodies rub otherwise under the opposite load. The sign of
+        ``screw_speed`` (rad/s) does not count. Without a ``temperature`` (K) the oil is as it was given. Raises
+        :class:`~ballscrew.basis.errors.InputError` for a temperature of an oil that was not made from a grade.
         """
         oil = self.lubricant if temperature is None else self.lubricant.at(temperature)
-        load, speed = np.abs(np.asarray(axial_load, dtype=float)), np.abs(np.asarray(screw_speed, dtype=float))
-        found = self.model(self.screw, oil, axial_load=load, screw_speed=speed)
+        speed = np.abs(np.asarray(screw_speed, dtype=float))
+        found = self.model(self.screw, oil, axial_load=np.asarray(axial_load, dtype=float), screw_speed=speed)
         return found.screw_torque
 
     @accepts_units("band")
@@ -60,7 +60,8 @@ class CalibratedModel(FitResult):
         given = [axial_load, screw_speed, *([] if oil_temperature is None else [oil_temperature])]
         arrays = np.broadcast_arrays(*(np.asarray(value, dtype=float) for value in given))
         names = ("axial_load", "screw_speed", TEMPERATURE.name)
-        points = {name: np.abs(array).ravel() for name, array in zip(names, arrays, strict=False)}
+        points = {name: array.ravel() for name, array in zip(names, arrays, strict=False)}
+        points["screw_speed"] = np.abs(points["screw_speed"])
         values = self.solution.values
         torques, slopes = self.response.at(points)(values[: len(self.response.names)])
         friction = torques[1] + self.constant_torque

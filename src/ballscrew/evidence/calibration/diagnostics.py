@@ -40,6 +40,10 @@ _ONE_DIRECTION = Message(
 _IMPRECISE = Message("{name} is not identified: it is known to less than half of its size")
 _ONE_SIDED = Message("{name} is bounded on one side only: beyond {value} the torques hardly change")
 _AT_BOUND = Message("{name} came to rest at its bound ({value}): the model cannot follow the log any further")
+_LOAD_SIGN = Message(
+    "the loads of the log have no sign: they are taken as positive; friction under the opposite load differs by "
+    "{share} in this nut; give the loads their signs"
+)
 _PRIOR = Message("{name} is known by its prior, too: the log leaves {share} of the prior's variance")
 _LIFT_OFF = Message(
     "at {lifted} of {rows} rows the load lifts the relieved balls off (from {load} on): "
@@ -73,6 +77,9 @@ PRIOR_SHARE = 0.05
 MAXIMUM_NOISE_SHARE = 0.3
 #: A description without physics that is off by less than this share of the model says that the model is another screw.
 BASELINE_RATIO = 0.5
+#: Friction that is other by more than this share under the opposite load asks for the sign of the load; rows that are
+#: looked at for it.
+LOAD_SIGN_SHARE, SOME_ROWS = 0.01, 200
 #: A larger ratio of residuals is not stated: what is nearer then follows the log to its rounding.
 MAXIMUM_RATIO = 100.0
 
@@ -209,7 +216,7 @@ def _of_preload(found: FitResult) -> list[Record]:
 
 
 def _of_rows(found: FitResult) -> list[Record]:
-    return [*_of_scatter(found), *_of_number(found), *_of_baselines(found), *_of_oil(found)]
+    return [*_of_scatter(found), *_of_number(found), *_of_baselines(found), *_of_oil(found), *_of_load_signs(found)]
 
 
 def _of_scatter(found: FitResult) -> list[Record]:
@@ -277,6 +284,23 @@ def _of_oil(found: FitResult) -> list[Record]:
         )
         records.append(_warning("temperature_unused", "temperature", text))
     return records
+
+
+def _of_load_signs(found: FitResult) -> list[Record]:
+    """Loads that may be sizes alone, in a nut that rubs otherwise under the opposite load."""
+    load = found.rows.log.axial_load
+    if found.rows.convention.ideal != "absent" or np.any(load < 0):
+        return []
+    some = np.unique(np.linspace(0, load.size - 1, min(load.size, SOME_ROWS)).astype(np.int64))
+    points = {name: values[some] for name, values in found.response.points.items()}
+    torques, _ = found.response.at({**points, "axial_load": -points["axial_load"]})(
+        found.solution.values[: len(found.response.names)]
+    )
+    friction = found.rows.friction[some]
+    share = float(np.median(np.abs(torques[1] - friction)) / np.median(np.abs(friction)))
+    if not share > LOAD_SIGN_SHARE:
+        return []
+    return [_warning("load_sign", "axial_load", _LOAD_SIGN.of(share=units.percent(share)), share, LOAD_SIGN_SHARE)]
 
 
 def _trends(found: FitResult) -> list[Record]:

@@ -41,7 +41,7 @@ from ballscrew.evidence.calibration.priors import Priors
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE, Problem, drift_of, escape_insensitive_start
 from ballscrew.evidence.calibration.response import Response, resolve_input
 from ballscrew.evidence.calibration.robust import Solution, Vector, loss_of, solve
-from ballscrew.evidence.calibration.torque_conventions import identify_convention
+from ballscrew.evidence.calibration.torque_conventions import TorqueConvention, identify_convention
 from ballscrew.files.torque_logs.log_rows import Kind
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
@@ -124,12 +124,13 @@ def fit(
     asked = _asked(subject, free)
     limits = _limits(subject, asked, bounds or {})
     evaluated = _Evaluated.of(subject, asked, _log_of(data, lubricant, inertia), engine)
-    log, torques = evaluated.log, evaluated.torques
-    raise_if_any(_faults_of_unloaded_balls(subject, log))
-    said = log.kind if kind == "unknown" else kind
-    held_out = _held_out(log, holdout, seed)
+    raise_if_any(_faults_of_unloaded_balls(subject, evaluated.log))
     # what the column is can be looked up in all rows: of few, those left to fit do not always tell
-    convention, left = identify_convention(log.torque, torques, log.axial_load, log.screw_speed, drift_of(log), said)
+    convention, _ = evaluated.convention(evaluated.log.kind if kind == "unknown" else kind)
+    evaluated = evaluated.under(convention)
+    _, left = evaluated.convention(known=convention)
+    log, torques = evaluated.log, evaluated.torques
+    held_out = _held_out(log, holdout, seed)
     problem = Problem.of(subject, evaluated.response, asked, log, convention, left, torques, evaluated.slopes, limits)
     fitted = _Fitted.of(problem, log, held_out, priors or {}, left, done)
     solution = fitted.solution
@@ -141,7 +142,7 @@ def fit(
     one_sided = _one_sided(fitted, uncertainty)
     made = _with(subject, problem, solution)
     half_width = usual_error(lubricant, log) if temperature_error is None else float(temperature_error)
-    warmth = _temperature_error(half_width, made, points_of(log, lubricant), fitted, uncertainty)
+    warmth = _temperature_error(half_width, made, problem.response.points, fitted, uncertainty)
     total = uncertainty.plus(warmth.covariance)
     estimates = _estimates(fitted, one_sided, total, uncertainty, degrees_of_freedom)
     found = CalibratedModel(
@@ -226,13 +227,33 @@ class _Evaluated:
         """Those of a log by the inputs asked for."""
         numbers = [name for name in dict.fromkeys(asked.values()) if name != CONSTANT_TORQUE.name]
         points = points_of(log, subject.lubricant)
-        response = Response.of(subject, numbers, points, engine=engine, times=EVALUATIONS)
+        return cls._where_finite(log, Response.of(subject, numbers, points, engine=engine, times=EVALUATIONS))
+
+    @classmethod
+    def _where_finite(cls, log: TorqueLog, response: Response) -> _Evaluated:
         torques, slopes = response(response.start)
         finite = np.asarray(np.isfinite(torques).all(axis=0))
         if finite.all():
             return cls(log, response, torques, slopes)
         log = log.select(finite, "no torque in the model")
-        return cls(log, response.at(points_of(log, subject.lubricant)), torques[:, finite], slopes[:, finite])
+        points = {name: values[finite] for name, values in response.points.items()}
+        return cls(log, response.at(points), torques[:, finite], slopes[:, finite])
+
+    def convention(
+        self, kind: Kind = "unknown", known: TorqueConvention | None = None
+    ) -> tuple[TorqueConvention, float]:
+        """The convention of the torques, and the scatter that remains under it."""
+        log = self.log
+        return identify_convention(
+            log.torque, self.torques, log.axial_load, log.screw_speed, drift_of(log), kind, known
+        )
+
+    def under(self, convention: TorqueConvention) -> _Evaluated:
+        """The same at loads with the signs that a convention gives them."""
+        loads = convention.loads(self.log.axial_load, self.log.screw_speed)
+        if np.array_equal(loads, self.log.axial_load):
+            return self
+        return self._where_finite(self.log, self.response.at({**self.response.points, "axial_load": loads}))
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -296,9 +317,14 @@ def _uncertainty(fitted: _Fitted) -> tuple[Uncertainty, int]:
     return found, degrees_of_freedom
 
 
-def points_of(log: TorqueLog, lubricant: Lubricant) -> dict[str, NDArray[np.float64]]:
-    """Magnitudes of load and speed of a log, and the temperature where the oil has a grade."""
-    found = {"axial_load": np.abs(log.axial_load), "screw_speed": np.abs(log.screw_speed)}
+def points_of(
+    log: TorqueLog, lubricant: Lubricant, convention: TorqueConvention | None = None
+) -> dict[str, NDArray[np.float64]]:
+    """The loads of a log, with the signs that a convention gives them, sizes of the speeds, and the temperature where
+    the oil has a grade.
+    """
+    loads = log.axial_load if convention is None else convention.loads(log.axial_load, log.screw_speed)
+    found = {"axial_load": loads, "screw_speed": np.abs(log.screw_speed)}
     if lubricant.follows_temperature:
         held = np.full(len(log), lubricant.temperature) if log.temperature is None else log.temperature
         found[TEMPERATURE.name] = held
@@ -499,7 +525,7 @@ def _scores(problem: Problem, rows: Rows, torques: Vector) -> list[Score]:
     """Scores of the model before and after the fit, and of the baselines without physics, on the same rows."""
     log, fitted = rows.log, ~rows.held_out
     weights = rows.convention.weights(log.axial_load, log.screw_speed)
-    helping = weights[0] * weights[1] < 0
+    helping = weights[0] * torques[0] * weights[1] < 0
     conditions = baselines.Conditions(
         np.abs(log.axial_load), np.abs(log.screw_speed), torques[0], helping, weights, problem.sensor_columns
     )

@@ -16,8 +16,8 @@ from ballscrew.evidence.calibration.robust import Vector
 from ballscrew.files.torque_logs.log_rows import quantities
 from ballscrew.physics.components.materials import TEMPERATURE
 
-#: Without limits, loads and speeds from half the least to twice the largest of the log are thought possible, and
-#: temperatures this many kelvin beyond those of the log.
+#: Without limits, loads of the signs in the log and speeds, from half the least to twice the largest, are thought
+#: possible, and temperatures this many kelvin beyond those of the log.
 RANGE_FACTOR, TEMPERATURE_MARGIN = 2.0, 10.0
 #: How many speeds, loads and temperatures are tried.
 SPEED_COUNT, LOAD_COUNT, TEMPERATURE_COUNT = 25, 15, 5
@@ -93,8 +93,8 @@ def next_test(
 def _ranges(found: FitResult, limits: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
     log = found.rows.log
     ranges = {
-        name: (float(np.abs(values).min()) / RANGE_FACTOR, float(np.abs(values).max()) * RANGE_FACTOR)
-        for name, values in {"axial_load": log.axial_load, "screw_speed": log.screw_speed}.items()
+        name: (_further(float(values.min()), -1), _further(float(values.max()), 1))
+        for name, values in {"axial_load": log.axial_load, "screw_speed": np.abs(log.screw_speed)}.items()
     }
     if found.lubricant.follows_temperature and log.temperature is not None:
         info = found.lubricant.temperature_quantity.info
@@ -110,6 +110,11 @@ def _ranges(found: FitResult, limits: Mapping[str, tuple[float, float]]) -> dict
     return {**ranges, **in_si}
 
 
+def _further(end: float, side: int) -> float:
+    """An end of a range moved to its side by :data:`RANGE_FACTOR`."""
+    return end * RANGE_FACTOR if end * side > 0 else end / RANGE_FACTOR
+
+
 def _grid(ranges: Mapping[str, tuple[float, float]]) -> dict[str, Vector]:
     """Tests all over the ranges: speeds and loads by ratios, temperatures by differences."""
     axes: list[Vector] = []
@@ -120,14 +125,19 @@ def _grid(ranges: Mapping[str, tuple[float, float]]) -> dict[str, Vector]:
     }.items():
         if name in ranges:
             low, high = ranges[name]
-            by_ratios = name != TEMPERATURE.name
-            if low == high or high <= 0:
+            if low == high:
                 axes.append(np.array([high]))
-                continue
-            least = low if low > 0 else 1e-3 * high
-            axes.append(np.geomspace(least, high, number) if by_ratios else np.linspace(low, high, number))
+            elif name == TEMPERATURE.name:
+                axes.append(np.linspace(low, high, number))
+            else:
+                sides = [-_by_ratios(max(-high, 0.0), -low, number)[::-1]] if low < 0 else []
+                axes.append(np.concatenate([*sides, *([_by_ratios(max(low, 0.0), high, number)] if high > 0 else [])]))
     meshes = np.meshgrid(*axes, indexing="ij")
     return dict(zip(("axial_load", "screw_speed", TEMPERATURE.name), (m.ravel() for m in meshes), strict=False))
+
+
+def _by_ratios(low: float, high: float, number: int) -> Vector:
+    return np.geomspace(low if low > 0 else 1e-3 * high, high, number)
 
 
 def _valid(found: FitResult, tests: Mapping[str, Vector]) -> NDArray[np.bool_]:
@@ -145,16 +155,17 @@ def _open(found: FitResult) -> Vector:
 
 def _derivatives(found: FitResult, tests: Mapping[str, Vector]) -> NDArray[np.float64]:
     """Derivatives of the readings of each test in units of the scatter, of shape (tests, directions, parameters)."""
-    log, response = found.rows.log, found.response
-    points = dict(tests)
+    log, response, convention = found.rows.log, found.response, found.rows.convention
+    points, load = dict(tests), tests["axial_load"]
     if found.lubricant.follows_temperature and TEMPERATURE.name not in points:
-        points[TEMPERATURE.name] = np.full(points["axial_load"].size, found.lubricant.temperature)
-    torques, slopes = response.at(points)(found.solution.values[: len(response.names)])
+        points[TEMPERATURE.name] = np.full(load.size, found.lubricant.temperature)
     directions = [sign for sign in (1.0, -1.0) if np.any(sign * log.screw_speed > 0)]
-    ones = np.ones(points["axial_load"].size)
+    ones = np.ones(load.size)
     made: list[Vector] = []
     for sign in directions:
-        weights = found.rows.convention.weights(ones, sign * ones)
+        points["axial_load"] = convention.loads(load, sign * ones)
+        torques, slopes = response.at(points)(found.solution.values[: len(response.names)])
+        weights = convention.weights(load, sign * ones)
         columns = [np.einsum("tr,trn->rn", weights, slopes)]
         columns += [weights[1][:, np.newaxis]] * (len(found.estimates) - len(response.names))
         # a later test has the zero error of the sensor, and nobody knows its drift by then

@@ -79,7 +79,7 @@ class Response:
 
     names: tuple[str, ...]
     start: NDArray[np.float64]
-    #: The magnitudes of load and speed, and perhaps the temperature, of each row.
+    #: The load with its sign, the size of the speed, and perhaps the temperature, of each row.
     points: Mapping[str, NDArray[np.float64]]
     evaluation: Evaluation
 

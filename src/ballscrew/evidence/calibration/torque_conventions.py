@@ -1,7 +1,8 @@
 """Torque conventions: whether the torque column of a log is friction or drive torque, and with which signs.
 
-Rigs differ, and headings seldom state it. A torque is ``ideal · M_Sa + friction · M_S``, the two signs
-by row. The conventions in use are far apart, so that the model identifies the one that was used.
+Rigs differ, and headings seldom state it. A torque is ``ideal · |M_Sa| + friction · M_S``, the two signs
+by row. The conventions in use are far apart, so that the model identifies the one that was used. Both signs together
+say on which side of the nut the load is, whatever sign the column of the load has.
 """
 
 from __future__ import annotations
@@ -29,8 +30,24 @@ class TorqueConvention(NamedTuple):
     #: Whether the column has the opposite sign throughout.
     reversed: bool = False
 
+    def loads(self, axial_load: Vector, screw_speed: Vector) -> Vector:
+        """The loads with the signs of the model: positive where a positive speed works against them.
+
+        Those of the column, unless the torque says that it has their sizes alone or the opposite signs.
+        """
+        if self.ideal == "absent":
+            return np.asarray(axial_load)
+        ideal, friction = self._signs(axial_load, screw_speed)
+        return np.abs(axial_load) * ideal * friction * np.sign(screw_speed)
+
     def weights(self, axial_load: Vector, screw_speed: Vector) -> Vector:
-        """The factors of ideal torque and friction torque, of shape (2, rows), from signed load and speed."""
+        """The factors of ideal torque and friction torque under :meth:`loads`, of shape (2, rows)."""
+        _, friction = self._signs(axial_load, screw_speed)
+        # an ideal torque with the sign of its load works against friction where it has not that of the speed
+        return np.stack([friction * np.sign(screw_speed) * (self.ideal != "absent"), friction])
+
+    def _signs(self, axial_load: Vector, screw_speed: Vector) -> Vector:
+        """The signs of the size of the ideal torque and of the friction torque in the column, of shape (2, rows)."""
         load, speed = np.sign(axial_load), np.sign(screw_speed)
         nothing = np.zeros_like(screw_speed)
         signs: dict[Sign, Vector] = {
@@ -71,23 +88,27 @@ def identify_convention(
     screw_speed: Vector,
     drift: Vector | None = None,
     kind: Kind = "unknown",
+    known: TorqueConvention | None = None,
 ) -> tuple[TorqueConvention, float]:
     """The convention under which a column is nearest to a model, and the scatter that remains.
 
     ``torques`` are the ideal torque and the friction torque of the model, of shape (2, rows). Friction may be any
     multiple of the model's and have a constant part, and the sensor a zero error and a ``drift`` where friction has
-    both signs: the remaining scatter is that which no fit removes. A known ``kind`` restricts the conventions.
+    both signs: the remaining scatter is that which no fit removes. A known ``kind`` restricts the conventions, one that
+    is ``known`` itself is the only one.
     """
     some = np.linspace(0, torque.size - 1, min(torque.size, MAXIMUM_ROWS)).astype(np.int64)
     choices = [convention for convention in CONVENTIONS if kind in ("unknown", convention.kind)]
     choices += [one._replace(reversed=True, description=f"{one.description}; reversed") for one in choices]
+    choices = choices if known is None else [known]
 
     def penalised_scatter(convention: TorqueConvention) -> tuple[float, float]:
         weights = convention.weights(axial_load[some], screw_speed[some])
+        ideal = np.abs(torques[0][some]) * np.sign(convention.loads(axial_load[some], screw_speed[some]))
         columns = [weights[1] * torques[1][some], weights[1]]
         if np.any(weights[1] > 0) and np.any(weights[1] < 0):
             columns += [np.ones(some.size), *([] if drift is None else [drift[some]])]
-        rest = torque[some] - weights[0] * torques[0][some]
+        rest = torque[some] - weights[0] * ideal
         stacked = np.stack(columns, axis=1)
         found, _ = robust_linear(stacked, rest)
         scatter = scatter_of(stacked @ found - rest, torque)

@@ -277,7 +277,7 @@ def _of_one_speed(speed: Vector) -> list[NDArray[np.int64]]:
 
 def points_of(means: Means, subject: Configuration) -> dict[str, Vector]:
     """The operating points of the means; a temperature that is not known is that of the case."""
-    points = {"axial_load": np.abs(means.axial_load), "screw_speed": means.screw_speed}
+    points = {"axial_load": means.axial_load, "screw_speed": means.screw_speed}
     if subject.lubricant.follows_temperature:
         usual: Any = subject.lubricant.temperature
         points[TEMPERATURE.name] = np.where(np.isfinite(means.temperature), means.temperature, float(usual))

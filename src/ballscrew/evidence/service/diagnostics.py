@@ -215,7 +215,7 @@ def _of_trend(label: str, one: PreloadEstimate) -> list[Record]:
     log = rows.log
     if subject is None or not uses_temperatures(subject.lubricant, log):
         return []
-    points = points_of(log, subject.lubricant)
+    points = points_of(log, subject.lubricant, rows.convention)
     model = torque_of_model(subject, points, FRICTION, one.warmer)
     measured = rows.friction - rows.residuals * rows.direction
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -223,7 +223,7 @@ def _of_trend(label: str, one: PreloadEstimate) -> list[Record]:
     kept = np.isfinite(off) & ~rows.outlying
     if np.count_nonzero(kept) < MINIMUM_ROWS:
         return []
-    others = np.stack([np.log(points["screw_speed"]), points["axial_load"]], axis=1)
+    others = np.stack([np.log(points["screw_speed"]), np.abs(points["axial_load"])], axis=1)
     trend = temperature_trend(off[kept], np.asarray(log.temperature)[kept], others[kept])
     if trend is None or not trend.told or abs(trend.slope) * trend.temperature_range < MODEL_ERROR:
         return []

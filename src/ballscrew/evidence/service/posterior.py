@@ -96,12 +96,12 @@ class Readings:
     @classmethod
     def of(cls, found: CalibratedModel) -> Readings:
         """Rows evenly over the log of a fit."""
-        log = found.rows.log
+        log, convention = found.rows.log, found.rows.convention
         chosen = np.unique(np.linspace(0, len(log) - 1, min(len(log), MOST_ROWS)).astype(np.int64))
         return cls(
             fit=found,
-            points={name: values[chosen] for name, values in points_of(log, found.lubricant).items()},
-            weights=found.rows.convention.weights(log.axial_load, log.screw_speed)[:, chosen],
+            points={name: values[chosen] for name, values in points_of(log, found.lubricant, convention).items()},
+            weights=convention.weights(log.axial_load, log.screw_speed)[:, chosen],
             torque=log.torque[chosen],
             sensor=Sensor.of(found, chosen),
             temperature_deviation=oil_deviation(found),
@@ -125,16 +125,20 @@ class Groups(NamedTuple):
         A mean is the torque of the fit at the middle of the group, less what the fit is off by there: so it matters
         little that rows of a group are not at one point.
         """
-        log, kept = found.rows.log, np.flatnonzero(~found.rows.outlying)
-        load, speed = np.abs(log.axial_load[kept]), np.abs(log.screw_speed[kept])
-        count = max(1, min(MOST_GROUPS, kept.size // GROUP_ROWS))
-        loads = LOAD_GROUPS if count >= 2 * LOAD_GROUPS and np.ptp(load) > 0 else 1
+        kept = np.flatnonzero(~found.rows.outlying)
+        rows = points_of(found.rows.log, found.lubricant, found.rows.convention)
+        load, speed = rows["axial_load"][kept], rows["screw_speed"][kept]
+        # the mean of loads of both signs would be none that was there
+        sides = [side for side in (np.flatnonzero(load >= 0), np.flatnonzero(load < 0)) if side.size]
+        count = max(1, min(MOST_GROUPS, kept.size // GROUP_ROWS) // len(sides))
+        loads = LOAD_GROUPS if count >= 2 * LOAD_GROUPS and np.ptp(np.abs(load)) > 0 else 1
         parts = [
             part[chosen]
-            for part in np.array_split(np.argsort(load, kind="stable"), loads)
+            for side in sides
+            for part in np.array_split(side[np.argsort(np.abs(load[side]), kind="stable")], loads)
             for chosen in np.array_split(np.argsort(speed[part], kind="stable"), count // loads)
+            if chosen.size
         ]
-        rows = points_of(log, found.lubricant)
         points = {name: np.array([values[kept][part].mean() for part in parts]) for name, values in rows.items()}
         points["screw_speed"] = np.array([np.exp(np.mean(np.log(speed[part]))) for part in parts])
         there = torque_of_model(found.subject, points, FRICTION)

@@ -118,11 +118,10 @@ def _temperature_error(case: Case, log: TorqueLog, options: FitOptions) -> float
 def _limits_of_log(model: CalibratedModel) -> dict[str, tuple[float, float]]:
     """Loads, speeds and temperatures of a log: the rig gives these, and nobody knows whether it gives more."""
     log = model.rows.log
-    conditions = {"axial_load": log.axial_load, "screw_speed": log.screw_speed}
+    conditions = {"axial_load": log.axial_load, "screw_speed": np.abs(log.screw_speed)}
     if model.lubricant.follows_temperature and log.temperature is not None:
         conditions[TEMPERATURE.name] = log.temperature
-    sizes = {name: values if name == TEMPERATURE.name else np.abs(values) for name, values in conditions.items()}
-    return {name: (float(values.min()), float(values.max())) for name, values in sizes.items()}
+    return {name: (float(values.min()), float(values.max())) for name, values in conditions.items()}
 
 
 def _with_option(fault: Fault) -> Fault:

@@ -142,8 +142,9 @@ def _next(panel: Axes, found: CalibratedModel, test: NextTest, axes: dict[str, A
     panel.figure.colorbar(drawn, ax=panel, label="uncertainty of all free numbers together that is left [%]")
     log = found.rows.log
     shown = _some(found.rows)
-    logged = of_speed(np.abs(log.screw_speed[shown])), of_load(np.abs(log.axial_load[shown]))
+    logged = of_speed(np.abs(log.screw_speed[shown])), of_load(log.axial_load[shown])
     panel.plot(*logged, ".", ms=1.5, color="white")
     panel.plot(speed[place], load[place], "*", ms=15, color=charts.RED, mec="white")
-    panel.set(xscale="log", yscale="log", xlabel=speed_label, ylabel=load_label)
+    # loads of both signs, or of the negative one, have no logarithm
+    panel.set(xscale="log", yscale="linear" if load.min() < 0 else "log", xlabel=speed_label, ylabel=load_label)
     panel.set_title("where to measure next")

@@ -195,15 +195,20 @@ def _percent(share: float) -> Measured:
 def _beside_the_log(test: NextTest, model: CalibratedModel, known: Mapping[str, Quantity]) -> list[Message]:
     """That the next test asks for more than the log has shown the rig to give, or that no such test was thought of."""
     log = model.rows.log
-    ends = {name: float(np.abs(getattr(log, name)).max()) for name in ("axial_load", "screw_speed")}
+    logged = {"axial_load": log.axial_load, "screw_speed": np.abs(log.screw_speed)}
+    ends = {name: (min(float(values.min()), 0.0), max(float(values.max()), 0.0)) for name, values in logged.items()}
+    nearest = {name: min(max(test.best[name], low), high) for name, (low, high) in ends.items()}
     beyond = [
-        Message("{name} {value}", {"name": Named(name), "value": units.measured(most, known[name], 3)})
-        for name, most in ends.items()
-        if test.best[name] > most
+        Message("{name} {value}", {"name": Named(name), "value": units.measured(end, known[name], 3)})
+        for name, end in nearest.items()
+        if test.best[name] != end
     ]
     if beyond:
         return [Message("that is beyond the log, which ends at {ends}", {"ends": both(beyond)})]
-    if any(float(test.tests[name].max()) > most * (1 + 1e-9) for name, most in ends.items()):
+    if any(
+        float(test.tests[name].max()) > high * (1 + 1e-9) or float(test.tests[name].min()) < low * (1 + 1e-9)
+        for name, (low, high) in ends.items()
+    ):
         return []
     return [
         Message("of the loads and speeds that the log has; --limits of ballscrew fit say what else the rig can give")

@@ -40,7 +40,7 @@ def curves(report: ServiceReport, most: int) -> dict[str, Curve]:
         x = np.abs(rows.log.screw_speed)
         along = np.geomspace(float(x.min()), float(x.max()), CURVE_POINTS) if np.ptp(x) > 0 else x[:1]
         curve = _friction(one, {**_usual(rows), "screw_speed": along})
-        own = points_of(rows.log, one.fit.lubricant)
+        own = points_of(rows.log, one.fit.lubricant, rows.convention)
         measured = rows.friction + one.fit.constant_torque - rows.residuals * rows.direction
         measured = measured + _friction(one, {**_usual(rows), "screw_speed": x}) - _friction(one, own)
         places = some(np.flatnonzero(~rows.outlying), most)
@@ -57,8 +57,9 @@ def of_service(report: ServiceReport) -> dict[str, Any]:
 
 
 def _usual(rows: Rows) -> dict[str, Any]:
-    """The median load and the mean temperature of a log."""
-    found: dict[str, Any] = {"axial_load": float(np.median(np.abs(rows.log.axial_load)))}
+    """The median size of the load, with the sign that more of it has, and the mean temperature of a log."""
+    load = rows.convention.loads(rows.log.axial_load, rows.log.screw_speed)
+    found: dict[str, Any] = {"axial_load": float(np.copysign(np.median(np.abs(load)), np.sum(load)))}
     if rows.log.temperature is not None:
         found["temperature"] = float(np.mean(rows.log.temperature))
     return found
