@@ -40,6 +40,7 @@ def ripple(
     """
     from ballscrew.basis.output.json_text import as_json as json_text
     from ballscrew.cases.case_files import case_file
+    from ballscrew.faces.cli.progress import progress
     from ballscrew.questions.ripple import compute, text
     from ballscrew.questions.ripple import document as documents
     from ballscrew.questions.shared import chart_files as files
@@ -49,7 +50,8 @@ def ripple(
     loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
     if to is not None:
         files.check_picture(to)
-    report = compute.ripple_of(loaded, options)
+    with progress("ripple"):
+        report = compute.ripple_of(loaded, options)
     typer.echo(json_text(documents.document(report)) if as_json else text.text(report))
     if to is not None:
         from ballscrew.questions.ripple import figure as figures  # matplotlib is slow to import
