@@ -32,6 +32,7 @@ def hand_over(
     from ballscrew.basis.output.json_text import as_json as json_text
     from ballscrew.cases.case_files import case_file
     from ballscrew.exports import requests
+    from ballscrew.faces.cli.progress import progress
     from ballscrew.questions.hand_over import document as documents
     from ballscrew.questions.hand_over import text
     from ballscrew.questions.shared.option_values import read
@@ -39,6 +40,7 @@ def hand_over(
     requests.check_target(to)
     loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
     request = requests.Request(**vars(read(HandOverOptions, written)))
-    export = requests.of_case(loaded, to, request)
+    with progress("hand-over"):
+        export = requests.of_case(loaded, to, request)
     files = export.write(out)
     typer.echo(json_text(documents.document(export, loaded, files)) if as_json else text.text(export, files))

@@ -172,6 +172,9 @@ def main() -> None:
         if isinstance(stream, io.TextIOWrapper):  # a terminal that has no "·" still gets an answer
             stream.reconfigure(errors="backslashreplace")
     _pint_plugins.hidden_from_pint += ["dask", "scipy"]
+    if not any(word.startswith("--scheduler") for word in sys.argv):
+        absent: Any = None  # as if it were not installed: xarray would load it, which takes seconds after a boot
+        sys.modules.setdefault("dask", absent)
     try:
         try:
             command_line()()

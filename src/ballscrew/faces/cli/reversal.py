@@ -34,6 +34,7 @@ def reversal(
     """
     from ballscrew.basis.output.json_text import as_json as json_text
     from ballscrew.cases.case_files import case_file
+    from ballscrew.faces.cli.progress import progress
     from ballscrew.questions.reversal import compute, text
     from ballscrew.questions.reversal import document as documents
     from ballscrew.questions.shared import chart_files as files
@@ -43,7 +44,8 @@ def reversal(
     if to is not None:
         files.check_picture(to)
     loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
-    report = compute.reversal(loaded, options)
+    with progress("reversal"):
+        report = compute.reversal(loaded, options)
     typer.echo(json_text(documents.document(report)) if as_json else text.text(report))
     if to is not None:
         from ballscrew.questions.reversal import figure as figures  # matplotlib is slow to import

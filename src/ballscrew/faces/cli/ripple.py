@@ -44,6 +44,7 @@ def ripple(
     from ballscrew.basis.output.json_text import as_json as json_text
     from ballscrew.basis.sheet import document as sheet_document
     from ballscrew.cases.case_files import case_file
+    from ballscrew.faces.cli.progress import progress
     from ballscrew.faces.sheets import terminal, to_file
     from ballscrew.questions.ripple import compute
     from ballscrew.questions.ripple import document as documents
@@ -53,7 +54,8 @@ def ripple(
     options = read(RippleOptions, written)
     loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
     to_file.check([to] if to else [])
-    report = compute.ripple_of(loaded, options)
+    with progress("ripple"):
+        report = compute.ripple_of(loaded, options)
     seen = sheet(report)
     if as_sheet:
         typer.echo(json_text(sheet_document(seen)))

@@ -78,5 +78,5 @@ def service(
     else:
         typer.echo(terminal.text(seen, getattr(sys.stdout, "encoding", None) or ""))
     if picture is not None:
-        to_file.write(picture, seen, "--picture")
+        to_file.write(picture, seen, option="--picture")
         typer.echo(f"{picture}: {len(report.estimates)} preloads", err=as_json or as_sheet)
