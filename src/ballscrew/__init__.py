@@ -1,7 +1,8 @@
 """ballscrew: what a ball screw loses to friction, and why, term by term.
 
 The public names are listed once, in ``__init__.pyi``. Each is loaded at its first use, so that
-``import ballscrew`` costs little more than NumPy.
+``import ballscrew`` costs little more than NumPy. Ask for help of one of them,
+``help(ballscrew.BallScrew)``: that of the package has all of them, one after the other.
 """
 
 from __future__ import annotations
@@ -15,6 +16,23 @@ from ballscrew.basis.version import __version__ as __version__
 # one line each: from MODULE import NAME as NAME; to parse them with ast would take as long as all else here
 with open(f"{__file__}i", encoding="utf-8") as _stub:  # noqa: PTH123  (pathlib is slow to load)
     _MODULES = {words[3]: words[1] for line in _stub if (words := line.split()) and words[0] == "from"}
+
+#: Folders of the package and what their names are for.
+_SUBJECTS = {
+    "physics": "A ball screw, its parts and its friction",
+    "engine": "Many points, derivatives and uncertainty",
+    "axis": "The axis around the screw: motion, duty, supports, heat",
+    "evidence": "Logs: fits, service and condition",
+    "files": "Files and arrays of logs",
+    "questions": "Selection and optimisation",
+    "cases": "Screws and oils that are known",
+    "exports": "Hand-over to other programs",
+    "basis": "Errors and version",
+}
+for _folder, _subject in _SUBJECTS.items():
+    _names = [name for name, module in _MODULES.items() if module.split(".")[1] == _folder]
+    _lines = [", ".join(_names[place : place + 6]) for place in range(0, len(_names), 6)]
+    __doc__ += f"\n{_subject}:\n    " + ",\n    ".join(_lines) + "\n"
 
 __all__ = sorted(_MODULES)  # pyright: ignore[reportUnsupportedDunderAll]  (read from the stub)
 

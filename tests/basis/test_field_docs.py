@@ -3,6 +3,7 @@
 import dataclasses
 import inspect
 import pickle
+import re
 import subprocess
 import sys
 from typing import Annotated
@@ -61,6 +62,17 @@ def test_every_field_of_a_ball_screw_is_shown():
     text = inspect.getdoc(bs.BallScrew) or ""
     assert "* ``lead``: advance of the nut in one turn, :math:`P_h`; m, above 0" in text
     assert "Annotated" not in str(inspect.signature(bs.BallScrew))
+
+
+def test_a_signature_has_laws_by_their_names():
+    shown = str(inspect.signature(bs.FrictionModel))
+    assert "rolling: 'RollingLaw' = olaru_rolling," in shown
+    assert " at 0x" not in shown
+
+
+def test_the_text_of_the_package_has_every_name_by_subject():
+    named = set(re.findall(r"\w+", bs.__doc__ or ""))
+    assert set(bs.__all__) - named == set()
 
 
 def test_what_is_shown_changes_no_value():

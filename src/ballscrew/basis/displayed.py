@@ -6,8 +6,11 @@ the physics imports nothing of it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
+
+#: Lines of the text of a value in a notebook or at a prompt.
+LINES_OF_REPR = 10
 
 _loaders: list[Callable[[str], Any]] = []
 
@@ -21,6 +24,11 @@ def notebook(module: str) -> Any:
     """A module of the face that shows values: ``tables`` or ``pictures``."""
     (load,) = _loaders
     return load(module)
+
+
+def shortened(lines: Sequence[str], most: int) -> list[str]:
+    """The first of the lines, with the number of the others, where there are more than ``most``."""
+    return list(lines) if len(lines) <= most else [*lines[: most - 1], f"… and {len(lines) - most + 1} more"]
 
 
 class Displayed:

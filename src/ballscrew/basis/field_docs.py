@@ -40,7 +40,7 @@ class _FieldDocs:
 def show_fields(cls: type) -> None:
     """Let the docstring of a dataclass say what its fields and its annotated properties are.
 
-    Its constructor is shown without what the fields say: ``lead: Length``.
+    Its constructor is shown without what the fields say, ``lead: Length``, and with functions by their names.
     """
     own = vars(cls).get("__doc__")
     if not dataclasses.is_dataclass(cls) or not isinstance(own, str):
@@ -51,6 +51,24 @@ def show_fields(cls: type) -> None:
     for name, annotation in shown.items():
         if isinstance(annotation, str) and (short := _SHORT.match(annotation)):
             shown[name] = short[1]
+    if any(inspect.isfunction(field.default) for field in dataclasses.fields(cls)):
+        signature = inspect.signature(cls)
+        parameters = [one.replace(default=_by_name(one.default)) for one in signature.parameters.values()]
+        cast("Any", cls).__signature__ = signature.replace(parameters=parameters)
+
+
+class _Named:
+    """A function as the default of a parameter that is only shown: by its name, without its address."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+
+    def __repr__(self) -> str:
+        return self._name
+
+
+def _by_name(default: Any) -> Any:
+    return _Named(default.__name__) if inspect.isfunction(default) else default
 
 
 @functools.cache

@@ -7,6 +7,7 @@ import ballscrew as bs
 from ballscrew.cases.case_files import case_file
 from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
 from support.pictures import drawn, size
+from support.synthetic_logs import log, truth
 
 MODEL = bs.FrictionModel.olaru2005()
 SPEEDS = np.linspace(1.0, 100.0, 7)
@@ -54,6 +55,38 @@ def test_a_band_is_shown_with_its_intervals():
     band = bs.band(MODEL, SCREW, OIL, uncertain=uncertain, axial_load=2000.0, screw_speed=60.0, samples=64)
     of = band["screw_torque"]
     assert f"<td>{of.both.low:.4g} N m to {of.both.high:.4g} N m</td>" in band._repr_html_()
+
+
+def test_a_fit_is_its_estimates():
+    fit = bs.fit(MODEL, SCREW, OIL, log(truth(), rows=60), ["boundary_friction_coefficient", "constant_torque"])
+    for name, estimate in fit.estimates.items():
+        assert f"\n{name}: {estimate.value:.6g}" in repr(fit)
+        assert f"<td>{name}</td>" in fit._repr_html_()
+    assert len(repr(fit).splitlines()) <= 10
+    assert len(repr(fit)) < 1000
+
+
+@pytest.mark.parametrize("method", ["sobol", "morris", "local"])
+def test_a_sensitivity_is_its_inputs_the_largest_first(method):
+    uncertain = {name: bs.Normal(value, 0.05 * value) for name, value in {"axial_load": 2e3, "lead": 5e-3}.items()}
+    many = {f"{part}_roughness": bs.Normal(2e-7, 1e-9) for part in ("ball", "screw", "nut")}
+    many |= {name: bs.Normal(0.54, 1e-4) for name in ("screw_conformity", "nut_conformity")}
+    many |= {
+        "viscosity": bs.Normal(0.1, 1e-3),
+        "contact_angle": bs.Normal(0.78, 1e-3),
+        "friction.decay": bs.Normal(1.4, 0.01),
+    }
+    found = bs.sensitivity(
+        MODEL, SCREW, OIL, uncertain=uncertain | many, method=method, samples=16 if method != "local" else None,
+        screw_speed=60.0,
+    )  # fmt: skip
+    heading, first, *_, last = repr(found).splitlines()
+    assert heading.startswith(f"Sensitivity of screw_torque, {method}: mean ")
+    assert first.startswith(f"{found.inputs[0]}: ")
+    assert last == "… and 2 more"
+    assert len(repr(found).splitlines()) == 10
+    shown = found._repr_html_()
+    assert all(f"<td>{name}</td>" in shown for name in found.inputs)
 
 
 def test_pictures_are_shown_and_saved(result, results, swept, tmp_path):

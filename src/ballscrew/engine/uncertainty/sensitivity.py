@@ -11,6 +11,7 @@ from typing import Any, Literal, NamedTuple, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from ballscrew.basis.displayed import LINES_OF_REPR, Displayed, shortened
 from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.basis.quantities import Quantity
 from ballscrew.basis.records import Message
@@ -56,8 +57,8 @@ class ExplainedVariance(NamedTuple):
     remaining: float
 
 
-@dataclasses.dataclass(frozen=True, eq=False)
-class Sensitivity:
+@dataclasses.dataclass(frozen=True, eq=False, repr=False)
+class Sensitivity(Displayed):
     """Result of :func:`sensitivity` for one output, in SI."""
 
     method: Method
@@ -79,6 +80,17 @@ class Sensitivity:
     evaluations: int
     #: Samples (trajectories) that were left out, as they have no finite number somewhere.
     left_out: int = 0
+
+    def __repr__(self) -> str:
+        """The inputs, the one that matters most first, in ten lines at most."""
+        unit = "" if self.quantity.unit == "1" else f" {self.quantity.unit}"
+        deviation = "" if math.isnan(self.deviation) else f", standard deviation {self.deviation:.3g}{unit}"
+        heading = f"Sensitivity of {self.output}, {self.method}: mean {self.mean:.6g}{unit}{deviation}"
+        lines = [
+            f"{name}: " + ", ".join(f"{measure} {of[name].value:.3g}" for measure, of in self.measures.items())
+            for name in self.inputs
+        ]
+        return "\n".join([heading, *shortened(lines, LINES_OF_REPR - 1)])
 
     @property
     def first_order(self) -> Mapping[str, Estimate]:

@@ -18,7 +18,7 @@ from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
 from ballscrew.physics.components.materials import TEMPERATURE
 
 
-@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class CalibratedModel(FitResult):
     """The result of :func:`~ballscrew.evidence.calibration.fit.fit`."""
 
@@ -94,11 +94,7 @@ class CalibratedModel(FitResult):
 
     def report(self) -> str:
         """The results in plain text and SI units."""
-        lines = [*self.verdicts, "number, value, standard error"]
-        for estimate in (*self.estimates.values(), *self.sensor.values()):
-            unit = "" if estimate.quantity.unit == "1" else f" {estimate.quantity.unit}"
-            error = "not identified" if estimate.std is None else f"± {estimate.std:.2g}{unit}"
-            lines.append(f"{estimate.name}: {estimate.value:.6g}{unit}, {error}")
+        lines = [*self.verdicts, "number, value, standard error", *self.estimate_lines]
         combinations = self.identifiability.combinations
         lines += [
             f"known: {product_of_powers(c.powers)} to {c.relative_error:.2g}" for c in combinations if c.identified

@@ -10,6 +10,7 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ballscrew.basis.displayed import LINES_OF_REPR, Displayed, shortened
 from ballscrew.basis.quantities import Info, Quantity, Torque, Unit
 from ballscrew.basis.records import Record
 from ballscrew.engine.evaluation.plan import Configuration
@@ -153,8 +154,8 @@ class Rows:
         return float(np.sqrt(np.mean(counted**2))) if counted.size else float("nan")
 
 
-@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
-class FitResult:
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class FitResult(Displayed):
     """The data of a fit: estimates, their identifiability and covariance, the rows, and the scores."""
 
     #: Model, screw and lubricant with the fitted numbers in place.
@@ -185,6 +186,24 @@ class FitResult:
     verdict_records: Sequence[Record] = ()
     #: Warnings as records, the gravest first.
     warning_records: Sequence[Record] = ()
+
+    def __repr__(self) -> str:
+        """The estimates, in ten lines at most."""
+        held_out = "" if self.holdout_rms is None else f", held out {self.holdout_rms:.4g} N m"
+        heading = f"{type(self).__name__}: {self.rows.log.usage}; rms {self.residual_rms:.4g} N m{held_out}"
+        remarks = len(self.verdicts) + len(self.warnings)
+        end = [f"{remarks} warnings: see verdicts and warnings, or report()"] if remarks else []
+        return "\n".join([heading, *shortened(self.estimate_lines, LINES_OF_REPR - 1 - len(end)), *end])
+
+    @property
+    def estimate_lines(self) -> list[str]:
+        """A line for each estimate, in SI: ``boundary_friction_coefficient: 0.105, ± 0.0004``."""
+        lines: list[str] = []
+        for estimate in (*self.estimates.values(), *self.sensor.values()):
+            unit = "" if estimate.quantity.unit == "1" else f" {estimate.quantity.unit}"
+            error = "not identified" if estimate.std is None else f"± {estimate.std:.2g}{unit}"
+            lines.append(f"{estimate.name}: {estimate.value:.6g}{unit}, {error}")
+        return lines
 
     @property
     def verdicts(self) -> list[str]:

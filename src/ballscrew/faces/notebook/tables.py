@@ -14,6 +14,8 @@ from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.uncertainty.bands import Band, Interval
+from ballscrew.engine.uncertainty.sensitivity import Sensitivity
+from ballscrew.evidence.calibration.fit_result import FitResult
 from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
 from ballscrew.questions.run.text import SHOWN
 from ballscrew.questions.shared.text_tables import shown_or_dash
@@ -99,6 +101,41 @@ def _of_band(band: Band) -> str:
     ]
     note = f"{band.count} samples, seed {band.seed}; {100 * band.invalid_share:.3g} % of them outside the model"
     return f"<div>{_table(heads, rows)}<p>{markup.escape(note)}</p></div>"
+
+
+@html.register
+def _of_fit(fit: FitResult) -> str:
+    rows = [
+        (
+            estimate.name,
+            estimate.quantity.info.meaning,
+            shown_or_dash(estimate.value, estimate.quantity),
+            "not identified" if ends is None else _range(*ends, estimate.quantity),
+        )
+        for estimate in (*fit.estimates.values(), *fit.sensor.values())
+        for ends in (estimate.interval(),)
+    ]
+    said = "".join(f"<li>{markup.escape(text)}</li>" for text in (*fit.verdicts, *fit.warnings))
+    table = _table(["", "", "estimate", "95 %"], rows)
+    return f"<div>{table}<p>{markup.escape(fit.rows.log.usage)}</p>{f'<ul>{said}</ul>' if said else ''}</div>"
+
+
+@html.register
+def _of_sensitivity(sensitivity: Sensitivity) -> str:
+    effect = {"effect", "effect_deviation"}
+    rows = [
+        (
+            name,
+            *(
+                shown_or_dash(of[name].value, sensitivity.quantity) if measure in effect else f"{of[name].value:.1%}"
+                for measure, of in sensitivity.measures.items()
+            ),
+        )
+        for name in sensitivity.inputs
+    ]
+    heads = ["", *(measure.replace("_", " ") for measure in sensitivity.measures)]
+    note = f"{sensitivity.quantity.info.meaning}: {shown_or_dash(sensitivity.mean, sensitivity.quantity)}"
+    return f"<div><p>{markup.escape(note)}</p>{_table(heads, rows)}</div>"
 
 
 def _interval(interval: Interval, quantity: Quantity) -> str:
