@@ -210,6 +210,19 @@ def test_a_start_and_a_nut_are_chosen(visit):
     assert found["outputs"]["screw_torque"] == pytest.approx(torque_of(found["case"]), rel=TOLERANCE, abs=0)
 
 
+def test_a_start_is_found_by_its_size_and_the_code_of_another_maker_is_not_taken_for_it(visit):
+    here = visit().open()
+    here.page.locator("#start").fill("40×10")
+    here.page.locator("#start").press("Enter")
+    here.page.wait_for_function("window.ballscrew.case.screw.catalogue === 'rexroth-40x10x6-6-double'")
+    here.page.locator("#start").fill("BNF2005-5")
+    here.page.locator("#start").press("Enter")
+    assert here.page.locator("#start-matches").inner_text().startswith("BNF2005-5 is not in the list")
+    assert here.state()["case"]["screw"]["catalogue"] == "rexroth-40x10x6-6-double"
+    here.page.locator("#start-matches button", has_text="rexroth-20x5x3-5-single").click()
+    here.page.wait_for_function("window.ballscrew.case.screw.catalogue === 'rexroth-20x5x3-5-single'")
+
+
 def test_what_no_case_may_have_is_refused_in_words(visit):
     here = visit().open()
     before = here.state()
@@ -218,6 +231,13 @@ def test_what_no_case_may_have_is_refused_in_words(visit):
     assert here.page.locator("#f-screw-ball_diameter-fault").inner_text() == "must be > 0"
     assert field.get_attribute("aria-invalid") == "true"
     assert here.state() == before
+    load = here.page.locator("#f-operation-axial_load")
+    for text, fault in (("4,000", "not understood"), ("1e99", "must be ≤ 10⁹"), ("4 kg", "not understood")):
+        load.fill(text)
+        assert here.page.locator("#f-operation-axial_load-fault").inner_text().startswith(fault)
+        assert here.state() == before
+    load.fill("3.5 kN")
+    assert here.state()["inputs"]["axial_load"] == 3500
     field.fill("3.3")
     assert here.page.locator("#f-screw-ball_diameter-fault").inner_text() == ""
     assert here.state()["case"]["screw"]["ball_diameter"] == "3.3 mm"
@@ -280,6 +300,17 @@ def test_checks_are_said(visit):
     assert [one["id"] for one in found["checks"] if one["holds"] is False] == ["check.contact_pressure"]
     here.rest()
     assert here.page.locator("#checks .fails").count() > 0
+
+
+def test_paper_has_the_charts_that_nobody_has_scrolled_to(visit):
+    here = visit(scheme="dark").open(DOUBLE)
+    here.page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    empty = """[...document.querySelectorAll(".answers section canvas")].filter((one) =>
+      one.getContext("2d").getImageData(0, 0, one.width, one.height).data.every((value) => value === 0))"""
+    assert here.page.evaluate(f"{empty}.map((one) => one.closest('section').id)") == []
+    assert here.page.locator("html").get_attribute("data-scheme") == "light"
+    here.page.evaluate("dispatchEvent(new Event('afterprint'))")
+    assert here.page.locator("html").get_attribute("data-scheme") == "dark"
 
 
 def violations(here):

@@ -299,6 +299,7 @@ def test_names_in_addresses(server, name):
         found = server.client.get(path)
         assert found.status_code == 404
         assert found.headers["content-type"] == "application/problem+json"
+        assert "/" not in found.json()["lines"][0].partition(":")[0]  # no address of the server
         assert "<script>" not in found.text or found.headers["x-content-type-options"] == "nosniff"
 
 

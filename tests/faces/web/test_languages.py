@@ -410,3 +410,12 @@ def test_the_page_in_german(visit):
         assert here.type("operation.axial_load", "1.234,4").text("#case").startswith("1234 N")
     finally:
         here.page.context.clear_cookies()
+
+
+@pytest.mark.parametrize("language", languages.texts())
+def test_angles_of_a_message_are_those_of_the_program(language):
+    """Item 15: German advised 45° where the program advises 40°."""
+    angle = re.compile(r"\d+(?:[.,]\d+)?(?=\s?(?:deg\b(?!C)|°(?!\s?C)))")
+    for key, text in languages.texts()[language].items():
+        if key.startswith("message."):
+            assert {*angle.findall(text)} <= {*re.findall(r"\d+(?:[.,]\d+)?", key)}, key

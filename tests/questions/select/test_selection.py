@@ -648,7 +648,7 @@ def test_tables_pictures_and_own_rows(ballscrew, tmp_path):
     ("tables", "words"),
     [
         ({"operation": {"screw_speed": "600 rpm"}}, "operation.axial_load"),
-        ({"operation": {"axial_load": "2 kN"}}, "operation.screw_speed"),
+        ({"operation": {"axial_load": "2 kN"}}, "need.feed"),
         ({"forse": "2 kN"}, 'did you mean "force"'),
         ({"duty": [{"force": "2 kN"}]}, "write [axis] and [motion]"),
         ({**FEW, "limits": {"life": 20000}}, "limits.running_time: needs a unit"),

@@ -60,6 +60,7 @@ def contents(
         "mechanisms": words["mechanisms"],
         "reasons": words["reasons"],
         "symbols": words["symbols"],
+        "units": words["units"],
         "usual_temperature": USUAL_TEMPERATURE,
         "starts": {name: _start(name) for name in kinds.start_tables()},
     }
@@ -110,6 +111,10 @@ def _field(name: str, part: str, quantity: Quantity) -> dict[str, Any]:
     }
 
 
+def _in_mm(size: float) -> float:
+    return float(f"{1e3 * size:.12g}")
+
+
 def _start(name: str) -> dict[str, Any]:
     """A case to start from: its tables, its numbers, and those of each kind of nut."""
     row = catalogue().get(name) if name != kinds.PAPER else None
@@ -135,6 +140,7 @@ def _start(name: str) -> dict[str, Any]:
         "title": "" if row is None else row.name,
         "make": "" if row is None else row.make,
         "source": "" if row is None else row.source,
+        "sizes": [] if row is None else [_in_mm(size) for size in (row.nominal_diameter, row.lead, row.ball_diameter)],
         "kind": kinds.kind_of_start(name),
         "tables": kinds.start_tables()[name],
         "grade": oil.get("grade"),

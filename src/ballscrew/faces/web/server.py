@@ -77,11 +77,9 @@ async def _input_error(_: Request, error: Exception) -> Response:
     return problems.response(422, error.faults)
 
 
-async def _http_error(request: Request, error: Exception) -> Response:
+async def _http_error(_: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)
-    found = problems.response(
-        error.status_code, [Fault(request.url.path, Message("{reason}", {"reason": str(error.detail)}))]
-    )
+    found = problems.response(error.status_code, [Fault("request", Message("{reason}", {"reason": str(error.detail)}))])
     found.headers.update(error.headers or {})
     return found
 

@@ -382,7 +382,7 @@ def _operation(tables: dict[str, Any], has_feed: bool, faults: list[Fault]) -> N
         faults.append(Fault("operation.axial_load", MISSING, "", remedy))
     if not has_feed and "screw_speed" not in table:
         remedy = 'add [operation] feed = "20 m/min", or screw_speed = "1500 rpm"'
-        faults.append(Fault("operation.screw_speed", MISSING, "", remedy))
+        faults.append(Fault("need.feed", MISSING, "", remedy))
     elif has_feed and "screw_speed" in table:
         faults.append(Fault("need.feed", "is given beside a screw speed", "", "leave one of them out"))
 

@@ -16,7 +16,7 @@
 /** @typedef {Record<string, any>} Tables */
 /**
  * @typedef {{
- *   title: string, make: string, source: string, kind: string, tables: Tables, grade: string | null,
+ *   title: string, make: string, source: string, sizes: number[], kind: string, tables: Tables, grade: string | null,
  *   temperature: number | null, values: Record<string, number>,
  *   nuts: Record<string, { values: Record<string, number>, tables: Tables }>, judged: any,
  * }} Start
@@ -30,7 +30,7 @@
  *   oils: { file: string, grades: Record<string, any> },
  *   fields: Record<string, Field>, results: Record<string, Result>,
  *   mechanisms: Record<string, { words: string, colour: string }>, reasons: Record<string, string>,
- *   judging: any, bands: import("./bands.js").Bands, usual_temperature: string, symbols: Record<string, string>, starts: Record<string, Start>, texts?: Record<string, Record<string, string>>,
+ *   judging: any, bands: import("./bands.js").Bands, usual_temperature: string, units: Record<string, { unit: string, factor: number, offset: number }[]>, symbols: Record<string, string>, starts: Record<string, Start>, texts?: Record<string, Record<string, string>>,
  * }} Contents
  */
 /**
@@ -51,6 +51,11 @@ const USUAL_ENDS = "fixed-supported";
 const GIVEN = "given.";
 /** What a fragment has beside numbers. */
 const CHOICES = ["start", "model", "kind", "grade"];
+
+/** What stands for the bound of what is no number. */
+export const NO_NUMBER = "…";
+/** No number of a screw is larger in the unit that it is shown in. */
+const LARGEST = 1e9;
 
 export class Case {
   /**
@@ -317,12 +322,47 @@ export class Case {
     return faultOf(this.contents.fields[name], shown);
   }
 
-  /** The same of what is only judged, as it is written; "…" for what there is not. @param {string} name @param {string} text */
+  /** The same of what is only judged, as it is written; {@link NO_NUMBER} for what there is not. @param {string} name @param {string} text */
   faultOfGiven(name, text) {
     const { given, ends } = this.contents.judging;
-    if (name === "ends") return Object.hasOwn(ends, text) ? "" : "…";
-    return Object.hasOwn(given, name) ? faultOf(given[name], Number(text)) : "…";
+    if (name === "ends") return Object.hasOwn(ends, text) ? "" : NO_NUMBER;
+    return Object.hasOwn(given, name) ? faultOf(given[name], Number(text)) : NO_NUMBER;
   }
+}
+
+/** Sizes as they are written, diameter x lead with perhaps the ball: 40x10, x10, 40x10x6. */
+const SIZES = /^(\d+(?:\.\d+)?)?x(\d+(?:\.\d+)?)?(?:x(\d+(?:\.\d+)?))?$/;
+/** Order codes with diameter and lead in them: BNF4010-5, R40-10K5-FSC; and those of a maker without. */
+const CODES = [/^[a-z]+(\d{2})(\d{2})(?:-|$)/, /^r?(\d{2,3})-(\d{1,2})[a-z]/];
+const CODE_WITHOUT_SIZE = /^r15\d\d/;
+
+/**
+ * The starts that some words are about: sizes, parts of names and sources, or an order code, which is that of no row.
+ *
+ * @param {string} text
+ * @param {Record<string, Start>} starts
+ * @returns {{ names: string[], isCode: boolean }}
+ */
+export function startsFor(text, starts) {
+  const words = text
+    .toLowerCase()
+    .trim()
+    .replace(/(?<=\d)\s*[x×*]\s*(?=\d)/g, "x")
+    .replace("×", "x");
+  const names = (/** @type {string[]} */ asked) =>
+    Object.keys(starts).filter((name) => asked.every((word) => isAbout(name, starts[name], word)));
+  const found = words ? names(words.split(/\s+/)) : [];
+  if (found.length) return { names: found, isCode: false };
+  const [, diameter, lead] = CODES.map((code) => code.exec(words)).find((match) => match) ?? [];
+  if (diameter) return { names: names([`${Number(diameter)}x${Number(lead)}`]), isCode: true };
+  return { names: CODE_WITHOUT_SIZE.test(words) ? names(["rexroth"]) : [], isCode: CODE_WITHOUT_SIZE.test(words) };
+}
+
+/** @param {string} name @param {Start} start @param {string} word */
+function isAbout(name, { source, kind, sizes }, word) {
+  const [isSize, ...asked] = SIZES.exec(word) ?? [];
+  if (isSize && word !== "x") return asked.every((one, place) => one === undefined || Number(one) === sizes[place]);
+  return `${name} ${source} ${kind}`.toLowerCase().includes(word);
 }
 
 /**
@@ -332,13 +372,14 @@ export class Case {
  * @param {number} shown
  */
 function faultOf({ factor, offset, above, at_least: least, below, at_most: most, whole }, shown) {
-  if (!Number.isFinite(shown)) return "…";
+  if (!Number.isFinite(shown)) return NO_NUMBER;
   const si = shown * factor + offset;
   const written = (/** @type {number} */ bound) => Number(((bound - offset) / factor).toPrecision(12));
   if (above !== undefined && si <= above) return `> ${written(above)}`;
   if (below !== undefined && si >= below) return `< ${written(below)}`;
   if (least !== undefined && si < least) return `≥ ${written(least)}`;
   if (most !== undefined && si > most) return `≤ ${written(most)}`;
+  if (Math.abs(shown) > LARGEST) return "≤ 10⁹";
   return whole && shown !== Math.round(shown) ? "1, 2, 3 …" : "";
 }
 

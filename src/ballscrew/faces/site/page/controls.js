@@ -1,7 +1,8 @@
 // The sliders, each with a field for the same number.
 
+import { NO_NUMBER } from "./case.js";
 import { stepOf } from "./plot.js";
-import { byId, element, numberIn, plainDigits, say, sayNamed, signOf, spaced, symbolElement } from "./words.js";
+import { byId, element, plainDigits, quantityIn, say, sayNamed, signOf, spaced, symbolElement } from "./words.js";
 
 /** @typedef {import("./case.js").Case} Case */
 /** @typedef {{ min: number, max: number, step: number }} Range */
@@ -109,6 +110,12 @@ function tidy(value) {
   return Number(value.toPrecision(12));
 }
 
+/** What is wrong with a number that was typed. @param {string} bound as the case says it */
+function wordsOfFault(bound) {
+  if (bound !== NO_NUMBER) return say("must be {bound}", { bound });
+  return say("not understood: write 4000 or 4.5, with a unit where it is another one");
+}
+
 export class Controls {
   /** @type {Map<string, { slider: HTMLInputElement, field: HTMLInputElement, fault: HTMLElement, range: Range }>} */
   #rows = new Map();
@@ -166,7 +173,9 @@ export class Controls {
     }); // prettier-ignore
     const fault = element("p", { class: "fault", id: `${id}-fault` });
     slider.addEventListener("input", () => this.#take(name, Number(slider.value), slider));
-    field.addEventListener("input", () => this.#take(name, numberIn(field.value), field));
+    const { contents } = this.case;
+    const typed = () => quantityIn(field.value, contents.fields[name], contents.units);
+    field.addEventListener("input", () => this.#take(name, typed(), field));
     field.addEventListener("change", () => this.show(name));
     this.#rows.set(name, { slider, field, fault, range });
     const words = element(
@@ -190,7 +199,7 @@ export class Controls {
     if (!row) return;
     const wrong = this.case.fault(name, shown);
     row.field.setAttribute("aria-invalid", String(Boolean(wrong)));
-    row.fault.textContent = wrong && say("must be {bound}", { bound: wrong });
+    row.fault.textContent = wrong && wordsOfFault(wrong);
     if (wrong) return;
     this.changed(name, shown);
     this.show(name, from);

@@ -4,7 +4,18 @@ import { ballAt, drawBall } from "./ball.js";
 import { textOf } from "./judgements.js";
 import { colourOf } from "./plot.js";
 import { View } from "./view.js";
-import { digitsOf, element, inPlace, numberIn, plainDigits, powerOf, say, sayNamed, signOf, spaced } from "./words.js";
+import {
+  digitsOf,
+  element,
+  inPlace,
+  plainDigits,
+  powerOf,
+  quantityIn,
+  say,
+  sayNamed,
+  signOf,
+  spaced,
+} from "./words.js";
 
 /** @typedef {import("./judgements.js").JudgedRecord} JudgedRecord */
 /** @typedef {{ factor: number, offset: number, shown_in: string }} Shown */
@@ -98,7 +109,7 @@ export class Checks extends View {
     const usual = name === OF_MAKER ? one.start.judged.speed_limit.value : quantity.default;
     field.placeholder = usual === null ? "–" : plainDigits(Number(inUnitOf(usual, quantity).toPrecision(4)));
     field.addEventListener("change", () => {
-      const shown = numberIn(field.value);
+      const shown = quantityIn(field.value, quantity, one.contents.units);
       const isGiven = field.value.trim() !== "";
       const fault = isGiven ? one.faultOfGiven(name, String(shown)) : "";
       field.setAttribute("aria-invalid", String(fault !== ""));

@@ -1,7 +1,7 @@
 // The page: what is chosen, what is computed at once, and what is drawn when.
 
 import { Banding } from "./banding.js";
-import { Case } from "./case.js";
+import { Case, startsFor } from "./case.js";
 import { EfficiencyMap, OverSpeed, Parts, Quadrants, Temperatures } from "./charts.js";
 import { Controls } from "./controls.js";
 import { Engine } from "../../web/page/engine.js";
@@ -339,6 +339,33 @@ function fill(id, options, chosen) {
   menu.value = chosen;
 }
 
+/** Begin at a start, unless it is there. @param {string} name */
+function beginAt(name) {
+  byId("start-matches").replaceChildren();
+  if (name !== shownCase.state.start) choose(shownCase.begin(name, shownCase.state.model));
+}
+
+/** Take the start that some words are about, or offer those that they may be about. @param {string} text */
+function search(text) {
+  if (!text.trim()) return;
+  const { names, isCode } = startsFor(text, contents.starts);
+  if (names.length === 1 && !isCode) {
+    beginAt(names[0]);
+    return;
+  }
+  const words = isCode
+    ? "{text} is not in the list; these are of its size, or of its maker where it says no size:"
+    : "{text} may be:";
+  const none = "{text} is not in the list: write a size such as 40x10, or a part of a name.";
+  const said = say(names.length ? words : none, { text });
+  const buttons = names.map((name) => {
+    const button = element("button", { type: "button" }, name);
+    button.addEventListener("click", () => beginAt(name));
+    return button;
+  });
+  byId("start-matches").replaceChildren(said, ...buttons.flatMap((button) => [" ", button]));
+}
+
 function followChoices() {
   const field = /** @type {HTMLInputElement} */ (byId("start"));
   // an empty field offers all starts; it shows the chosen one again when it is left
@@ -350,11 +377,10 @@ function followChoices() {
     field.value = shownCase.state.start;
   });
   const take = () => {
-    if (!Object.hasOwn(contents.starts, field.value) || field.value === shownCase.state.start) return;
-    choose(shownCase.begin(field.value, shownCase.state.model));
+    if (Object.hasOwn(contents.starts, field.value)) beginAt(field.value);
   };
   field.addEventListener("input", take);
-  field.addEventListener("change", take);
+  field.addEventListener("change", () => (Object.hasOwn(contents.starts, field.value) ? take() : search(field.value)));
   selectById("model").addEventListener("change", ({ target }) => {
     const model = /** @type {HTMLSelectElement} */ (target).value;
     const kinds = shownCase.kindsOf(model);
@@ -394,6 +420,13 @@ function followScheme() {
   };
   show();
   system.addEventListener("change", redraw);
+  // paper is light, and has the charts that nobody has seen yet
+  addEventListener("beforeprint", () => {
+    document.documentElement.dataset.scheme = SCHEMES[0];
+    readColours();
+    for (const view of views) view.draw();
+  });
+  addEventListener("afterprint", redraw);
   byId("scheme").addEventListener("click", () => {
     keep(SCHEME_KEPT, document.documentElement.dataset.scheme === "dark" ? "light" : "dark");
     redraw();

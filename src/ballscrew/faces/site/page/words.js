@@ -16,6 +16,16 @@ const GREEK = {
 const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 /** From here on a number has a power of ten. */
 const LARGE = 1e5;
+/** Digits in groups, with what stands behind their decimal sign: 4 000, 4.000,5 and 4,000.5. */
+const GROUPED = [
+  /^([-+]?\d{1,3}(?:[' \u00a0\u2009\u202f]\d{3})+)(?:[.,](\d*))?$/,
+  /^([-+]?\d{1,3}(?:\.\d{3})+),(\d*)$/,
+  /^([-+]?\d{1,3}(?:,\d{3})+)\.(\d*)$/,
+];
+const PLAIN = /^[-+]?(?:\d+\.?\d*|\.\d+)$/;
+/** A number that could be two, where people write a decimal point: 4,000. */
+const EITHER = /^[-+]?\d*[1-9]\d*,\d{3}$/;
+const QUANTITY = /^([-+\d.,' \u00a0\u2009\u202f]*(?:e[-+]?\d+)?)(.*)$/i;
 const LANGUAGE_KEPT = "ballscrew-site-language";
 
 /** The German words by the English ones, or by the name of what they are of. @type {Record<string, string>} */
@@ -133,10 +143,30 @@ export const inPlace = {
   digits: (/** @type {string} */ text) => localised(text.replace(/^-?[\d.]+e\+\d+/, (one) => String(Number(one)))),
 };
 
-/** A number as somebody typed it, NaN where it is none. @param {string} text */
-export function numberIn(text) {
-  const plain = text.trim().replace(",", ".").replace("−", "-");
-  return plain === "" ? Number.NaN : Number(plain);
+/** A number as somebody typed it, read as the program does; NaN where it is none or could be two. @param {string} text */
+function numberIn(text) {
+  const [mantissa, exponent = "0"] = text.trim().toLowerCase().split("e");
+  const grouped = GROUPED.map((pattern) => pattern.exec(mantissa)).find((match) => match);
+  if (!grouped && language !== "de" && EITHER.test(mantissa)) return Number.NaN;
+  const plain = grouped ? `${grouped[1].replace(/[^-+\d]/g, "")}.${grouped[2] ?? ""}` : mantissa.replace(",", ".");
+  return PLAIN.test(plain) ? Number(`${plain}e${exponent}`) : Number.NaN;
+}
+
+/**
+ * A quantity as somebody typed it, with or without a unit, in the unit that it is shown in: 4000, or 4 kN. NaN where it is
+ * not understood.
+ *
+ * @param {string} text
+ * @param {{ unit: string, factor: number, offset: number }} quantity
+ * @param {Record<string, { unit: string, factor: number, offset: number }[]>} units by SI unit
+ */
+export function quantityIn(text, { unit, factor, offset }, units) {
+  const [, digits, name] = QUANTITY.exec(text.trim().replace("−", "-")) ?? [];
+  const number = numberIn(digits);
+  if (!name) return number;
+  const bare = (/** @type {string} */ one) => one.replaceAll(/[\s·]/g, "").replace(/[µμ]/, "u");
+  const known = units[unit]?.find((one) => [one.unit, signOf(one.unit)].some((sign) => bare(sign) === bare(name)));
+  return known ? Number(((number * known.factor + known.offset - offset) / factor).toPrecision(12)) : Number.NaN;
 }
 
 /** A unit as it is read; nothing for a plain number. @param {string} unit */

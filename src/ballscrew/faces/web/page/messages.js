@@ -13,7 +13,9 @@ import { formattedIn, inLanguage, inSystem, symbol, withPowers } from "./units.j
 export function labelOf(path) {
   const parts = path.split(".");
   const name = labelIn(path);
-  return parts.length > 1 ? `${name} (${SECTIONS[parts[0]] ?? OF_CARDS[parts[0]] ?? words(parts[0])})` : name;
+  return parts.length > 1
+    ? `${name} (${SECTIONS[parts[0]] ?? OF_CARDS[parts[0]] ?? words(parts[0]).replaceAll("-", " ")})`
+    : name;
 }
 
 /**
@@ -95,14 +97,18 @@ export function inWords({ where, given, messages: { problem, given: told, remedy
   return `${said(problem)}${value ? ` (${value})` : ""}${advice ? `: ${advice}` : ""}`;
 }
 
+/** Places of faults that are keys, such as ``own-nut.preload``, and those that are files. */
+const KEY = /^[a-z][\w-]*(?:\.[a-z_]+)+$/;
+const FILE = /\.(?:csv|json|toml|txt|xlsx)$/;
+
 /**
- * A fault that names no field of the form: its place, as a file or an option has it, and the fault in words.
+ * A fault that names no field of the form: its place, in words or as a file or an option has it, and the fault in words.
  *
  * @param {FaultLine} fault
  */
 export function withPlace(fault) {
   const place = fault.where.startsWith("--") ? fault.where.slice(2) : fault.where;
-  return `${place}: ${inWords(fault)}`;
+  return `${KEY.test(place) && !FILE.test(place) ? labelOf(place) : place}: ${inWords(fault)}`;
 }
 
 /**
