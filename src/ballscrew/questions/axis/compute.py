@@ -177,8 +177,7 @@ def chain_of(case: Case, positions: Sequence[Length] = ()) -> ChainReport:
     if case.installation is None:
         remedy = 'add a table [installation] with unsupported_length = "1 m" and ends = "fixed-supported"'
         raise InputError(Fault("installation", "missing section", "", remedy))
-    length = case.shaft_length
-    assert length is not None
+    length = float(case.installation.unsupported_length)
     loads, speeds = _loads_and_speeds(case)
     largest = float(np.max(np.abs(loads)))
     installation, words = case.installation, list[str]()
@@ -187,7 +186,6 @@ def chain_of(case: Case, positions: Sequence[Length] = ()) -> ChainReport:
         if rigidity is not None:
             words.append(units.filled_text("rigidity of the fixed bearing {of_what}", of_what=Message(of_what)))
         installation = dataclasses.replace(installation, bearing_rigidity=rigidity)
-    installation = dataclasses.replace(installation, unsupported_length=length)
     travel = _travel(case, length)
     ends = travel or (SHARES[0] * length, SHARES[-1] * length)
     places = positions or np.unique(np.concatenate([length * SHARES, np.linspace(*ends, SHOWN)]))
