@@ -72,26 +72,23 @@ def needed(usual: Sequence[str], moves: bool, efficiency: float | None) -> Seque
 def misfits(moved: Moved, installation: Installation | None, root_diameter: float | None) -> list[Fault]:
     """Faults of lengths that contradict each other: of the motion, the shaft between its bearings, and its bore."""
     surroundings = moved.surroundings or Surroundings()
-    known, lengths = fields_of(Surroundings), dict[str, float]()
-    if surroundings.shaft_length is not None:
-        lengths["surroundings.shaft_length"] = float(surroundings.shaft_length)
-    if installation is not None:
-        lengths["installation.unsupported_length"] = float(installation.unsupported_length)
-    found: list[Fault] = []
+    whole, free = surroundings.shaft_length, None if installation is None else installation.unsupported_length
+    quantity, found = fields_of(Surroundings)["stroke"], list[Fault]()
 
     def shown(length: float) -> str:
-        return units.shown(length, known["stroke"])
+        return units.shown(length, quantity)
 
-    if len(lengths) == 2 and lengths["installation.unsupported_length"] > lengths["surroundings.shaft_length"]:
-        place, length = [*lengths.items()][1]
-        remedy = "give the shaft between its bearings, and the part of it that nothing supports"
-        found.append(Fault(place, "is longer than the shaft between its bearings", shown(length), remedy))
+    if whole is not None and free is not None and free > whole:
+        given, remedy = f"{shown(free)} of {shown(whole)}", "give at most that of the surroundings"
+        found.append(
+            Fault("installation.unsupported_length", "is longer than the shaft between its bearings", given, remedy)
+        )
     if root_diameter is not None and surroundings.bore >= root_diameter:
         given = f"{shown(surroundings.bore)} in a shaft of {shown(root_diameter)}"
         found.append(Fault("surroundings.bore", "leaves no shaft", given, "give a smaller bore"))
-    if not lengths:
+    if whole is None and free is None:
         return found
-    length = next(iter(lengths.values()))
+    length = min(float(one) for one in (whole, free) if one is not None)
     if surroundings.stroke is not None and surroundings.stroke >= length:
         given = f"{shown(surroundings.stroke)} on {shown(length)}"
         remedy = "shorten the stroke, or lengthen the shaft"

@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from ballscrew.basis import units
 from ballscrew.basis.output.wrapping import aligned_beside, wrapped
 from ballscrew.basis.quantities import fields_of
+from ballscrew.basis.records import Message
 from ballscrew.questions.duty import verdicts as duty_verdicts
 from ballscrew.questions.duty.compute import NUMBERS, DutyReport
 from ballscrew.questions.run import makers
@@ -142,9 +143,8 @@ def compared_with(found: Selection) -> list[str]:
     for name in dict.fromkeys(check.name for check in every if check.holds is False and check.limit):
         own = sorted((check for check in every if check.name == name), key=lambda check: check.limit or 0.0)
         limits = dict.fromkeys(check_lines.shown(check, check.limit) for check in (own[0], own[-1]))
-        makers = Counter(
-            units.filled(check.message.values["source"]) for check in own if "source" in check.message.values
-        )
+        sources = (check.message.values.get("source") for check in own)
+        makers = Counter(units.filled(source) for source in sources if isinstance(source, Message))
         words = [
             " to ".join(limits),
             *_OF_LIMIT.get(name, ()),
