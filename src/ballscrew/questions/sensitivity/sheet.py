@@ -132,14 +132,14 @@ def _bars(report: SensitivityReport) -> Iterator[Bars]:
     """The measures of all inputs with their intervals, and the deviation left as the largest become known."""
     result = report.result
     drawn = _DRAWN[result.method]
+    first, *_ = drawn
     bars: list[Bar] = []
     for name in result.inputs:
         for measure, colour in zip(drawn, _COLOURS, strict=False):
             estimate = result.measures[measure][name]
-            is_first = measure == drawn[0]
             part = (_HEADINGS[measure] if len(drawn) > 1 else "", estimate.value, colour)
             ends = None if result.method == "local" else (estimate.low, estimate.high)
-            label, text = (report.describe(name), _distribution(report, name)) if is_first else ("", "")
+            label, text = (report.describe(name), _distribution(report, name)) if measure == first else ("", "")
             bars.append(Bar(label, [part], ends, text))
     if result.method == "sobol":
         yield Bars("share of the variance", _PLAIN, bars)
