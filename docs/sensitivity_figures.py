@@ -1,14 +1,11 @@
 """Output and figure of the page on sensitivity."""
 
-import contextlib
-import io
 from pathlib import Path
 
 from ballscrew.cases.case_files import case_file
+from ballscrew.faces.sheets import terminal, to_file
 from ballscrew.questions.sensitivity import compute as sensitivity
-from ballscrew.questions.sensitivity import figure as figures
-from ballscrew.questions.sensitivity import text
-from ballscrew.questions.shared import charts
+from ballscrew.questions.sensitivity.sheet import sheet
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "feed_drive.toml"
 
@@ -18,9 +15,6 @@ def write(folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     case = case_file.load(EXAMPLE)
     report = sensitivity.sensitivity(case, sensitivity.SensitivityOptions())
-    said = io.StringIO()
-    with contextlib.redirect_stdout(said):
-        text.print_sensitivity(case, report)
-    (folder / "feed_drive.txt").write_text(said.getvalue(), encoding="utf-8")
-    with charts.house_style():
-        charts.save_as(figures.picture(case, report), folder / "feed_drive.svg", "svg")
+    shown = sheet(case, report)
+    (folder / "feed_drive.txt").write_text(f"{terminal.text(shown)}\n", encoding="utf-8")
+    to_file.write(folder / "feed_drive.svg", shown)

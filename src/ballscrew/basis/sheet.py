@@ -16,8 +16,6 @@ from ballscrew.basis import units
 from ballscrew.basis.output.plain_numbers import plain
 from ballscrew.basis.quantities import Array, Quantity
 
-#: Digits of the ends of the band of a share.
-_SHARE_DIGITS = 3
 #: Colours by name; each renderer has its own shades of them.
 Colour = Literal["ink", "grey", "blue", "orange", "green", "purple", "sky", "red", "yellow"]
 
@@ -242,8 +240,7 @@ def words(cell: Cell) -> str:
             ends = _band_in_words(band, lambda end, to: plain(units.rounded(end, quantity, digits, to)))
             return f"{_in_words(value, quantity, digits)}{ends}"
         case Share(value, _, band):
-            ends = _band_in_words(band, lambda end, to: f"{units.to_digits(100 * end, _SHARE_DIGITS, to)}%")
-            return f"{value:.1%}{ends}" if math.isfinite(value) else "–"
+            return f"{value:.1%}{_band_in_words(band, _percent)}" if math.isfinite(value) else "–"
         case _:
             return cell
 
@@ -253,6 +250,12 @@ def _band_in_words(band: tuple[float, float] | None, written: Callable[[float, i
     if band is None or not all(map(math.isfinite, band)) or not band[1] > band[0]:
         return ""
     return f" ({written(band[0] + 0.0, -1)} to {written(band[1] + 0.0, 1)})"
+
+
+def _percent(end: float, toward: int) -> str:
+    """The end of the band of a share, to a tenth down or up."""
+    tenths = round(1000 * end, 9)  # 0.29 is a little less than it
+    return f"{(math.ceil(tenths) if toward > 0 else math.floor(tenths)) / 10 + 0.0:.1f}%"
 
 
 def _in_words(value: float, quantity: Quantity, digits: int) -> str:

@@ -6,18 +6,15 @@ import re
 from pathlib import Path
 
 import pytest
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.json_text import as_json
+from ballscrew.basis.sheet import Bars, Lines, Table
 from ballscrew.cases.case_files import case_file, uncertain_inputs
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.questions.sensitivity import compute
 from ballscrew.questions.sensitivity import document as documents
-from ballscrew.questions.sensitivity import figure as figures
-from ballscrew.questions.sensitivity import text as text_of
-from ballscrew.questions.shared import chart_files as files
-from ballscrew.questions.shared import charts
+from ballscrew.questions.sensitivity.sheet import LAWS_STAY, sheet
 from support.pictures import words_of
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
@@ -78,13 +75,13 @@ def test_the_table(ballscrew, example, case):
     assert process.stderr == ""
     text = process.stdout
     found = of_method(case, "sobol", samples=64, only_given=True)
-    assert text.startswith("4000 N, 600 rpm, model corrected\n")
+    assert text.startswith("what moves the friction torque on the screw: 4000 N, 600 rpm, model corrected\n")
     assert "friction torque on the screw: mean " in text
-    rows = [line for line in text.splitlines() if re.search(r"\(-?\d\.\d\d to \d\.\d\d\)", line)]
-    assert [row.split("  ")[0] for row in rows] == [found.describe(name) for name in found.result.inputs]
+    rows = text.partition("\nInputs ")[2].partition("\n\n")[0].splitlines()[1:]
+    assert [row.strip().split("  ")[0] for row in rows] == [found.describe(name) for name in found.result.inputs]
     first = found.result.inputs[0]
-    assert f"{found.result.first_order[first].value:.2f} (" in rows[0]
-    assert f"{found.result.left_if_known(first):.0%}" in rows[0]
+    assert f"{found.result.first_order[first].value:.1%} (" in rows[0]
+    assert f"{found.result.left_if_known(first):.1%}" in rows[0]
     assert rows[0].endswith(found.uncertain[first].description)
     assert "* not in the case" not in text
     assert "192 evaluations" not in text
@@ -116,16 +113,20 @@ def test_what_to_find_out_in_words(case):
     assert documents.verdicts(constant)[0].text.endswith("does not depend on any of these inputs")
 
 
+def lines_of(case, report):
+    return "\n".join(line.text for block in sheet(case, report).of_kind(Lines) for line in block.lines)
+
+
 def test_what_was_assumed_is_said(found, case):
-    told = "\n".join(text_of.remarks(case, found))
-    assert text_of.LAWS_STAY in told
+    told = lines_of(case, found)
+    assert LAWS_STAY in told
     assert "* not in the case, taken as usual: " in told
     assert "by judgement" in told
     for name, one in found.uncertain.items():
         if not one.given and one.source != "judgement":
             assert f"{found.describe(name)} ({one.source})" in told
-    rows = text_of.table(found)
-    assert sum(row.endswith(" *") for row in rows) == sum(not one.given for one in found.uncertain.values())
+    (table,) = sheet(case, found).of_kind(Table)
+    assert sum(row[-1].endswith(" *") for row in table.rows) == sum(not one.given for one in found.uncertain.values())
 
 
 def test_a_calibration_is_said_to_be_correlated(case):
@@ -133,8 +134,8 @@ def test_a_calibration_is_said_to_be_correlated(case):
 
     calibrated = case_file.load(EXAMPLES / "olaru2005.toml", ["model.calibration=rexroth-2006"], "reference")
     found = of_method(calibrated, "morris", samples=4)
-    assert documents.CORRELATED in text_of.remarks(calibrated, found)
-    assert documents.CORRELATED not in text_of.remarks(dataclasses.replace(calibrated, calibration=None), found)
+    assert documents.CORRELATED in lines_of(calibrated, found)
+    assert documents.CORRELATED not in lines_of(dataclasses.replace(calibrated, calibration=None), found)
 
 
 # -- programs -------------------------------------------------------------------------------------
@@ -174,77 +175,31 @@ def test_json_of_what_has_no_number(case):
 # -- the picture ----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    "suffix", ["pdf", pytest.param("png", marks=pytest.mark.long), pytest.param("svg", marks=pytest.mark.long)]
-)
-def test_picture_file(suffix, tmp_path, case):
-    found = of_method(case, "local")
-    path = tmp_path / f"bars.{suffix}"
-    files.draw(lambda: figures.picture(case, found), path)
-    first = path.read_bytes()
-    assert ("change by one deviation of the input (N m)" in words_of(path)) == (suffix != "png")
-    files.draw(lambda: figures.picture(case, found), path)
-    assert path.read_bytes() == first
-    assert list(tmp_path.iterdir()) == [path]
-
-
 def test_picture_by_the_command(ballscrew, example, tmp_path):
     path = tmp_path / "bars.svg"
     process = ballscrew("sensitivity", example, "--method", "morris", *FEW, "--json", "--to", path)
     assert process.returncode == 0, process.stderr
     assert re.fullmatch(rf"{re.escape(str(path))}: \d+ inputs\n", process.stderr)
     assert json.loads(process.stdout)["sensitivity"]["method"] == "morris"
-    assert "change by one deviation of the input (N m)" in words_of(path)
+    shown = words_of(path)
+    for words in ("change by one deviation of the input", "[N m]", "what moves the friction torque on the screw"):
+        assert words in shown
+    assert "56 loaded balls" in shown
+    assert "laws do not" in shown
 
 
-@pytest.fixture
-def figure(found, case):
-    with charts.house_style():
-        drawn = figures.picture(case, found)
-        FigureCanvasAgg(drawn)
-        drawn.draw_without_rendering()
-    return drawn
-
-
-def test_picture_has_axes_units_and_case(figure, found):
+def test_bars_are_the_numbers(found, case):
     result = found.result
-    assert figure.get_suptitle() == "What moves the friction torque on the screw\n4000 N, 600 rpm, model corrected"
-    panel = figure.axes[0]
-    expected = "share of the variance" if result.method == "sobol" else "change by one deviation of the input (N m)"
-    assert panel.get_xlabel() == expected
-    labels = [tick.get_text().split("\n") for tick in panel.get_yticklabels()]
-    assert [words for words, _ in labels] == [found.describe(name) for name in result.inputs]
-    assert [words.removesuffix(" *") for _, words in labels] == [found.uncertain[n].description for n in result.inputs]
-    assert len(figure.axes) == (1 if result.method == "morris" else 2)
-    caption = " ".join(figure.texts[0].get_text().split())
-    assert "56 balls" in caption
-    assert "laws do not" in caption
-
-
-def test_bars_are_the_numbers(figure, found):
-    result = found.result
-    widths = [bar.get_width() for bar in figure.axes[0].patches]
+    first, *left = sheet(case, found).of_kind(Bars)
     measures = {"sobol": ("first_order", "total"), "morris": ("effect", "effect_deviation"), "local": ("effect",)}
-    expected = [result.measures[m][name].value for m in measures[result.method] for name in result.inputs]
-    assert widths == pytest.approx(expected)
-    if result.explained_variance:
-        left = [bar.get_width() for bar in figure.axes[1].patches]
-        assert left == pytest.approx([100, *(100 * known.remaining for known in result.explained_variance)])
-
-
-def test_nothing_is_clipped(figure):
-    renderer = figure.canvas.get_renderer()
-    page = figure.bbox.padded(1.0)
-    texts = [*figure.texts]
-    for panel in figure.axes:
-        texts += [*panel.get_yticklabels(), panel.xaxis.label, *panel.texts]
-    for text in texts:
-        box = text.get_window_extent(renderer)
-        inside = page.x0 <= box.x0 and box.x1 <= page.x1 and page.y0 <= box.y0 and box.y1 <= page.y1
-        assert inside, text.get_text()
-    if len(figure.axes) == 2:
-        left, right = figure.axes
-        assert left.xaxis.label.get_window_extent(renderer).x1 < right.xaxis.label.get_window_extent(renderer).x0
+    expected = [result.measures[m][name] for name in result.inputs for m in measures[result.method]]
+    assert [bar.parts[0][1] for bar in first.bars] == [estimate.value for estimate in expected]
+    if result.method != "local":
+        assert [bar.band for bar in first.bars] == [(estimate.low, estimate.high) for estimate in expected]
+    assert [bar.name for bar in first.bars if bar.name] == [found.describe(name) for name in result.inputs]
+    assert [len(bars.bars) - 1 for bars in left] == [len(result.explained_variance)] * bool(result.explained_variance)
+    for bars in left:
+        assert [bar.parts[0][1] for bar in bars.bars[1:]] == [known.remaining for known in result.explained_variance]
 
 
 # -- bad input ------------------------------------------------------------------------------------
@@ -255,7 +210,7 @@ def test_nothing_is_clipped(figure):
     [
         (["--output", "torque"], "--output: unknown output (torque) · did you mean "),
         (["--only-given"], "--only-given: the case gives no input a distribution · write one, such as "),
-        (["--to", "bars.doc"], "--to: unknown kind of file (bars.doc) · end it in .png, .svg or .pdf"),
+        (["--to", "bars.doc"], "--to: unknown kind of file (bars.doc) · end it in .csv, .xlsx, .png, .svg or .pdf"),
         (
             ["--method", "local", "--set", "operation.axial_load=0 N", "--model", "reference"],
             "",
@@ -297,9 +252,9 @@ def test_an_elastic_nut_has_no_derivatives_but_samples(ballscrew):
     process = ballscrew("sensitivity", nut, "--method", "morris", "--samples", "4", "--output", "rigidity")
     assert process.returncode == 0, process.stderr
     assert "double nut" in process.stdout.splitlines()[0]
-    assert "effect, N/µm" in process.stdout
+    assert re.search(r"\d N/µm \(", process.stdout)
 
 
 def test_no_number_says_so(case):
     assert math.isnan(of_method(case, "morris", samples=4).result.deviation)
-    assert "standard deviation 0" not in text_of.mean_and_deviation(of_method(case, "morris", samples=4).result)
+    assert "standard deviation 0" not in lines_of(case, of_method(case, "morris", samples=4))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
@@ -27,8 +28,12 @@ def sensitivity(
         ),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+    as_sheet: Annotated[bool, typer.Option("--sheet", help="What people see as one JSON object.")] = False,
     to: Annotated[
-        Path | None, typer.Option("--to", "-o", metavar="FILE", help="Also draw a picture: .png, .svg or .pdf.")
+        Path | None,
+        typer.Option(
+            "--to", "-o", metavar="FILE", help="Also write tables (.xlsx, .csv) or a picture (.pdf, .png, .svg)."
+        ),
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:
@@ -38,25 +43,27 @@ def sensitivity(
     rarely known, with a usual one. Laws are not varied here.
     """
     from ballscrew.basis.output.json_text import as_json as json_text
+    from ballscrew.basis.sheet import document as sheet_document
     from ballscrew.cases.case_files import case_file
     from ballscrew.faces.cli import progress
-    from ballscrew.questions.sensitivity import compute, text
-    from ballscrew.questions.sensitivity import document as documents
-    from ballscrew.questions.shared import chart_files as files
+    from ballscrew.faces.sheets import terminal, to_file
+    from ballscrew.questions.sensitivity import compute
+    from ballscrew.questions.sensitivity.document import document
+    from ballscrew.questions.sensitivity.sheet import sheet
     from ballscrew.questions.shared.option_values import read
 
     loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
     options = read(SensitivityOptions, written)
-    if to is not None:
-        files.check_picture(to)
+    to_file.check([] if to is None else [to])
     with progress.progress("sensitivity") as done:
         report = compute.sensitivity(loaded, options, done)
-    if as_json:
-        typer.echo(json_text(documents.document(loaded, report)))
+    seen = sheet(loaded, report)
+    if as_sheet:
+        typer.echo(json_text(sheet_document(seen)))
+    elif as_json:
+        typer.echo(json_text(document(loaded, report)))
     else:
-        text.print_sensitivity(loaded, report)
+        typer.echo(terminal.text(seen, getattr(sys.stdout, "encoding", None) or ""))
     if to is not None:
-        from ballscrew.questions.sensitivity import figure as figures  # matplotlib is slow to import
-
-        files.draw(lambda: figures.picture(loaded, report), to)
-        typer.echo(f"{to}: {len(report.result.inputs)} inputs", err=as_json)
+        to_file.write(to, seen)
+        typer.echo(f"{to}: {len(report.result.inputs)} inputs", err=as_json or as_sheet)

@@ -40,7 +40,7 @@ _TITLE_CHARACTERS, _LABEL_SIZE, _SHADE, _CONTOURS, _HATCH = 100, 8.0, 0.15, 12, 
 #: Inches: the height of a chart in a picture and on a page of a report, and how wide a page is.
 _CHART, _PAGE_CHART, _PAGE_WIDTH = 2.7, 2.1, 7.1
 #: More bars than these have a row of their own, with inches for each and for what is above and below.
-_FEW_BARS, _BAR_HEIGHT, _FRAME = 12, 0.24, 1.3
+_FEW_BARS, _BAR_HEIGHT, _FRAME = 16, 0.24, 1.3
 #: Points: the pad of a title, and each line of a legend below it.
 _TITLE_PAD, _LEGEND_LINE, _LEGEND_COLUMNS = 6.0, 15.0, 4
 Drawn: TypeAlias = Chart | Map | Bars
