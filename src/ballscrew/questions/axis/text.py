@@ -56,7 +56,9 @@ def note_of_lost_motion(report: ChainReport) -> str:
     """What the lost motion of the table is made of; empty where the friction of the guides is not known."""
     if report.guide_friction != report.guide_friction:
         return ""
-    return f"lost motion from the {units.shown(report.guide_friction, FRICTION)} of the guides; backlash comes on top"
+    is_preloaded = bool(getattr(report.case.nut, "preload", 0))
+    backlash = "the preloaded nut has no backlash" if is_preloaded else "backlash comes on top"
+    return f"lost motion from the {units.shown(report.guide_friction, FRICTION)} of the guides; {backlash}"
 
 
 def place_rows(report: ChainReport) -> list[list[str]]:
