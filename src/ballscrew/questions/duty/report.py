@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from ballscrew.basis.errors import InputError
@@ -31,9 +32,23 @@ def _bands(report: DutyReport) -> DutyBandReport | None:
         return None
 
 
+def answer(report: DutyReport) -> Paragraph:
+    """The answer to a cycle in some sentences: torque of the motor, life, motor and brake."""
+    numbers = report.numbers
+    peak, rms = (value_of(numbers[name], _TORQUE) for name in ("torque_peak", "torque_rms"))
+    said = [f"Over a cycle the motor gives {peak} at the peak and {rms} RMS."]
+    if math.isfinite(numbers["life_time"]):
+        said.append(f"The L10 life is {value_of(numbers['life_time'], NUMBERS['life_time'])}.")
+    return Paragraph(" ".join([*said, *_verdicts(report)]), strong=True)
+
+
+def _verdicts(report: DutyReport) -> list[str]:
+    """Sentences on motor and brake."""
+    return [f"{sentence(one.text)}." for one in duty_verdicts.verdicts(report) if one.id != "verdict.checks"]
+
+
 def blocks(report: DutyReport) -> list[Block]:
     """All that a report says of a cycle."""
-    said = [f"{sentence(one.text)}." for one in duty_verdicts.verdicts(report) if one.id != "verdict.checks"]
     warned = [f"Beware: {record.text}." for record in duty_verdicts.warnings(report)]
     words = (
         "Motion, torque of the motor by cause and power over the time of a cycle, and torque over speed: "
@@ -42,7 +57,7 @@ def blocks(report: DutyReport) -> list[Block]:
     caption = "Motion, torque by cause and power of the motor over a cycle, and its torque over its speed."
     drawn = named(svg_of(lambda: figures.panels(report), "duty"), words)
     return [
-        Paragraph(" ".join([f"{sentence(text.title(report))}.", *said]), strong=True),
+        Paragraph(" ".join([f"{sentence(text.title(report))}.", *_verdicts(report)]), strong=True),
         Columns([_numbers(report, _bands(report))], [_paid_for(report)]),
         Picture(drawn, words, caption),
         *_power_off(report),
