@@ -86,8 +86,8 @@ def measured(cycles: int) -> dict[str, dict[str, Any]]:
     motion = bs.SCurve(stroke=0.5, speed=0.5, acceleration=4.9, jerk=50.0, dwell=1.0, force=500.0)
     found = bs.duty(MODEL, SCREW, OIL, axis=AXIS, motion=motion)
     states = found.screw.points
-    bs.duty_band(found, uncertain=UNCERTAIN, samples=1024)
-    time = seconds(lambda: bs.duty_band(found, uncertain=UNCERTAIN, samples=cycles))
+    bs.duty_band(found, distributions=UNCERTAIN, samples=1024)
+    time = seconds(lambda: bs.duty_band(found, distributions=UNCERTAIN, samples=cycles))
     plain = of_the_model(cycles * states)
     rows["band"] = {"first": time, "again": time, "memory": megabytes(), "plain": plain, "states": states}
     return rows

@@ -141,7 +141,7 @@ def band(model: bs.FrictionModel) -> dict[str, float]:
 
     def work() -> Any:
         at = {"axial_load": 3000.0, "screw_speed": 50.0}
-        return bs.band(model, SCREW, OIL, uncertain=uncertain, samples=100_000, **at)
+        return bs.band(model, SCREW, OIL, distributions=uncertain, samples=100_000, **at)
 
     first = seconds(work)
     return {"first_s": first, "second_s": seconds(work)}

@@ -165,6 +165,11 @@ def test_names_that_are_not_there(ballscrew):
     refused(ballscrew("catalogue", "show", "40-20k4"), 'unknown row (40-20k4) · did you mean "hiwin-40-20k4"?')
     refused(ballscrew("catalogue", "show", "hiwin-40-20k5"), "did you mean")
     refused(ballscrew("catalogue", "show", "?"), 'catalogue: unknown row (?) · see "ballscrew catalogue list"')
+    nearest = (
+        '"rexroth-32x10x3.969-5-double", "rexroth-32x10x3.969-5-single", "hiwin-36-10k5"; "ballscrew catalogue own"'
+    )
+    refused(ballscrew("catalogue", "show", "BNFN3210-5"), nearest)
+    refused(ballscrew("catalogue", "show", "R1532 490 13"), 'see "ballscrew catalogue list"')
     refused(ballscrew("catalogue", "show", "hiwin-40-20k4", "--case", "--json"), "--case: does not go with --json")
 
 

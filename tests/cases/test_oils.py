@@ -1,5 +1,6 @@
 """Oils in case files: by their data sheet, by name in the library or a file of one's own; the library itself."""
 
+import copy
 import json
 import re
 from importlib import resources
@@ -80,6 +81,15 @@ def test_an_oil_of_ones_own_file(tmp_path):
 def test_faults(oil, fault):
     with pytest.raises(InputError, match=fault):
         case_with(oil)
+
+
+def test_an_oil_is_changed_for_another_by_settings():
+    oil = {"oil": "Arcanol FOOD2", "temperature": "40 degC"}
+    tables = copy.deepcopy({**TABLES, "lubricant": oil})
+    with pytest.raises(InputError, match=r"contradicts oil .* --set lubricant.oil= takes this away"):
+        case_file.build(case_file.override(copy.deepcopy(tables), ["lubricant.grade=ISO VG 100"]))
+    changed = case_file.override(tables, ["lubricant.grade=ISO VG 100", "lubricant.oil="])
+    assert case_file.build(changed).lubricant.grade == "ISO VG 100"
 
 
 def test_faults_of_a_file_are_found_all_at_once(tmp_path):

@@ -18,7 +18,9 @@ OUTPUTS = ["screw_torque", "efficiency", "holding_torque"]
 @pytest.fixture
 def of(model, seed_screw, seed_oil):
     def made(uncertain, **options):
-        return band(model, seed_screw, seed_oil, uncertain=uncertain, outputs=OUTPUTS, samples=512, **POINT, **options)
+        return band(
+            model, seed_screw, seed_oil, distributions=uncertain, outputs=OUTPUTS, samples=512, **POINT, **options
+        )
 
     return made
 
@@ -91,7 +93,7 @@ def test_one_input_after_another_adds_up(seed_screw, seed_oil):
     one, other = ({name: distribution} for name, distribution in list(normal(1e-4).items())[:2])
     widths = []
     for inputs in (one, other, one | other):
-        found = band(bs.FrictionModel.reference(), seed_screw, seed_oil, uncertain=inputs, samples=2**14, **POINT)[
+        found = band(bs.FrictionModel.reference(), seed_screw, seed_oil, distributions=inputs, samples=2**14, **POINT)[
             "screw_torque"
         ].both
         widths.append(found.high - found.low)

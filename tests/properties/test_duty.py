@@ -194,14 +194,14 @@ def test_a_band_of_a_cycle():
     for name in ("torque_rms", "torque_peak", "energy_drawn", "energy_returned", "energy_lost"):
         assert own[name][0] == pytest.approx(getattr(found, name), rel=1e-12)
     bands = [
-        duty_band(found, uncertain={"nut.preload": bs.Normal(3605.0, spread)}, samples=256)["energy_lost"]
+        duty_band(found, distributions={"nut.preload": bs.Normal(3605.0, spread)}, samples=256)["energy_lost"]
         for spread in (100.0, 500.0)
     ]
     widths = [(each.band.high - each.band.low) / each.median for each in bands]
     assert widths[0] * 4 < widths[1] < widths[0] * 6
     assert all(each.band.low < each.value < each.band.high for each in bands)
     with pytest.raises(InputError, match="model"):
-        duty_band(duty(0.9, ROW.screw(), axis=axis, motion=SHORT), uncertain={})
+        duty_band(duty(0.9, ROW.screw(), axis=axis, motion=SHORT), distributions={})
 
 
 def test_an_oil_without_a_temperature():

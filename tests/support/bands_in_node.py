@@ -51,7 +51,7 @@ def arguments_of(start, structure, question):
     parts = {"model": case.model, "screw": case.screw, "lubricant": case.lubricant}
     return {
         **parts,
-        "uncertain": uncertain,
+        "distributions": uncertain,
         "axial_load": float(case.operation.axial_load),
         "alternatives": of_makers(case),
     }

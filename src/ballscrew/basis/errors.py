@@ -11,6 +11,7 @@ import functools
 import inspect
 import math
 import numbers
+import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, ParamSpec, TypeVar, cast, get_type_hints
 
@@ -358,6 +359,22 @@ def accepts_units(section: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
 
         converting.__doc__ = f"{inspect.getdoc(function) or ''}\n\n{OF_PINT}"
         return converting
+
+    return decorated
+
+
+def renamed_keyword(old: str, new: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
+    """Take the ``old`` name of a keyword for the ``new`` one, with a ``DeprecationWarning``; a decorator."""
+
+    def decorated(function: Callable[P, R]) -> Callable[P, R]:
+        @functools.wraps(function)
+        def renaming(*args: P.args, **kwargs: P.kwargs) -> R:
+            if old in kwargs:
+                warnings.warn(f"{function.__name__}: write {new}=… for {old}=…", DeprecationWarning, stacklevel=2)
+                kwargs.setdefault(new, kwargs.pop(old))
+            return function(*args, **kwargs)
+
+        return renaming
 
     return decorated
 

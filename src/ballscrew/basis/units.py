@@ -28,6 +28,8 @@ _VALUE = re.compile(
     r"\s*(?P<unit>1\s*/.*?|[^\d\s.,'].*?)?\s*",
     re.IGNORECASE,
 )
+#: A fraction of whole numbers with its unit, as sizes in inches are written: 1/4 in, 1 3/16 in.
+_FRACTION = re.compile(r"\s*(?:(?P<whole>\d+)[ -])?(?P<part>\d+)/(?P<parts>0*[1-9]\d*)(?P<unit>\s*[^\W\d].*)")
 # a product or quotient of named units with small powers, and nothing else: pint would also evaluate
 # "m**9**9**9", which takes long
 _FACTOR = r"(?:[A-Za-zµμ°]+(?:(?:\^|\*\*)?[-+]?\d|[²³]|⁻[¹²³])?)"
@@ -300,6 +302,10 @@ def parse(where: str, raw: object, quantity: Quantity) -> float | Fault:
     if len(raw) > LONGEST_VALUE:
         problem = Message("has more than {most} letters", {"most": str(LONGEST_VALUE)})
         return Fault(where, problem, given, _fix(quantity))
+    fraction = _FRACTION.fullmatch(in_ascii(raw)) if quantity.unit == "m" else None
+    if fraction is not None:
+        size = int(fraction["whole"] or 0) + int(fraction["part"]) / int(fraction["parts"])
+        return _converted(where, size, fraction["unit"].strip(), quantity, given)
     match = _VALUE.fullmatch(in_ascii(raw))
     if match is None:
         problem = "is not a number" if quantity.unit == "1" else "is not a number with a unit"

@@ -140,7 +140,9 @@ def test_a_band_by_one_number_of_an_element_is_that_of_the_number(name, central,
     bearing = MountedBearing(place="fixed", element=KnownBearing(torque=0.3), load_share=0.0)
     found = bs.duty(bs.FrictionModel.reference(), SCREW, OIL, axis=axis, motion=MOTION, also={bearing.name: bearing})
     samples = 256
-    band = duty_band(found, uncertain={}, beside={name: bs.Uniform(central - half, central + half)}, samples=samples)
+    band = duty_band(
+        found, distributions={}, beside={name: bs.Uniform(central - half, central + half)}, samples=samples
+    )
     element = {"bearings.fixed.torque": "fixed bearing", "guides.friction_coefficient": "guides"}[name]
     part = {"fixed bearing": "known", "guides": "by load"}[element]
     slope = found.energy_lost_in[element][part] / central
@@ -152,5 +154,5 @@ def test_a_band_by_one_number_of_an_element_is_that_of_the_number(name, central,
 
 
 def test_a_band_of_an_element_that_is_not_there_is_refused(duties):
-    with pytest.raises(bs.InputError, match=r"band\.uncertain"):
-        duty_band(duties[0], uncertain={}, beside={"bearings.fixed.torque": bs.Uniform(0.1, 0.2)}, samples=16)
+    with pytest.raises(bs.InputError, match=r"band\.distributions"):
+        duty_band(duties[0], distributions={}, beside={"bearings.fixed.torque": bs.Uniform(0.1, 0.2)}, samples=16)

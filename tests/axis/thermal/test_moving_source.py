@@ -150,7 +150,7 @@ def test_bands_of_a_nut_that_is_followed():
     """Samples at the central values are the transient itself."""
     slow = moved(Segment(distance=0.3, speed=0.01), Segment(distance=-0.3, speed=0.01))
     exact = {"surroundings.nut_conductance": bs.Uniform(9.999999, 10.000001)}
-    found = bs.warm_up_band(slow, AIR, uncertain=exact, samples=2, time=600.0, outputs=5, cool_down=150.0)
+    found = bs.warm_up_band(slow, AIR, distributions=exact, samples=2, time=600.0, outputs=5, cool_down=150.0)
     central = found.warm_up
     assert central.along is not None
     for name in ("nut_temperature", "shaft_growth", "preload", "screw_torque"):

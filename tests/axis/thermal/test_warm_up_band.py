@@ -163,7 +163,7 @@ def test_uncertain_friction_widens_the_torque(duty):
     one = {"surroundings.ball_conductance": bs.LogNormal(4.0, 1.5)}
     two = one | {"friction.boundary_friction_coefficient": bs.Normal(0.12, 0.03)}
     narrow, wide = (
-        warm_up_band(duty, AIR, uncertain=uncertain, samples=32, outputs=5, time=1200.0) for uncertain in (one, two)
+        warm_up_band(duty, AIR, distributions=uncertain, samples=32, outputs=5, time=1200.0) for uncertain in (one, two)
     )
     assert narrow.series["screw_torque"].low[0] == pytest.approx(narrow.series["screw_torque"].high[0], rel=1e-9)
     ends = wide.series["screw_torque"]
@@ -196,7 +196,7 @@ def test_friction_is_known_cold_and_as_warm_as_it_becomes_at_work():
     drawn = 0.18
     found = warm_up_band(
         slow, heated, samples=2, time=3600.0, cool_down=1800.0, outputs=5,
-        uncertain={"friction.boundary_friction_coefficient": bs.Uniform(drawn - 1e-9, drawn + 1e-9)},
+        distributions={"friction.boundary_friction_coefficient": bs.Uniform(drawn - 1e-9, drawn + 1e-9)},
     )  # fmt: skip
     rougher = dataclasses.replace(
         MODEL, friction=dataclasses.replace(MODEL.friction, boundary_friction_coefficient=drawn)
@@ -234,12 +234,12 @@ def test_nothing_that_is_changed_is_the_same_network(central):
         ({"surroundings.shaft_length": bs.Normal(1.0, 0.1)}, "surroundings.shaft_length: has no band"),
         ({"surroundings.ball_conductanc": bs.Normal(1.0, 0.1)}, "ball_conductance"),
         ({"temperature": bs.Normal(300.0, 1.0)}, "follows from the heat"),
-        ({"frictio": bs.Normal(300.0, 1.0)}, "band.uncertain.frictio"),
+        ({"frictio": bs.Normal(300.0, 1.0)}, "band.distributions.frictio"),
     ],
 )
 def test_inputs_that_have_no_band(duty, uncertain, named):
     with pytest.raises(InputError, match=named):
-        warm_up_band(duty, AIR, uncertain=uncertain, samples=4)
+        warm_up_band(duty, AIR, distributions=uncertain, samples=4)
 
 
 def test_what_varies_are_fields():

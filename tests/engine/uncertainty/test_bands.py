@@ -4,6 +4,7 @@ Bounds on what is random are errors of random sampling, from theory; evenly spre
 """
 
 import dataclasses
+import inspect
 import itertools
 import math
 from pathlib import Path
@@ -58,9 +59,9 @@ def test_small_deviations_propagate_as_derivatives_say(of_seed, seed_screw, seed
         "friction.boundary_friction_coefficient": 0.12,
     }
     samples = 2**14
-    found = of_seed(uncertain={name: Normal(value, share * value) for name, value in centres.items()}, samples=samples)[
-        "screw_torque"
-    ]
+    found = of_seed(
+        distributions={name: Normal(value, share * value) for name, value in centres.items()}, samples=samples
+    )["screw_torque"]
     slopes = bs.derivatives(bs.FrictionModel.reference(), seed_screw, seed_oil, by=list(centres), **POINT)
     parts = [float(slopes[f"d_screw_torque_d_{n.replace('.', '_')}"]) * share * v for n, v in centres.items()]
     deviation = math.sqrt(sum(part**2 for part in parts))
@@ -81,7 +82,7 @@ def test_wide_distributions_against_random_samples(drive):
     point = {name: getattr(drive.operation, name) for name in ("axial_load", "screw_speed")}
     subject = (drive.model, drive.screw, drive.lubricant)
     count, random = 2**13, 2**15
-    found = band(*subject, uncertain=inputs, **point, outputs=outputs, samples=count)
+    found = band(*subject, distributions=inputs, **point, outputs=outputs, samples=count)
     around = []
     for share in (0.025, 0.975):
         error = ERRORS * math.sqrt(share * (1 - share) * (1 / count + 1 / random))
@@ -105,7 +106,7 @@ def test_correlated_inputs(of_seed, seed_screw, seed_oil):
     g = np.array([float(slopes[f"d_screw_torque_d_{name.replace('.', '_')}"]) for name in names])
     sign = -np.sign(g[0] * g[1])
     covariance = np.diag(sizes) @ np.array([[1, 0.9 * sign], [0.9 * sign, 1]]) @ np.diag(sizes)
-    found = of_seed(uncertain={}, joint=JointNormal(names, centre, covariance), samples=2**14)["screw_torque"]
+    found = of_seed(distributions={}, joint=JointNormal(names, centre, covariance), samples=2**14)["screw_torque"]
     deviation = math.sqrt(g @ covariance @ g)
     assert deviation < 0.9 * math.sqrt(np.sum((g * sizes) ** 2))
     # five errors of a quantile at 2.5 % of 2^14 random samples are 0.11 deviations
@@ -113,7 +114,7 @@ def test_correlated_inputs(of_seed, seed_screw, seed_oil):
 
 
 def test_a_load_that_is_uncertain_is_drawn(of_seed):
-    found = of_seed(uncertain={"axial_load": Uniform(3000.0, 5000.0)}, keep_samples=True, samples=256)
+    found = of_seed(distributions={"axial_load": Uniform(3000.0, 5000.0)}, keep_samples=True, samples=256)
     loads, torques = found.samples["axial_load"], found.samples["screw_torque"]
     assert 3000 < loads.min() < 3050
     assert 4950 < loads.max() < 5000
@@ -122,7 +123,7 @@ def test_a_load_that_is_uncertain_is_drawn(of_seed):
 
 def test_kept_samples_are_those_of_the_model(of_seed, seed_screw, seed_oil):
     found = of_seed(
-        uncertain={"viscosity": LogNormal(0.1, 1.3), "screw_speed": Uniform(40.0, 80.0)},
+        distributions={"viscosity": LogNormal(0.1, 1.3), "screw_speed": Uniform(40.0, 80.0)},
         outputs=["screw_torque", "friction_power", "back_driving_efficiency"], samples=16, keep_samples=True,
     )  # fmt: skip
     drawn = found.samples
@@ -141,7 +142,7 @@ def test_self_locking_share():
     )  # fmt: skip
     model = dataclasses.replace(bs.FrictionModel.reference(), ball_force=ProportionalBallForce(0.02))
     found = band(
-        model, screw, bs.Lubricant(viscosity=0.1), uncertain={"ball_force.share_of_load": Uniform(0.0, 0.4)},
+        model, screw, bs.Lubricant(viscosity=0.1), distributions={"ball_force.share_of_load": Uniform(0.0, 0.4)},
         outputs=["holding_torque", "screw_torque"], samples=512, keep_samples=True, **POINT,
     )  # fmt: skip
     assert 0.1 < found.self_locking_share < 0.9
@@ -160,7 +161,7 @@ def candidate(model, slot, law, counts=True):
 def test_laws_are_drawn_evenly_and_multiply(of_seed, seed_screw, seed_oil):
     model = bs.FrictionModel.reference()
     others = [candidate(model, "rolling", houpert_rolling), candidate(model, "friction", BalanSharing())]
-    found = of_seed(uncertain={}, alternatives=others, samples=2**10, keep_samples=True)
+    found = of_seed(distributions={}, alternatives=others, samples=2**10, keep_samples=True)
     torques = [float(m(seed_screw, seed_oil, **POINT).screw_torque) for m in (model, *(c.model for c in others))]
     own, *with_other = torques
     one, other = (torque / own for torque in with_other)
@@ -182,7 +183,7 @@ def test_laws_that_do_not_count_or_are_not_valid_are_not_drawn(of_seed):
         Candidate("nonsense", never, "rolling"),
         Candidate("a whole model", bs.FrictionModel.corrected()),
     ]
-    found = of_seed(uncertain={}, alternatives=others)
+    found = of_seed(distributions={}, alternatives=others)
     assert found.alternatives == {}
     assert found["screw_torque"].both == (found["screw_torque"].value,) * 2
 
@@ -220,7 +221,7 @@ def test_independent_slots_against_all_combinations(example):
 def test_a_curve_goes_through_the_band(drive):
     inputs = {name: one.distribution for name, one in uncertain_inputs.all_of(drive).items()}
     options = {
-        "uncertain": inputs, "alternatives": compute.alternatives(drive), "samples": 256, "axial_load": 5000.0,
+        "distributions": inputs, "alternatives": compute.alternatives(drive), "samples": 256, "axial_load": 5000.0,
         "screw_speed": 60.0,
     }  # fmt: skip
     subject = (drive.model, drive.screw, drive.lubricant)
@@ -238,7 +239,7 @@ def test_axes_have_the_band_of_each_point(drive):
     inputs = {name: one.distribution for name, one in uncertain_inputs.all_of(drive).items()}
     subject = (drive.model, drive.screw, drive.lubricant)
     options = {
-        "uncertain": inputs, "alternatives": compute.alternatives(drive), "samples": 128,
+        "distributions": inputs, "alternatives": compute.alternatives(drive), "samples": 128,
         "outputs": ["screw_torque", "holding_torque"],
     }  # fmt: skip
     loads, leads = [1000.0, -3000.0, 5000.0], [0.01, 0.02]
@@ -264,7 +265,7 @@ def test_axes_have_the_share_of_invalid_samples_of_each_point(drive):
     """From a load at which most samples are valid to one at which none is, and between."""
     inputs = {name: one.distribution for name, one in uncertain_inputs.all_of(drive).items()}
     loads = [1000.0, 90_000.0, 110_000.0, 130_000.0, 160_000.0]
-    options = {"uncertain": inputs, "samples": 128, "screw_speed": 60.0}
+    options = {"distributions": inputs, "samples": 128, "screw_speed": 60.0}
     found = bs.band(drive.model, drive.screw, drive.lubricant, **options, axial_load=loads)["invalid_share"]
     ones = [
         bs.band(drive.model, drive.screw, drive.lubricant, **options, axial_load=load).invalid_share for load in loads
@@ -277,19 +278,25 @@ def test_axes_have_the_share_of_invalid_samples_of_each_point(drive):
 
 def test_an_axis_is_exact(of_seed, seed_screw, seed_oil):
     both = {"viscosity": LogNormal(0.1, 1.3), "axial_load": Normal(4000.0, 100.0)}
-    found = of_seed(uncertain=both, axial_load=[2000.0, 4000.0], samples=128)
+    found = of_seed(distributions=both, axial_load=[2000.0, 4000.0], samples=128)
     for load in (2000.0, 4000.0):
-        one = of_seed(uncertain={"viscosity": LogNormal(0.1, 1.3)}, axial_load=load, samples=128)["screw_torque"]
+        one = of_seed(distributions={"viscosity": LogNormal(0.1, 1.3)}, axial_load=load, samples=128)["screw_torque"]
         assert float(found["screw_torque_high"].sel(axial_load=load)) == pytest.approx(one.both.high, rel=1e-9)
     joint = JointNormal(("viscosity",), np.array([0.1]), np.array([[1e-6]]))
     with pytest.raises(InputError, match=r"band.viscosity: is an axis and among the joint ones"):
         bs.band(
-            bs.FrictionModel.reference(), seed_screw, seed_oil, uncertain={}, joint=joint, viscosity=[0.1, 0.2], **POINT
+            bs.FrictionModel.reference(),
+            seed_screw,
+            seed_oil,
+            distributions={},
+            joint=joint,
+            viscosity=[0.1, 0.2],
+            **POINT,
         )
     with pytest.raises(InputError, match=r"band.keep_samples: is of one point"):
-        of_seed(uncertain={}, axial_load=[1.0, 2.0], keep_samples=True)
+        of_seed(distributions={}, axial_load=[1.0, 2.0], keep_samples=True)
     with pytest.raises(InputError, match=r"screw_sped: unknown"):
-        of_seed(uncertain={}, screw_sped=[1.0, 2.0])
+        of_seed(distributions={}, screw_sped=[1.0, 2.0])
 
 
 def test_a_whole_nut(seed_screw, seed_oil):
@@ -297,7 +304,7 @@ def test_a_whole_nut(seed_screw, seed_oil):
     screw = dataclasses.replace(seed_screw, nut=bs.DoubleNut(preload=1000.0))
     model = bs.FrictionModel.reference()
     found = band(
-        model, screw, seed_oil, uncertain={"viscosity": LogNormal(0.1, 1.3)}, samples=8,
+        model, screw, seed_oil, distributions={"viscosity": LogNormal(0.1, 1.3)}, samples=8,
         keep_samples=True, alternatives=[candidate(model, "rolling", houpert_rolling)], **POINT,
     )  # fmt: skip
     ratio = math.exp(found.alternatives["rolling"][0].shift)
@@ -310,12 +317,12 @@ def test_a_whole_nut(seed_screw, seed_oil):
 def test_no_load_and_rest(of_seed):
     outputs = ["screw_torque", "efficiency", "back_driving_efficiency", "holding_torque", "friction_power"]
     inputs = {"viscosity": LogNormal(0.1, 1.3)}
-    nothing = of_seed(uncertain=inputs, axial_load=0.0, outputs=outputs, samples=64)
+    nothing = of_seed(distributions=inputs, axial_load=0.0, outputs=outputs, samples=64)
     assert nothing["screw_torque"].both == (0, 0)
     assert all(math.isnan(end) for end in nothing["efficiency"].both)
     assert math.isnan(nothing["back_driving_efficiency"].median)
     assert nothing.self_locking_share == 0
-    still = of_seed(uncertain=inputs, screw_speed=0.0, outputs=outputs, samples=64)
+    still = of_seed(distributions=inputs, screw_speed=0.0, outputs=outputs, samples=64)
     assert still["friction_power"].both == (0, 0)
     assert still["screw_torque"].both.low > 0
 
@@ -389,16 +396,19 @@ def test_an_oil_of_a_grade(seed_screw):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"uncertain": {"viscosty": Normal(0.1, 0.01)}}, r'band.uncertain.viscosty: unknown name · did you mean "visc'),
-        ({"uncertain": {"viscosity": 0.1}}, "band.uncertain.viscosity: is no distribution"),
-        ({"uncertain": {"loaded_balls": Normal(56, 1)}}, "is a whole number, which has no distribution"),
-        ({"uncertain": {"viscosity": Uniform(-1, 1)}}, "lubricant.viscosity: must be positive"),
-        ({"uncertain": {}, "outputs": ["contact_load"]}, "band.outputs: has no band"),
-        ({"uncertain": {}, "samples": 1}, "band.samples: must be a whole number from 2"),
-        ({"uncertain": {}, "samples": 2.5}, "band.samples: must be a whole number from 2"),
-        ({"uncertain": {}, "level": 1.0}, "band.level: must lie between 0 and 1"),
-        ({"uncertain": {}, "seed": -1}, "band.seed: must be a whole number"),
-        ({"uncertain": {}, "engine": "abacus"}, "band.engine: unknown engine"),
+        (
+            {"distributions": {"viscosty": Normal(0.1, 0.01)}},
+            r'band.distributions.viscosty: unknown name · did you mean "visc',
+        ),
+        ({"distributions": {"viscosity": 0.1}}, "band.distributions.viscosity: is no distribution"),
+        ({"distributions": {"loaded_balls": Normal(56, 1)}}, "is a whole number, which has no distribution"),
+        ({"distributions": {"viscosity": Uniform(-1, 1)}}, "lubricant.viscosity: must be positive"),
+        ({"distributions": {}, "outputs": ["contact_load"]}, "band.outputs: has no band"),
+        ({"distributions": {}, "samples": 1}, "band.samples: must be a whole number from 2"),
+        ({"distributions": {}, "samples": 2.5}, "band.samples: must be a whole number from 2"),
+        ({"distributions": {}, "level": 1.0}, "band.level: must lie between 0 and 1"),
+        ({"distributions": {}, "seed": -1}, "band.seed: must be a whole number"),
+        ({"distributions": {}, "engine": "abacus"}, "band.engine: unknown engine"),
     ],
 )
 def test_bad_input(options, message, of_seed):
@@ -409,14 +419,34 @@ def test_bad_input(options, message, of_seed):
 def test_joint_inputs_are_checked(of_seed):
     joint = JointNormal(("viscosity",), np.array([0.1]), np.array([[1e-6]]))
     with pytest.raises(InputError, match="is among the joint ones, too"):
-        of_seed(uncertain={"viscosity": Normal(0.1, 0.01)}, joint=joint)
+        of_seed(distributions={"viscosity": Normal(0.1, 0.01)}, joint=joint)
     with pytest.raises(InputError, match=r"band.joint.viscosty: unknown name"):
-        of_seed(uncertain={}, joint=dataclasses.replace(joint, names=("viscosty",)))
+        of_seed(distributions={}, joint=dataclasses.replace(joint, names=("viscosty",)))
 
 
 def test_a_curve_along_something_else(drive):
     with pytest.raises(InputError, match=r"band.along: unknown"):
-        band_along(drive.model, drive.screw, drive.lubricant, along="lead", points=[1.0], uncertain={}, **POINT)
+        band_along(drive.model, drive.screw, drive.lubricant, along="lead", points=[1.0], distributions={}, **POINT)
     subject = (drive.model, drive.screw, drive.lubricant)
     with pytest.raises(InputError, match=r"band.axial_load: must be one number"):
-        band_along(*subject, along="screw_speed", points=[1.0], uncertain={}, axial_load=[1.0, 2.0], screw_speed=1.0)
+        band_along(
+            *subject, along="screw_speed", points=[1.0], distributions={}, axial_load=[1.0, 2.0], screw_speed=1.0
+        )
+
+
+@pytest.mark.parametrize(
+    "function",
+    [bs.band, bs.monte_carlo, bs.sensitivity, bs.duty_band, bs.warm_up_band, bs.condition, bs.preload_change],
+)
+def test_uncertain_inputs_have_one_name_everywhere(function):
+    parameters = inspect.signature(function).parameters
+    assert "distributions" in parameters
+    assert "uncertain" not in parameters
+
+
+def test_the_old_name_of_uncertain_inputs_gives_the_same_band_with_a_warning(seed_screw, seed_oil):
+    subject, inputs = (bs.FrictionModel.reference(), seed_screw, seed_oil), {"viscosity": Normal(0.1, 0.01)}
+    expected = bs.band(*subject, distributions=inputs, samples=16, **POINT)["screw_torque"].both
+    with pytest.warns(DeprecationWarning, match="band: write distributions=… for uncertain=…"):
+        old = bs.band(*subject, uncertain=inputs, samples=16, **POINT)
+    assert old["screw_torque"].both == expected

@@ -43,10 +43,10 @@ OF_SALIB = {
 }
 
 
-def found_of(uncertain=UNCERTAIN, **changes):
+def found_of(distributions=UNCERTAIN, **changes):
     options = {"model": MODEL, "screw": CATALOGUE.screw, "lubricant": CATALOGUE.oil, **POINT, **changes}
     return sensitivity(
-        options.pop("model"), options.pop("screw"), options.pop("lubricant"), uncertain=uncertain, **options
+        options.pop("model"), options.pop("screw"), options.pop("lubricant"), distributions=distributions, **options
     )
 
 
@@ -306,12 +306,12 @@ def test_local_effects_of_a_rigid_nut():
         ({"seed": -1}, "sensitivity.seed: must be a whole number, 0 or more (-1)"),
         ({"level": 95}, "sensitivity.level: must lie between 0 and 1 (95) · 0.95 is usual"),
         (
-            {"uncertain": {"viscosit": Uniform(0.1, 0.2)}},
-            'sensitivity.uncertain.viscosit: unknown name · did you mean "viscosity"?',
+            {"distributions": {"viscosit": Uniform(0.1, 0.2)}},
+            'sensitivity.distributions.viscosit: unknown name · did you mean "viscosity"?',
         ),
         (
-            {"uncertain": {}},
-            "sensitivity.uncertain: no input is uncertain · give a distribution to an input: "
+            {"distributions": {}},
+            "sensitivity.distributions: no input is uncertain · give a distribution to an input: "
             '{"viscosity": LogNormal(0.1, 1.3)}',
         ),
         (
@@ -338,4 +338,4 @@ def test_a_law_that_cannot_be_differentiated():
 
 def test_missing_point():
     with pytest.raises(InputError, match="screw_speed: missing"):
-        sensitivity(MODEL, CATALOGUE.screw, CATALOGUE.oil, uncertain=UNCERTAIN)
+        sensitivity(MODEL, CATALOGUE.screw, CATALOGUE.oil, distributions=UNCERTAIN)

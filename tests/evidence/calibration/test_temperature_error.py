@@ -115,7 +115,7 @@ def test_the_posterior_of_a_service_has_it_once():
     torque = REFERENCE(nut, VG_100.at(warm), axial_load=0.0, screw_speed=np.abs(speed)).screw_torque * np.sign(speed)
     torque = torque * (1 + 0.01 * np.random.default_rng(1).standard_normal(80))
     rows = {"axial_load": np.zeros(80), "screw_speed": speed, "friction_torque": torque, "temperature": warm}
-    change = bs.preload_change(REFERENCE, nut, VG_100, None, rows, uncertain={})
+    change = bs.preload_change(REFERENCE, nut, VG_100, None, rows, distributions={})
     assert change.worn.fit.temperature_error.half_width == 0.0
     assert "temperature of the worn log" in change.worn.shares
 

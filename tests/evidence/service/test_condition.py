@@ -95,7 +95,7 @@ def test_exact_torques_give_the_exact_preload():
     nut = dataclasses.replace(SCREW.nut, preload=PRELOAD * left)
     torque = PAPER(dataclasses.replace(SCREW, nut=nut), OIL.at(warm), axial_load=0.0, screw_speed=SPEED).screw_torque
     # a factor that the case does not know changes nothing
-    found = condition({"torque": 1.3 * torque, "temperature": warm, "number": np.arange(8.0)}, uncertain={})
+    found = condition({"torque": 1.3 * torque, "temperature": warm, "number": np.arange(8.0)}, distributions={})
     assert [one.preload for one in found.states] == pytest.approx(left, rel=1e-6)
     assert found.factor == pytest.approx(1.3)
     assert found.reference_temperature == pytest.approx(np.mean(warm[:5]))
@@ -260,7 +260,7 @@ BAD = {
     "no torque of the model": (
         {**TABLE, "temperature": np.where(NUMBER == 7, 30.0, 300.0)}, {}, "condition: 7: the model has no torque there",
     ),
-    "uncertain": (TABLE, {"uncertain": {"decai": bs.Normal(1.0, 0.1)}}, "service.uncertain.decai: unknown name"),
+    "uncertain": (TABLE, {"distributions": {"decai": bs.Normal(1.0, 0.1)}}, "distributions.decai: unknown name"),
 }  # fmt: skip
 
 

@@ -40,7 +40,7 @@ TABLE = {"torque": TORQUES, "number": np.arange(1.0, TESTS + 1)}
 
 
 def condition(tests, *, oil=OIL, screw=SCREW, **options):
-    options = {"uncertain": {}, **options}
+    options = {"distributions": {}, **options}
     return bs.condition(MODEL, screw, oil, tests, **options)
 
 

@@ -33,7 +33,7 @@ def test_a_torque_without_load(logged):
     reading, speed, warmer = 0.25, 2 * SPEED, 5.0 if logged else 0.0
     found = bs.preload_of_torque(
         MODEL, SCREW, OIL, torque=reading, torque_deviation=0.02 * reading, screw_speed=speed,
-        temperature=WARM + warmer if logged else None, uncertain={FRICTION: bs.Normal(BOUNDARY_FRICTION, 0.001)},
+        temperature=WARM + warmer if logged else None, distributions={FRICTION: bs.Normal(BOUNDARY_FRICTION, 0.001)},
     )  # fmt: skip
     middle = math.log(PRELOAD) + math.log(reading / torque_of(1.0, speed, warmer)) / P
     parts = {"temperature": PER_KELVIN * (2 if logged else 10) / Z, "reading": 0.02, FRICTION: S * 0.005}
@@ -51,7 +51,7 @@ def test_a_torque_that_most_screws_cannot_have():
     """A nut of seals: what they lose is what no preload is below, and a hundred times the preload is the most."""
     losses = {"seals": bs.Seals(0.2)}
     screw = dataclasses.replace(SCREW, nut=dataclasses.replace(SCREW.nut, losses=losses))
-    asked = {"screw_speed": SPEED, "uncertain": {}}
+    asked = {"screw_speed": SPEED, "distributions": {}}
     least, most = (0.2 + torque_of(share) for share in (1e-3, 1e2))
     for torque, known in ((0.99 * least, False), (1.05 * least, True), (0.8 * most, True), (1.3 * most, False)):
         if known:
@@ -89,7 +89,7 @@ def log(share, seed, warmer=0.0, friction=1.0):
 def change():
     uncertain = {FRICTION: bs.Normal(BOUNDARY_FRICTION, 0.02)}
     logs = log(1.0, 0), log(0.6, 1, warmer=4.0)
-    return bs.preload_change(MODEL, SCREW, OIL, *logs, uncertain=uncertain, kind="friction")
+    return bs.preload_change(MODEL, SCREW, OIL, *logs, distributions=uncertain, kind="friction")
 
 
 def test_the_share_left_and_its_doubt(change):
@@ -149,7 +149,7 @@ def test_causes_within_what_is_known():
     one = log(0.99, 2)
     one["friction_torque"] = one["friction_torque"] + np.sign(one["screw_speed"]) * 0.02
     uncertain = {FRICTION: bs.Normal(BOUNDARY_FRICTION, 0.02)}
-    found = bs.preload_change(MODEL, screw, OIL, None, one, uncertain=uncertain, kind="friction")
+    found = bs.preload_change(MODEL, screw, OIL, None, one, distributions=uncertain, kind="friction")
     assert [cause.plausible for cause in found.alternatives] == [True, True, True]
     assert found.new.preload == pytest.approx(PRELOAD, rel=1e-6)
     # the nominal preload by half of what lies between its quantiles of one deviation
@@ -380,7 +380,7 @@ def test_the_scatter_of_rows_is_in_the_preload_of_a_log():
     random = np.random.default_rng(11)
     one = log(1.0, 0)
     one["friction_torque"] = one["friction_torque"] * (1 + random.normal(0, 0.15, ROWS))
-    found = bs.preload_change(MODEL, SCREW, OIL, None, one, uncertain={}, kind="friction")
+    found = bs.preload_change(MODEL, SCREW, OIL, None, one, distributions={}, kind="friction")
     of_groups = math.hypot(0.15 / math.sqrt(5), 0.02 * math.sqrt(1.2)) / math.sqrt(12)
     of_rows, of_oil = 0.15 / math.sqrt(ROWS), PER_KELVIN * 2 / Z
     expected = math.sqrt(of_groups**2 + of_rows**2 + of_oil**2) / P
@@ -393,7 +393,7 @@ def test_a_log_that_no_preload_explains_still_has_its_nearest():
     """A torque that goes with the root of the speed: far off at all speeds, and said to be."""
     one = log(1.0, 0)
     one["friction_torque"] = one["friction_torque"] * np.abs(one["screw_speed"] / SPEED) ** 0.5
-    found = bs.preload_change(MODEL, SCREW, OIL, None, one, uncertain={}, kind="friction")
+    found = bs.preload_change(MODEL, SCREW, OIL, None, one, distributions={}, kind="friction")
     assert found.logarithm.told
     assert "service.misfit" in {record.id for record in found.warning_records}
 
@@ -402,7 +402,7 @@ def test_an_oil_without_a_grade_explains_a_log_by_its_viscosity():
     """Its viscosity falls by its temperature coefficient, as the model's torque does: ln 0.8 of the preload is 9 K."""
     plain = bs.Lubricant(viscosity=OIL.viscosity, temperature_coefficient=OIL.temperature_coefficient)
     one = {name: values for name, values in log(0.8, 0).items() if name != "temperature"}
-    found = bs.preload_change(MODEL, SCREW, plain, None, one, uncertain={}, kind="friction")
+    found = bs.preload_change(MODEL, SCREW, plain, None, one, distributions={}, kind="friction")
     cause = next(one for one in found.alternatives if one.name == "viscosity")
     kelvin = -P * math.log(0.8) / PER_KELVIN
     expected = OIL.viscosity * math.exp(-OIL.temperature_coefficient * kelvin)
@@ -412,6 +412,6 @@ def test_an_oil_without_a_grade_explains_a_log_by_its_viscosity():
 
 
 def test_the_seed_is_zero_unless_it_is_given():
-    asked = {"torque": 0.25, "screw_speed": SPEED, "uncertain": {FRICTION: bs.Normal(BOUNDARY_FRICTION, 0.02)}}
+    asked = {"torque": 0.25, "screw_speed": SPEED, "distributions": {FRICTION: bs.Normal(BOUNDARY_FRICTION, 0.02)}}
     found = [bs.preload_of_torque(MODEL, SCREW, OIL, **asked, **seed).shares for seed in ({}, {"seed": 0}, {"seed": 1})]
     assert found[0] == found[1] != found[2]

@@ -91,7 +91,7 @@ def exact():
 
 
 def test_known_numbers_give_the_truth(exact):
-    found = change(*exact, uncertain={})
+    found = change(*exact, distributions={})
     # the error of the model, 2 % at ten parts of each log, and 2 K of each
     assert found.ratio == pytest.approx(0.6, rel=0.05)
     assert found.new.preload == pytest.approx(PRELOAD, rel=0.05)
@@ -100,7 +100,7 @@ def test_known_numbers_give_the_truth(exact):
 
 
 def test_the_same_seed_gives_the_same_answer(exact):
-    one, other, another = (change(*exact, uncertain={}, seed=seed) for seed in (0, 0, 1))
+    one, other, another = (change(*exact, distributions={}, seed=seed) for seed in (0, 0, 1))
     assert one.ratio == pytest.approx(other.ratio, rel=1e-6)
     assert one.ratio == pytest.approx(another.ratio, rel=0.01)
     assert one.ratio_interval() == pytest.approx(another.ratio_interval(), rel=0.03)
@@ -111,7 +111,7 @@ def test_alternatives_say_what_a_number_would_have_to_be():
     friction = dataclasses.replace(PAPER.friction, boundary_friction_coefficient=0.7 * given)
     rubbed = Configuration(dataclasses.replace(PAPER, friction=friction), SCREW, OIL)
     logs = [log(one, PRELOAD, seed, sensor_error=0.0) for seed, one in enumerate((EXACT, rubbed))]
-    found = change(*logs, uncertain={})
+    found = change(*logs, distributions={})
     by_name = {one.name: one for one in found.alternatives}
     assert set(by_name) == {"boundary_friction_coefficient", "temperature", "constant_torque"}
     one = by_name["boundary_friction_coefficient"]
@@ -126,7 +126,7 @@ def test_alternatives_say_what_a_number_would_have_to_be():
 def test_a_constant_torque_is_told_from_a_preload_where_it_is_free(exact):
     lost = log(EXACT, PRELOAD, 5, sensor_error=0.0)
     lost["torque"] = lost["torque"] - 0.05 * np.sign(lost["screw_speed"])
-    found = change(exact[0], lost, uncertain={}, free=["nut.preload", "constant_torque"])
+    found = change(exact[0], lost, distributions={}, free=["nut.preload", "constant_torque"])
     assert within(found, 1.0)
     assert found.verdict != "lost"
 
@@ -137,7 +137,7 @@ def test_one_log_against_the_nominal_preload(exact):
     assert found.new.preload == pytest.approx(PRELOAD)
     assert found.new.interval() == pytest.approx((PRELOAD / 1.284, PRELOAD * 1.284), rel=0.01)
     assert within(found, 0.6)
-    narrow = change(None, exact[1], uncertain={"preload": bs.Normal(PRELOAD, 10.0)})
+    narrow = change(None, exact[1], distributions={"preload": bs.Normal(PRELOAD, 10.0)})
     assert math.log(np.divide(*narrow.ratio_interval()[::-1])) < math.log(np.divide(*found.ratio_interval()[::-1]))
 
 
@@ -147,11 +147,11 @@ def test_the_preload_of_a_torque():
     found = bs.preload_of_torque(PAPER, SCREW, OIL, **asked)
     low, high = found.interval()
     assert low < PRELOAD < high
-    exact = bs.preload_of_torque(PAPER, SCREW, OIL, **asked, uncertain={})
+    exact = bs.preload_of_torque(PAPER, SCREW, OIL, **asked, distributions={})
     # two kelvin of oil are all that is open
     assert exact.preload == pytest.approx(PRELOAD, rel=5e-3)
     assert math.log(np.divide(*exact.interval()[::-1])) < 0.5 * math.log(high / low)
-    worse = bs.preload_of_torque(PAPER, SCREW, OIL, **asked, uncertain={}, torque_deviation=0.1 * torque)
+    worse = bs.preload_of_torque(PAPER, SCREW, OIL, **asked, distributions={}, torque_deviation=0.1 * torque)
     assert math.log(np.divide(*worse.interval()[::-1])) > math.log(np.divide(*exact.interval()[::-1]))
 
 
@@ -171,7 +171,7 @@ def test_a_mixture_of_one_is_normal():
 
 def test_lift_off_within_a_log_is_said(exact):
     loaded = log(EXACT, PRELOAD, 7, sensor_error=0.0, loads=(0.0, 30_000.0))
-    found = change(exact[0], loaded, uncertain={})
+    found = change(exact[0], loaded, distributions={})
     beyond = next(record for record in found.warning_records if record.id == "service.lift_off")
     lifting = float(PAPER(SCREW, OIL, axial_load=0.0, screw_speed=1.0).loads.lift_off_load)
     assert beyond.value == pytest.approx(np.count_nonzero(loaded["axial_load"] > lifting), abs=3)
@@ -183,7 +183,7 @@ def test_temperatures_without_a_grade_and_ratings(exact):
     oil = bs.Lubricant(viscosity=OIL.viscosity, pressure_viscosity_coefficient=OIL.pressure_viscosity_coefficient)
     new, worn = exact
     hotter = {**worn, "temperature": worn["temperature"] + 12.0}
-    found = change(new, hotter, oil=oil, uncertain={}, dynamic_load_rating=30_000.0)
+    found = change(new, hotter, oil=oil, distributions={}, dynamic_load_rating=30_000.0)
     by_id = {}
     for record in found.warning_records:
         by_id.setdefault(record.id, []).append(record)
@@ -196,7 +196,7 @@ def test_temperatures_without_a_grade_and_ratings(exact):
 
 def test_another_screw_is_said(exact):
     wrong = [{**one, "torque": one["torque"] * (1 + 5 * np.abs(one["screw_speed"]) / 100)} for one in exact]
-    found = change(*wrong, uncertain={})
+    found = change(*wrong, distributions={})
     assert {"service.misfit", "service.not_sampled"} & {record.id for record in found.warning_records}
 
 
@@ -210,7 +210,7 @@ REFUSED = {
     "tolerance": ({"tolerance": 1.0}, "service.tolerance: must lie between 0 and 1"),
     "free": ({"free": ["nut.preload", "decay"]}, "service.free: is not fitted to each log (decay)"),
     "free without preload": ({"free": ["constant_torque"]}, "service.free: must have nut.preload in it"),
-    "uncertain": ({"uncertain": {"decai": bs.Normal(1.0, 0.1)}}, "service.uncertain.decai: unknown name"),
+    "uncertain": ({"distributions": {"decai": bs.Normal(1.0, 0.1)}}, "service.distributions.decai: unknown name"),
 }
 
 

@@ -28,7 +28,7 @@ def table(per_kelvin, seed=0, noise=0.003):
 
 
 def of_condition(**options):
-    found = bs.condition(PAPER, SCREW, OIL, table(**options), screw_speed=SPEED, baseline=8, uncertain={})
+    found = bs.condition(PAPER, SCREW, OIL, table(**options), screw_speed=SPEED, baseline=8, distributions={})
     return [record for record in found.warning_records if record.id in TRENDS]
 
 
@@ -51,7 +51,7 @@ def test_a_baseline_without_temperatures_or_of_one_is_not_judged():
     cold = {**table(per_kelvin=0.01), "temperature": np.full(WARM.size, 303.15)}
     unlogged = {name: values for name, values in cold.items() if name != "temperature"}
     for tests in (cold, unlogged):
-        found = bs.condition(PAPER, SCREW, OIL, tests, screw_speed=SPEED, baseline=8, uncertain={})
+        found = bs.condition(PAPER, SCREW, OIL, tests, screw_speed=SPEED, baseline=8, distributions={})
         assert not [record for record in found.warning_records if record.id in TRENDS]
 
 
@@ -64,7 +64,7 @@ def of_service(per_kelvin):
     torque = PAPER(SCREW, OIL.at(warm), axial_load=0.0, screw_speed=speed).screw_torque
     torque = sign * torque * np.exp(per_kelvin * (warm - 303.15) + random.normal(0, 0.005, rows))
     log = {"axial_load": np.zeros(rows), "screw_speed": sign * speed, "friction_torque": torque, "temperature": warm}
-    found = bs.preload_change(PAPER, SCREW, OIL, None, log, uncertain={})
+    found = bs.preload_change(PAPER, SCREW, OIL, None, log, distributions={})
     return [record for record in found.warning_records if record.id in TRENDS]
 
 

@@ -1,6 +1,7 @@
 """Input that would take all time or memory: one line, and no traceback."""
 
 import ast
+import re
 import subprocess
 import sys
 import textwrap
@@ -82,6 +83,46 @@ def test_an_interrupt_while_the_program_is_loaded(when):
     program = textwrap.dedent(stopped[when]) + "from ballscrew.faces.cli.start import main\nmain()"
     found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
     one_line(found, "interrupted", code=130)
+
+
+def interrupted(patch, *arguments):
+    """A command that is interrupted by what ``patch`` puts into its place."""
+    program = f"{textwrap.dedent(patch)}\nimport sys\nsys.argv = ['ballscrew', *{[*map(str, arguments)]!r}]\n"
+    program += "from ballscrew.faces.cli.start import main\nmain()"
+    return subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+
+
+def test_an_interrupt_says_how_far_it_came_and_how_to_go_on(case):
+    patch = """
+        from ballscrew.questions.sensitivity import compute
+        def sensitivity(*given):
+            given[-1](300, 4000)
+            raise KeyboardInterrupt
+        compute.sensitivity = sensitivity
+        """
+    line = "sensitivity: interrupted at 300 of 4,000, nothing is kept · run the same again"
+    one_line(interrupted(patch, "sensitivity", case()), line, code=130)
+
+
+def test_an_interrupted_selection_says_what_it_keeps(tmp_path):
+    patch = """
+        from ballscrew.questions.select import compute
+        judged, left = compute.by_loads, [3]
+        def by_loads(*given):
+            left[0] -= 1
+            if not left[0]:
+                raise KeyboardInterrupt
+            return judged(*given)
+        compute.by_loads = by_loads
+        """
+    need, table = ROOT / "examples" / "needs" / "feed_axis.toml", tmp_path / "kept.csv"
+    found = interrupted(patch, "select", need, "--set", "need.least_rigidity=1e6 N/um", "--to", table)
+    assert found.returncode == 130
+    assert "none of the candidates judged so far holds" in found.stdout
+    assert "no candidate holds" not in found.stdout
+    assert len(table.read_text().splitlines()) == 3
+    last = found.stderr.splitlines()[-1]
+    assert re.fullmatch(r"interrupted: 2 of \d+ are done and kept, the last is .* · run the same again for all", last)
 
 
 def test_messages_name_only_files_that_are_installed():

@@ -260,7 +260,9 @@ def test_ctrl_c_keeps_what_is_done():
     found = every_row.each(rows, work, done=lambda *numbers: told.append(numbers))
     assert found.interrupted
     assert found.found == {"row 1": 1, "row 2": 2}
-    assert list(found.notes) == ["interrupted: 2 of 4 rows are done, the last is row 2"]
+    assert list(found.notes) == [
+        "interrupted: 2 of 4 are done and kept, the last is row 2 · run the same again for all"
+    ]
     assert told == [(1, 4), (2, 4)]
     with pytest.raises(KeyboardInterrupt):
         every_row.each({"row 3": 3}, work)

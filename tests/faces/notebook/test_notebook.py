@@ -52,7 +52,7 @@ def test_a_case_is_shown_with_its_design(example):
 
 def test_a_band_is_shown_with_its_intervals():
     uncertain = {"axial_load": bs.Normal(2000.0, 100.0)}
-    band = bs.band(MODEL, SCREW, OIL, uncertain=uncertain, axial_load=2000.0, screw_speed=60.0, samples=64)
+    band = bs.band(MODEL, SCREW, OIL, distributions=uncertain, axial_load=2000.0, screw_speed=60.0, samples=64)
     of = band["screw_torque"]
     assert f"<td>{of.both.low:.4g} N m to {of.both.high:.4g} N m</td>" in band._repr_html_()
 
@@ -77,7 +77,7 @@ def test_a_sensitivity_is_its_inputs_the_largest_first(method):
         "friction.decay": bs.Normal(1.4, 0.01),
     }
     found = bs.sensitivity(
-        MODEL, SCREW, OIL, uncertain=uncertain | many, method=method, samples=16 if method != "local" else None,
+        MODEL, SCREW, OIL, distributions=uncertain | many, method=method, samples=16 if method != "local" else None,
         screw_speed=60.0,
     )  # fmt: skip
     heading, first, *_, last = repr(found).splitlines()

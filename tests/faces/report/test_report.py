@@ -45,7 +45,7 @@ from ballscrew.questions.band import compute as band
 from ballscrew.questions.check.compute import checked
 from ballscrew.questions.duty.compute import NUMBERS, duty
 from ballscrew.questions.run.compute import run
-from ballscrew.questions.shared.report_blocks import Bar, Columns, Links, Picture, Table, value
+from ballscrew.questions.shared.report_blocks import Bar, Columns, Links, Paragraph, Picture, Table, value
 from ballscrew.questions.shared.report_numbers import banded, banded_share
 from ballscrew.questions.warm_up.compute import warmed_up
 from ballscrew.questions.warm_up.verdicts import verdicts
@@ -728,6 +728,21 @@ def test_stiffness_is_that_of_the_command():
 
 def test_a_motion_without_an_installation_has_no_stiffness():
     assert not [s for s in content_of("warm_up").sections if s.title.startswith("Stiffness")]
+
+
+def test_a_cycle_is_answered_first():
+    """By its motor, its life and its brake; the operating point comes second, and says that it is one."""
+    case = case_of("vertical_axis")
+    found = duty(case)
+    # one part alone: a report takes seconds
+    first, second = contents._answer(found, Paragraph("Friction torque on the screw.", strong=True), case)
+    peak, life = (units.shown(found.numbers[name], NUMBERS[name], digits=4) for name in ("torque_peak", "life_time"))
+    assert first.strong
+    assert first.text.startswith(f"Over a cycle the motor gives {peak} at the peak")
+    assert f"The L10 life is {life}." in first.text
+    assert "brake is needed" in first.text
+    assert not second.strong
+    assert second.text.endswith(" alone: Friction torque on the screw.")
 
 
 def test_one_verdict_where_a_cycle_is_given():

@@ -117,7 +117,7 @@ def ends_of(tables, count):
     operation = case.operation
     found = bands.band(
         case.model, case.screw, case.lubricant, samples=count, alternatives=of_makers(case),
-        uncertain={name: one.distribution for name, one in uncertain_inputs.all_of(case).items()},
+        distributions={name: one.distribution for name, one in uncertain_inputs.all_of(case).items()},
         axial_load=float(operation.axial_load), screw_speed=float(operation.screw_speed),
     )  # fmt: skip
     return found["screw_torque"].both

@@ -27,6 +27,8 @@ KNOWN = {
         ("lead", "5mm", 0.005),
         ("lead", " 5e-3  m ", 0.005),
         ("lead", "0.2 in", 0.00508),
+        ("ball_diameter", "1/4 in", 0.00635),
+        ("ball_diameter", "1 3/16in", 0.0301625),
         ("ball_roughness", "0.08 µm", 0.08e-6),
         ("ball_roughness", "0.08 um", 0.08e-6),
         ("contact_angle", "45 deg", math.pi / 4),

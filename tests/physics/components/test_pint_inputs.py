@@ -207,12 +207,12 @@ ONE_POINT = {
         ).screw_torque_mean.values
     ),
     "band": lambda **point: (
-        bs.band(MODEL, SCREW, OIL, uncertain={"viscosity": bs.Normal(0.1, 0.01)}, samples=16, **point)[
+        bs.band(MODEL, SCREW, OIL, distributions={"viscosity": bs.Normal(0.1, 0.01)}, samples=16, **point)[
             "screw_torque"
         ].median
     ),
     "sensitivity": lambda **point: (
-        bs.sensitivity(MODEL, SCREW, OIL, uncertain={"viscosity": bs.Normal(0.1, 0.01)}, method="local", **point)
+        bs.sensitivity(MODEL, SCREW, OIL, distributions={"viscosity": bs.Normal(0.1, 0.01)}, method="local", **point)
         .first_order["viscosity"]
         .value
     ),
@@ -271,7 +271,7 @@ def test_what_takes_units_says_that_plain_numbers_come_out():
 
 def test_points_along_a_band():
     with pytest.raises(bs.InputError, match=r"band.points: takes no unit"):
-        band_along(MODEL, SCREW, OIL, along="axial_load", points=[1, 2] * U.kN, uncertain={}, **POINT)
+        band_along(MODEL, SCREW, OIL, along="axial_load", points=[1, 2] * U.kN, distributions={}, **POINT)
 
 
 def test_a_distribution_refuses_quantities():

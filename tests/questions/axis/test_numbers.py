@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from ballscrew.cases.case_files import case_file
+from ballscrew.questions.axis import text
 from ballscrew.questions.axis.compute import chain_of, load
 from ballscrew.questions.check.compute import checked
 from support.commands import ROOT
@@ -33,6 +34,17 @@ def test_friction_of_guides_however_small_makes_lost_motion():
     bare = chain_of(changed(guides=None))
     assert math.isnan(bare.guide_friction)
     assert np.isnan(bare.series["lost_motion"]).all()
+
+
+@pytest.mark.parametrize(
+    ("nut", "words"),
+    [
+        ({"type": "single"}, "backlash comes on top"),
+        ({"type": "double", "preload": "3 kN"}, "the preloaded nut has no backlash"),
+    ],
+)
+def test_only_a_nut_without_preload_has_backlash(nut, words):
+    assert text.note_of_lost_motion(chain_of(changed(nut=nut))).endswith(f"of the guides; {words}")
 
 
 def test_extremes_are_those_of_the_travel(report):

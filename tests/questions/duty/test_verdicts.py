@@ -64,7 +64,14 @@ def test_what_stays_by_its_friction_says_by_how_much(report):
     upright = {"mass": "100 kg", "inclination": "90 deg"}
     locks = of_brake(report(upright, RULE.replace("0.9", "0.45")))
     assert (locks.severity, locks.holds, locks.value) == ("info", True, 0.0)
-    assert "at least 1.22 times the torque of the load" in locks.text
+    assert "at least 1.222 times the torque of the load" in locks.text
+
+
+def test_what_barely_stays_is_said_with_its_margin(report):
+    """A screw of 49.83 % loses 1/0.4983 − 1 = 1.007 of the load."""
+    barely = of_brake(report({"mass": "100 kg", "inclination": "90 deg"}, RULE.replace("0.9", "0.4983")))
+    assert "at least 1.007 times the torque of the load: a margin of 0.68 % only" in barely.text
+    assert "do not rely on it" in barely.text
 
 
 def test_of_all_conditions_the_one_that_holds_the_least_counts(report):
@@ -73,7 +80,7 @@ def test_of_all_conditions_the_one_that_holds_the_least_counts(report):
     (one,) = found.brake.conditions
     twice = dataclasses.replace(one, breakaway_torque=2 * one.breakaway_torque)
     vars(found)["brake"] = dataclasses.replace(found.brake, conditions=[twice, one])
-    assert "at least 1.22 times" in of_brake(found).text
+    assert "at least 1.222 times" in of_brake(found).text
 
 
 #: A shaft of 40 mm and 1 m: half its mass times the square of its radius, kg m².

@@ -14,7 +14,7 @@ from ballscrew.axis.duty_cycle.screw_friction import WORTH_RECORDING, ModelledSc
 from ballscrew.axis.motion.states import Numbers
 from ballscrew.axis.supports.element_laws import UNCERTAIN
 from ballscrew.axis.supports.mounted_bearing import PLACES
-from ballscrew.basis.errors import Fault, InputError, raise_if_any
+from ballscrew.basis.errors import Fault, InputError, raise_if_any, renamed_keyword
 from ballscrew.engine.evaluation.evaluator import evaluator
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.band_evaluation import faults_of_inputs, faults_of_options
@@ -49,10 +49,11 @@ class DutyBand:
         return self.numbers[name]
 
 
+@renamed_keyword("uncertain", "distributions")
 def duty_band(
     duty: Duty,
     *,
-    uncertain: Mapping[str, Distribution],
+    distributions: Mapping[str, Distribution],
     beside: Mapping[str, Distribution] | None = None,
     samples: int = SAMPLES,
     seed: int = 0,
@@ -62,7 +63,7 @@ def duty_band(
     """RMS and peak torque, and energy drawn, returned and lost, for uncertain inputs of screw, nut, oil and model.
 
     Returns a :class:`DutyBand` of a ``duty``, with intervals that hold the share ``level`` of the ``samples``. The same
-    ``seed`` gives the same bands. ``done(finished, total)`` is told the samples. ``uncertain`` names inputs as
+    ``seed`` gives the same bands. ``done(finished, total)`` is told the samples. ``distributions`` names inputs as
     :func:`~ballscrew.engine.sweeps.sweep.sweep` does; they are independent, the same over a cycle, and drawn from a
     Sobol' sequence. The laws are those of the model. The motion and the axis are exact. ``beside`` has distributions of
     torques and seals of the bearings, and of coefficients and seals of the guides (``bearings.fixed.torque``,
@@ -75,12 +76,12 @@ def duty_band(
         raise InputError(Fault("model", "has no inputs that are uncertain", "", 'take a model such as "reference"'))
     subject = Configuration(driven.model, driven.screw, driven.lubricant)
     raise_if_any(
-        [*faults_of_options((), samples, seed, level, None), *faults_of_inputs(subject, uncertain, None)]
+        [*faults_of_options((), samples, seed, level, None), *faults_of_inputs(subject, distributions, None)]
     )  # fmt: skip
     states = np.stack([duty.axial_load, duty.screw_speed], axis=1)
     distinct, back = np.unique(states, axis=0, return_inverse=True)
     load, speed = distinct.T
-    names, others = tuple(uncertain), dict(beside or {})
+    names, others = tuple(distributions), dict(beside or {})
     ready = evaluator(
         driven.model,
         driven.screw,
@@ -91,7 +92,7 @@ def duty_band(
     )
     number = len(names) + len(others)
     shares = sobol_sequence(number, samples, seed) if number else np.empty((0, samples))
-    values = Sampler(subject, uncertain, {}, ()).inputs_at(shares[: len(names)])
+    values = Sampler(subject, distributions, {}, ()).inputs_at(shares[: len(names)])
     drawn_beside = {
         name: one.quantile(share) for (name, one), share in zip(others.items(), shares[len(names) :], strict=True)
     }
@@ -128,7 +129,7 @@ def friction_beside(duty: Duty, name: str) -> tuple[float, Numbers]:
         mounted: Any = duty.also.get(PLACES.get(section.removeprefix("bearings."), ""))
         element = getattr(mounted, "element", None)
     if field not in UNCERTAIN or not hasattr(element, field):
-        raise InputError(Fault("band.uncertain", "unknown number of a bearing or guide", name, "see the case"))
+        raise InputError(Fault("band.distributions", "unknown number of a bearing or guide", name, "see the case"))
     every = np.ones_like(duty.screw_speed)
     if section == "guides":
         arm = float(duty.driven.lead) / (2 * math.pi)

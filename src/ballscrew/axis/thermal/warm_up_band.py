@@ -19,7 +19,7 @@ from ballscrew.axis.thermal.network import FrictionFactor, Network
 from ballscrew.axis.thermal.surroundings import PREFIX, VARIED, Surroundings
 from ballscrew.axis.thermal.warm_up import WarmUp, warm_up
 from ballscrew.basis.arrays import ByValue
-from ballscrew.basis.errors import Fault, accepts_units, nearest, raise_if_any
+from ballscrew.basis.errors import Fault, accepts_units, nearest, raise_if_any, renamed_keyword
 from ballscrew.basis.quantities import Duration, Length, Ratio, fields_of
 from ballscrew.engine.evaluation.evaluator import evaluator
 from ballscrew.engine.evaluation.plan import Configuration
@@ -99,12 +99,13 @@ def _value(network: Network, name: str) -> float | None:
     return None if value is None else float(value)
 
 
+@renamed_keyword("uncertain", "distributions")
 @accepts_units("warm_up_band")
 def warm_up_band(
     duty: Duty,
     surroundings: Surroundings | None = None,
     *,
-    uncertain: Mapping[str, Distribution] | None = None,
+    distributions: Mapping[str, Distribution] | None = None,
     joint: JointNormal | None = None,
     time: Duration = 4 * 3600.0,
     cool_down: Duration = 0.0,
@@ -120,7 +121,7 @@ def warm_up_band(
     Returns a :class:`WarmUpBand`. ``duty``, ``surroundings``, ``time`` (s), ``cool_down`` (s), ``outputs`` and
     ``shaft_length`` (m) are those of ``warm_up``. A band holds the share ``level`` of the ``samples``, by default
     :data:`SAMPLES`, or :data:`SAMPLES_ALONG` where the heat goes along with the nut; the same ``seed`` gives the same
-    bands. ``done(finished, total)`` is told the samples. ``uncertain`` names inputs of the surroundings as
+    bands. ``done(finished, total)`` is told the samples. ``distributions`` names inputs of the surroundings as
     ``surroundings.ball_conductance`` and those of the friction as :func:`~ballscrew.engine.sweeps.sweep.sweep` does;
     left out, it is :func:`uncertain_surroundings`. Inputs of the friction change it by a factor at the ambient
     temperature and one at the last of the central transient; the preload counts in full. The temperature of the oil is
@@ -135,7 +136,7 @@ def warm_up_band(
     )  # fmt: skip
     if samples is None:
         samples = SAMPLES if central.along is None else SAMPLES_ALONG
-    drawn = dict(uncertain_surroundings(central.network) if uncertain is None else uncertain)
+    drawn = dict(uncertain_surroundings(central.network) if distributions is None else distributions)
     raise_if_any([*faults_of_options((), samples, seed, level, None), *_faults(duty, drawn, joint)])
     networks = _networks(central, _draws(duty, drawn, joint, samples, seed), samples)
     instants = _instants(time, cool_down, outputs)
@@ -222,11 +223,13 @@ def _faults(duty: Duty, uncertain: Mapping[str, Distribution], joint: JointNorma
     of_air, of_friction = _parted(uncertain)
     known = [PREFIX + name for name in VARIED]
     found = [
-        Fault(f"band.uncertain.{name}", "has no band", "", nearest(name, known)) for name in of_air if name not in known
+        Fault(f"band.distributions.{name}", "has no band", "", nearest(name, known))
+        for name in of_air
+        if name not in known
     ]
     own = [name for name in of_friction if name in _OF_NETWORK and "preload" not in name]
     remedy = "leave it out: it is that of the duty, or follows from the heat"
-    found += [Fault(f"band.uncertain.{name}", "has no band over a transient", "", remedy) for name in own]
+    found += [Fault(f"band.distributions.{name}", "has no band over a transient", "", remedy) for name in own]
     return [*found, *faults_of_inputs(_subject(duty), of_friction, joint)]
 
 

@@ -87,7 +87,10 @@ def read(path: str | Path) -> dict[str, Any]:
 
 
 def override(tables: dict[str, Any], settings: Sequence[str]) -> dict[str, Any]:
-    """Tables with ``section.field=value`` settings put in; a value is TOML, or else text."""
+    """Tables with ``section.field=value`` settings put in; a value is TOML, or else text.
+
+    Without a value the field is taken away.
+    """
     faults: list[Fault] = []
     for setting in settings:
         # bytes of the command line that are no text come as surrogates
@@ -114,7 +117,10 @@ def override(tables: dict[str, Any], settings: Sequence[str]) -> dict[str, Any]:
                 break
             table = inner
         else:
-            table[field] = _literal(text.strip())
+            if text.strip():
+                table[field] = _literal(text.strip())
+            else:
+                table.pop(field, None)
     if faults:
         raise InputError(*faults)
     return tables

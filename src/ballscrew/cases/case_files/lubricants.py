@@ -82,7 +82,7 @@ def _told_twice(table: Mapping[str, Any]) -> list[Fault]:
             f"lubricant.{one}",
             Message("contradicts {words}", {"words": words}),
             f"{table[one]} and {table[other]}",
-            "give one of the two",
+            Message("give one of the two; --set lubricant.{other}= takes this away", {"other": other}),
         )
         for one, other, words in pairs
         if one in table and other in table

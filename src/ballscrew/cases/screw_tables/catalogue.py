@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -64,6 +64,12 @@ COLUMNS = (
     _column("source"),
 )
 #: A word of sizes: diameter x lead, perhaps one of them alone, perhaps the ball diameter or the turns.
+#: Distance of sizes that are the same but for rounding.
+SAME_SIZE = 1e-6
+#: Diameter and lead in mm in order codes of makers: 3210 in BNFN3210-5, 40x10 in R40x10; R1532 of Rexroth has no size.
+_ORDER_CODE = re.compile(
+    r"(?<!\d)(?!(?<=R)\d{4}(?!\d))([1-9]\d{1,2})(?:x|(?=\d{2}(?!\d)))0?([1-9]\d?)(?!\d)", re.IGNORECASE
+)
 _SIZES = re.compile(r"(?=.*\d)(\d+(?:\.\d+)?)?[x×](\d+(?:\.\d+)?)?(?:[x×](\d+(?:\.\d+)?))?")
 #: Preloads of the kinds of nut, as catalogues have them.
 EXAMPLE_PRELOADS: Mapping[str, str] = {"double": "7 %", "offset-lead": "7 %", "oversize-balls": "5 %"}
@@ -233,15 +239,32 @@ def named(rows: Mapping[str, CatalogueRow], name: str, where: str = "", file: st
     found = {known.casefold(): row for known, row in rows.items()}.get(name.casefold())
     if found is not None:
         return rows.get(name, found)
+    code = _ORDER_CODE.search(name)
+    sizes = None if code is None else (float(code[1]), float(code[2]))
     containing = [f'"{known}"' for known in rows if name and name.casefold() in known.casefold()][:3]
     if containing:
         remedy = Message("did you mean {names}?", {"names": " or ".join(containing)})
-    elif closest(name, rows):
+    elif (alike := closest(name, rows)) and (sizes is None or _distance(rows[alike], *sizes) < SAME_SIZE):
         remedy = nearest(name, rows)
+    elif sizes is not None and rows:
+        remedy = Message(
+            'nearest in size: {names}; "ballscrew catalogue own" makes a nut of its catalogue numbers',
+            {"names": ", ".join(f'"{row.name}"' for row in _nearest_in_size(rows.values(), *sizes))},
+        )
     else:
         remedy = Message('see "ballscrew catalogue list{words}"', {"words": "" if file is None else f" --rows {file}"})
     where = where or ("catalogue" if file is None else Path(file).name)
     raise InputError(Fault(where, "unknown row", name, remedy))
+
+
+def _nearest_in_size(rows: Iterable[CatalogueRow], diameter: float, lead: float) -> list[CatalogueRow]:
+    """The three rows nearest to a diameter and a lead in mm, by their ratios."""
+    return sorted(rows, key=lambda row: _distance(row, diameter, lead))[:3]
+
+
+def _distance(row: CatalogueRow, diameter: float, lead: float) -> float:
+    """The distance of a row from a diameter and a lead in mm, by their ratios; 0 for the same."""
+    return math.hypot(math.log(1e3 * row.nominal_diameter / diameter), math.log(1e3 * row.lead / lead))
 
 
 # -- for people -----------------------------------------------------------------------------------

@@ -231,7 +231,7 @@ def faults_of_inputs(subject: Configuration, uncertain: Mapping[str, Any], joint
     """Faults of the uncertain inputs."""
     known, faults = subject.inputs, list[Fault]()
     for name, distribution in uncertain.items():
-        where = f"band.uncertain.{name}"
+        where = f"band.distributions.{name}"
         if fault := distribution_fault(where, name, distribution, known, "leave it out"):
             faults.append(fault)
         else:
@@ -240,7 +240,9 @@ def faults_of_inputs(subject: Configuration, uncertain: Mapping[str, Any], joint
             faults += list(dict.fromkeys(fault for fault in ends if fault is not None))
     for name in () if joint is None else joint.names:
         if name in uncertain:
-            faults.append(Fault(f"band.uncertain.{name}", "is among the joint ones, too", "", "leave one of them out"))
+            faults.append(
+                Fault(f"band.distributions.{name}", "is among the joint ones, too", "", "leave one of them out")
+            )
         elif name not in known or name in OPERATION:
             faults.append(Fault(f"band.joint.{name}", "unknown name", "", nearest(name, known)))
     return faults

@@ -15,7 +15,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from ballscrew.basis.displayed import Displayed
-from ballscrew.basis.errors import Fault, accepts_units, nearest, raise_if_any
+from ballscrew.basis.errors import Fault, accepts_units, nearest, raise_if_any, renamed_keyword
 from ballscrew.basis.quantities import AngularSpeed, Force
 from ballscrew.engine.evaluation.comparison import Candidate
 from ballscrew.engine.evaluation.engines import Engine
@@ -136,7 +136,7 @@ def band(  # pyright: ignore[reportOverlappingOverload]  (numbers are no axes)
     screw: BallScrew,
     lubricant: Lubricant,
     *,
-    uncertain: Mapping[str, Distribution],
+    distributions: Mapping[str, Distribution],
     axial_load: float,
     screw_speed: float,
     alternatives: Sequence[Candidate] = (),
@@ -155,7 +155,7 @@ def band(
     screw: BallScrew,
     lubricant: Lubricant,
     *,
-    uncertain: Mapping[str, Distribution],
+    distributions: Mapping[str, Distribution],
     axial_load: Force,
     screw_speed: AngularSpeed,
     alternatives: Sequence[Candidate] = (),
@@ -169,13 +169,14 @@ def band(
     done: Callable[[int, int], None] | None = None,
     **varied: Any,
 ) -> xr.Dataset: ...
+@renamed_keyword("uncertain", "distributions")
 @accepts_units("band")
 def band(
     model: FrictionModel,
     screw: BallScrew,
     lubricant: Lubricant,
     *,
-    uncertain: Mapping[str, Distribution],
+    distributions: Mapping[str, Distribution],
     axial_load: Force,
     screw_speed: AngularSpeed,
     alternatives: Sequence[Candidate] = (),
@@ -191,7 +192,7 @@ def band(
 ) -> Band | xr.Dataset:
     """Intervals of outputs for uncertain inputs and alternative laws: a :class:`Band`, or a dataset over axes.
 
-    ``model``, ``screw`` and ``lubricant`` have the central values. ``uncertain`` names inputs as
+    ``model``, ``screw`` and ``lubricant`` have the central values. ``distributions`` names inputs as
     :func:`~ballscrew.engine.sweeps.sweep.sweep` does; they are independent, but for those of ``joint``. Each
     distribution is cut at the bounds of its quantity. ``axial_load`` (N) and ``screw_speed`` (rad/s) are the central
     ones; either may be among the uncertain.
@@ -226,9 +227,9 @@ def band(
             faults.append(Fault("band.keep_samples", "is of one point", "True", "leave it out"))
         raise_if_any(faults)
         axes = Plan.of(subject, outputs, {**point, **varied}, "band")
-        return _band_over(axes, uncertain, joint, alternatives, count, seed, level, engine, done)
-    raise_if_any([*faults, *faults_of_inputs(subject, uncertain, joint)])
-    evaluator = BandEvaluator.of(subject, uncertain, joint, point, alternatives, engine, evaluated_outputs(outputs))
+        return _band_over(axes, distributions, joint, alternatives, count, seed, level, engine, done)
+    raise_if_any([*faults, *faults_of_inputs(subject, distributions, joint)])
+    evaluator = BandEvaluator.of(subject, distributions, joint, point, alternatives, engine, evaluated_outputs(outputs))
     shares = sample_probabilities(evaluator.dimensions, count, seed)
     found = evaluator.evaluate(shares, done)
     factor = sample_law_factors(evaluator.law_factors_at(0), shares[evaluator.inputs :])
@@ -380,7 +381,7 @@ def band_along(
     *,
     along: str,
     points: Sequence[float] | Values,
-    uncertain: Mapping[str, Distribution],
+    distributions: Mapping[str, Distribution],
     axial_load: Force,
     screw_speed: AngularSpeed,
     alternatives: Sequence[Candidate] = (),
@@ -400,16 +401,16 @@ def band_along(
     """
     count = samples if samples is not None else (NUT_SAMPLES if screw.nut.one_by_one else SAMPLES) // 8
     subject = Configuration(model, screw, lubricant)
-    uncertain = {name: distribution for name, distribution in uncertain.items() if name != along}
+    distributions = {name: distribution for name, distribution in distributions.items() if name != along}
     point: dict[str, Any] = {"axial_load": axial_load, "screw_speed": screw_speed}
     faults = [] if along in point else [Fault("band.along", "unknown", along, nearest(along, point))]
     faults += faults_of_options((), count, seed, level, engine)
     faults += [_not_one(name) for name, value in point.items() if np.ndim(value)]
-    raise_if_any([*faults, *faults_of_inputs(subject, uncertain, joint)])
+    raise_if_any([*faults, *faults_of_inputs(subject, distributions, joint)])
     number = len(points)
     values = {name: np.full(number, float(value)) for name, value in point.items()}
     values[along] = np.asarray(points, dtype=float)
-    group = PointGroup(subject, alternatives, values, [uncertain] * number, [joint] * number)
+    group = PointGroup(subject, alternatives, values, [distributions] * number, [joint] * number)
     name, told = "screw_torque", _told(done, number * count)
     found = bands_of(group, [name], count=count, seed=seed, level=level, engine=engine, done=told)
     return BandCurve(

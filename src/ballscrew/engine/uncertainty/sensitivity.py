@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.basis.displayed import LINES_OF_REPR, Displayed, shortened
-from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
+from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any, renamed_keyword
 from ballscrew.basis.quantities import Quantity
 from ballscrew.basis.records import Message
 from ballscrew.engine.evaluation.derivatives import JAX_INSTEAD, derivatives
@@ -130,12 +130,13 @@ class Sensitivity(Displayed):
         return next((known for known in self.explained_variance if known.remaining <= HALF), None)
 
 
+@renamed_keyword("uncertain", "distributions")
 def sensitivity(
     model: FrictionModel,
     screw: BallScrew,
     lubricant: Lubricant,
     *,
-    uncertain: Mapping[str, Distribution],
+    distributions: Mapping[str, Distribution],
     output: str = "screw_torque",
     method: Method = "sobol",
     samples: int | None = None,
@@ -144,9 +145,9 @@ def sensitivity(
     done: Callable[[int, int], None] | None = None,
     **fixed: Any,
 ) -> Sensitivity:
-    r"""Sensitivity of an ``output`` to the ``uncertain`` inputs: a :class:`Sensitivity`.
+    r"""Sensitivity of an ``output`` to its uncertain inputs: a :class:`Sensitivity`.
 
-    ``model``, ``screw`` and ``lubricant`` have the values of all other inputs. ``uncertain`` names inputs as
+    ``model``, ``screw`` and ``lubricant`` have the values of all other inputs. ``distributions`` names inputs as
     :func:`~ballscrew.engine.sweeps.sweep.sweep` does, ``fixed`` gives numbers to others; between them they have
     ``axial_load`` and ``screw_speed``. Inputs are independent of each other and stay within their bounds. The
     ``method`` is one of three:
@@ -171,8 +172,8 @@ def sensitivity(
     subject = Configuration(model, screw, lubricant)
     usual = NUT_SAMPLES if screw.nut.one_by_one else SAMPLES
     count = usual.get(method, 1) if samples is None else samples
-    raise_if_any(_faults(subject, uncertain, output, method, samples, seed, level))
-    sampler = Sampler(subject, uncertain, {n: v for n, v in fixed.items() if n not in uncertain}, (output,))
+    raise_if_any(_faults(subject, distributions, output, method, samples, seed, level))
+    sampler = Sampler(subject, distributions, {n: v for n, v in fixed.items() if n not in distributions}, (output,))
     if method == "local":
         return _local(sampler, output, level, seed)
 
@@ -223,13 +224,13 @@ def _faults(
     """Faults of the arguments, except for the values of inputs."""
     known, wanted = subject.inputs, known_outputs(subject.nut)
     found = (
-        distribution_fault(f"sensitivity.uncertain.{name}", name, given, known, "leave it out")
+        distribution_fault(f"sensitivity.distributions.{name}", name, given, known, "leave it out")
         for name, given in uncertain.items()
     )
     faults = [fault for fault in found if fault is not None]
     if not uncertain:
         remedy = 'give a distribution to an input: {"viscosity": LogNormal(0.1, 1.3)}'
-        faults.append(Fault("sensitivity.uncertain", "no input is uncertain", "", remedy))
+        faults.append(Fault("sensitivity.distributions", "no input is uncertain", "", remedy))
     if output not in wanted:
         faults.append(Fault("sensitivity.output", "unknown output", output, nearest(output, wanted)))
     elif wanted[output].dtype is bool:
@@ -303,7 +304,7 @@ def _local(sampler: Sampler, output: str, level: float, seed: int) -> Sensitivit
     effects = {n: float(slopes[f"d_{output}_d_{n.replace('.', '_')}"]) * deviations[n] for n in names}
     raise_if_any(
         [
-            Fault(f"sensitivity.uncertain.{name}", "has no slope here", output, ANOTHER_METHOD)
+            Fault(f"sensitivity.distributions.{name}", "has no slope here", output, ANOTHER_METHOD)
             for name, effect in effects.items()
             if not math.isfinite(effect)
         ]

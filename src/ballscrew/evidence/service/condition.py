@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, accepts_units, raise_if_any
+from ballscrew.basis.errors import Fault, accepts_units, raise_if_any, renamed_keyword
 from ballscrew.basis.quantities import AngularSpeed, MomentOfInertia, Temperature
 from ballscrew.basis.records import Message
 from ballscrew.engine.evaluation.plan import Configuration
@@ -42,6 +42,7 @@ MOST_TESTS = 1000
 FALSE_ALARMS = 0.002
 
 
+@renamed_keyword("uncertain", "distributions")
 @accepts_units("condition")
 def condition(
     model: FrictionModel,
@@ -54,7 +55,7 @@ def condition(
     false_alarms: float = FALSE_ALARMS,
     tolerance: float = 0.1,
     reference_temperature: Temperature | None = None,
-    uncertain: Mapping[str, Distribution] | None = None,
+    distributions: Mapping[str, Distribution] | None = None,
     joint: JointNormal | None = None,
     kind: Kind = "unknown",
     inertia: MomentOfInertia | None = None,
@@ -72,9 +73,9 @@ def condition(
     The first tests (``baseline``) are taken as healthy. The model is made to agree with them by a factor and reduces
     every torque to the ``reference_temperature`` (K; by default theirs) and speed. Each torque then asks for a preload.
     The numbers of the model are as uncertain as in :func:`~ballscrew.evidence.service.preload_change.preload_change`
-    (``uncertain``, ``joint``), the same in all tests, and drawn with the ``seed``. ``tolerance`` is the share of the
-    preload that may be lost. The temperature of a test is off by 2 K (95 %) where it is logged and the oil has a grade,
-    otherwise by 10 K.
+    (``distributions``, ``joint``), the same in all tests, and drawn with the ``seed``. ``tolerance`` is the share of
+    the preload that may be lost. The temperature of a test is off by 2 K (95 %) where it is logged and the oil has a
+    grade, otherwise by 10 K.
 
     The alarm is a CUSUM of the reduced torque: beyond the scatter of the series, 2 % for the model (over the root of
     the number of speeds), and the doubts of the temperatures. ``false_alarms`` is the share of healthy tests that
@@ -87,7 +88,7 @@ def condition(
     """
     subject = with_preload(Configuration(model, screw, lubricant))
     raise_if_any(_faults(baseline, false_alarms, tolerance))
-    known = held_numbers(subject, uncertain)
+    known = held_numbers(subject, distributions)
     if isinstance(tests, list | tuple):
         raise_if_any(_faults_of_count(len(tests), baseline))
         means = of_logs(subject, tests, kind, inertia)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from ballscrew.basis.errors import ONE_BY_ONE, Fault, InputError, accepts_units, nearest, raise_if_any
+from ballscrew.basis.errors import ONE_BY_ONE, Fault, InputError, accepts_units, nearest, raise_if_any, renamed_keyword
 from ballscrew.basis.quantities import Force, MomentOfInertia
 from ballscrew.basis.records import Message, Record
 from ballscrew.engine.evaluation.outputs import OPERATION
@@ -96,6 +96,7 @@ class PreloadChange:
         return [record.text for record in self.warning_records]
 
 
+@renamed_keyword("uncertain", "distributions")
 @accepts_units("service")
 def preload_change(
     model: FrictionModel,
@@ -105,7 +106,7 @@ def preload_change(
     worn: Any,
     *,
     free: Sequence[str] = (PRELOAD,),
-    uncertain: Mapping[str, Distribution] | None = None,
+    distributions: Mapping[str, Distribution] | None = None,
     joint: JointNormal | None = None,
     tolerance: float = 0.1,
     kind: Kind = "unknown",
@@ -122,7 +123,7 @@ def preload_change(
     torque; ``inertia`` (kg m²) takes the acceleration out of the latter. ``free`` may have ``"constant_torque"`` beside
     ``"nut.preload"``: seals that lose another torque in each log.
 
-    ``uncertain`` are the distributions of the numbers of the model (by default those of ``data/uncertainties.toml``),
+    ``distributions`` are those of the numbers of the model (by default those of ``data/uncertainties.toml``),
     ``joint`` those among them that a calibration left correlated. They are unknowns beside the preloads, the same for
     both logs, and so is, for each log by itself, its oil temperature: 2 K either way where the log has it and the oil a
     grade, otherwise 10 K. A hotter oil then shows in how the torque goes with the speed, or makes the interval wider
@@ -137,7 +138,7 @@ def preload_change(
     """
     subject = with_preload(Configuration(model, screw, lubricant))
     raise_if_any(_faults_of_options(free, tolerance))
-    known = held_numbers(subject, uncertain)
+    known = held_numbers(subject, distributions)
     logs = {"new": new, "worn": worn}
     logs = {label: TorqueLog.of(data) for label, data in logs.items() if data is not None}
     raise_if_any(_faults_of_logs(logs))
@@ -147,7 +148,7 @@ def preload_change(
     found = posterior(subject, {n: Groups.of(one.fit) for n, one in readings.items()}, fits, known, joint, seed)
     labels = list(readings)
     estimates = {label: _estimate(subject, found, readings[label], place) for place, label in enumerate(labels)}
-    then, now = estimates.get("new") or _nominal(subject, uncertain), estimates["worn"]
+    then, now = estimates.get("new") or _nominal(subject, distributions), estimates["worn"]
     logarithm = now.logarithm.less(then.logarithm)
     other: list[Alternative] = []
     if logarithm.told and now.subject is not None:
@@ -213,7 +214,7 @@ def held_numbers(subject: Configuration, uncertain: Mapping[str, Distribution] |
     if not subject.lubricant.follows_temperature:
         conditions.add(VISCOSITY)
     unknown = [name for name in uncertain if name not in subject.inputs]
-    raise_if_any([Fault(f"service.uncertain.{n}", "unknown name", "", nearest(n, subject.inputs)) for n in unknown])
+    raise_if_any([Fault(f"service.distributions.{n}", "unknown name", "", nearest(n, subject.inputs)) for n in unknown])
     return {name: distribution for name, distribution in uncertain.items() if name not in conditions}
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, InputError, accepts_units, raise_if_any
+from ballscrew.basis.errors import Fault, InputError, accepts_units, raise_if_any, renamed_keyword
 from ballscrew.basis.quantities import AngularSpeed, Temperature, Torque
 from ballscrew.basis.records import Message
 from ballscrew.engine.evaluation.plan import Configuration
@@ -35,6 +35,7 @@ SAMPLES = 512
 MINIMUM_SAMPLES = 16
 
 
+@renamed_keyword("uncertain", "distributions")
 @accepts_units("service")
 def preload_of_torque(
     model: FrictionModel,
@@ -45,14 +46,14 @@ def preload_of_torque(
     screw_speed: AngularSpeed,
     temperature: Temperature | None = None,
     torque_deviation: Torque = 0.0,
-    uncertain: Mapping[str, Distribution] | None = None,
+    distributions: Mapping[str, Distribution] | None = None,
     joint: JointNormal | None = None,
     seed: int = 0,
 ) -> PreloadEstimate:
     """Preload, N, of a nut that loses this torque without load at a speed: the median, and its interval.
 
     Returns a :class:`~ballscrew.evidence.service.preload_estimate.PreloadEstimate` of the ``screw`` by the ``model``
-    with its ``lubricant``. ``torque`` (N m) and ``screw_speed`` (rad/s) are one positive number each. ``uncertain``
+    with its ``lubricant``. ``torque`` (N m) and ``screw_speed`` (rad/s) are one positive number each. ``distributions``
     are the distributions of the numbers of the model, by default those of ``data/uncertainties.toml``, and ``joint``
     those among them that a calibration left correlated; ``seed`` is that of the samples.
 
@@ -72,7 +73,7 @@ def preload_of_torque(
     if not torque_deviation >= 0:
         raise InputError(Fault("service.torque_deviation", "must not be negative", f"{torque_deviation:g}"))
     oil = lubricant if temperature is None else lubricant.at(temperature)
-    known = held_numbers(subject, uncertain)
+    known = held_numbers(subject, distributions)
     together = () if joint is None else joint.names
     sampler = Sampler(subject, {n: one for n, one in known.items() if n not in together}, {}, (), joint)
     shares = sobol_sequence(len(sampler.names) + 2, SAMPLES, seed)

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ballscrew.faces.cli.start import INTERRUPTED
+
 if TYPE_CHECKING:
     from ballscrew.questions.shared.every_row import OfRows, RowCase
 
@@ -91,11 +93,11 @@ def cases_of_rows(
 
 
 def say_of_rows(notes: Sequence[str], interrupted: bool) -> None:
-    """What is to be said of rows on the error stream; after Ctrl-C the command ends as it always does."""
+    """Print what is to be said of rows on the error stream; after Ctrl-C the command ends with its exit code."""
     for note in notes:
         typer.echo(note, err=True)
     if interrupted:
-        raise KeyboardInterrupt
+        raise typer.Exit(INTERRUPTED)
 
 
 def say_engine(attributes: Mapping[str, Any]) -> None:

@@ -49,17 +49,25 @@ from ballscrew.faces.cli import (
 )
 from ballscrew.faces.cli.common_options import CALIBRATION_NAMES, MODEL_NAMES, compiling_on_terminal
 from ballscrew.faces.cli.flags import with_flags
+from ballscrew.faces.cli.start import INTERRUPTED
 
 
 class _Command(TyperCommand):
     """A command that says on a terminal what it compiles, and whose help names models and calibrations.
 
+    Ctrl-C ends it with a line on how far it came, what is kept and how to go on.
+
     Their source is slow to load: only when it is asked for.
     """
 
     def invoke(self, ctx: Any) -> Any:
-        with compiling_on_terminal():
-            return super().invoke(ctx)
+        try:
+            with compiling_on_terminal():
+                return super().invoke(ctx)
+        except KeyboardInterrupt as error:
+            for line in getattr(error, "__notes__", ["interrupted, nothing is kept · run the same again"]):
+                typer.echo(line, err=True)
+            raise typer.Exit(INTERRUPTED) from None
 
     def format_help(self, ctx: Any, formatter: Any) -> None:
         from ballscrew.cases.schema.case_schema import DEFAULT_MODEL, MODELS

@@ -12,8 +12,28 @@ from typing import Any
 def progress(what: str, cost: str = "") -> Generator[Callable[[int, int], None]]:
     """A progress bar on the error stream, for ``done(finished, total)`` points; silent where nobody looks.
 
-    Above it stands what the work will cost, where that is known before it starts.
+    Above it stands what the work will cost, where that is known before it starts. An interrupt says how far it came.
     """
+    reached = (0, 0)
+    with _bar(what, cost) as show:
+
+        def done(finished: int, total: int) -> None:
+            nonlocal reached
+            reached = finished, total
+            show(finished, total)
+
+        try:
+            yield done
+        except KeyboardInterrupt as error:
+            if not getattr(error, "__notes__", ()):  # a store says itself what it keeps
+                finished, total = reached
+                share = f"at {finished:,} of {total:,}" if total else "at the beginning"
+                error.add_note(f"{what}: interrupted {share}, nothing is kept · run the same again")
+            raise
+
+
+@contextlib.contextmanager
+def _bar(what: str, cost: str) -> Generator[Callable[[int, int], None]]:
     if not sys.stderr.isatty():
         yield _silent
         return

@@ -112,7 +112,7 @@ def sweep(
         (loaded,) = (each.case for each in cases.found.values())
     plan = studies.plan(loaded, options.vary, options.outputs, to, heats=self_heating, banded=banded)
     studies.check_store_options(to, verify=verify, trust=trust)
-    with _report_interruption(), studies.workers(scheduler, to) as cluster, progress("sweep") as done, log_on_stderr():
+    with _report_stop(), studies.workers(scheduler, to) as cluster, progress("sweep") as done, log_on_stderr():
         dataset = studies.sweep(loaded, plan, done, to, cluster, verify=verify, trust=trust)
         if banded:
             from ballscrew.questions.sweep.band import INNER, with_band  # for those only who ask
@@ -205,14 +205,10 @@ def _of_rows(
 
 
 @contextlib.contextmanager
-def _report_interruption() -> Generator[None]:
-    """Print how far an interrupted sweep into a store came, and that it resumes from there."""
+def _report_stop() -> Generator[None]:
+    """Print how far a sweep into a store came that stopped, and that it resumes from there."""
     try:
         yield
-    except KeyboardInterrupt as error:
-        for line in getattr(error, "__notes__", ()):
-            typer.echo(line, err=True)
-        raise  # the exit code is that of an interrupt
     except OSError as error:
         from ballscrew.engine.sweeps.store import UnfinishedSweepError
 

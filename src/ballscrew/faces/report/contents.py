@@ -75,7 +75,7 @@ def content(case: case_file.Case, done: Done | None = None, samples: int | None 
     beside = band_report.vendor_blocks(case)
     cycle = _duty(case)
     sections = [
-        Section("Answer", [band_report.answer(found, uncertain)]),
+        Section("Answer", _answer(cycle, band_report.answer(found, uncertain), case)),
         _checks(case, found, cycle),
         Section("Result", [Columns.of(run_report.results(found, bands)), *_drawing(found)]),
         Section("Where the torque comes from", run_report.parts(found)),
@@ -101,6 +101,19 @@ def _duty(case: case_file.Case) -> DutyReport | None:
     if case.axis is None or case.motion is None:
         return None
     return duty(case)
+
+
+def _answer(cycle: DutyReport | None, of_point: Paragraph, case: case_file.Case) -> list[Block]:
+    """The answer to what the case asks: over its cycle where it has one, and then at the operating point."""
+    if cycle is None:
+        return [of_point]
+    from ballscrew.questions.duty.sheet import answers
+
+    of_cycle = " ".join(f"{sentence(text)}." for text in answers(cycle))
+    return [
+        Paragraph(of_cycle, strong=True),
+        Paragraph(f"At {descriptions.operating_point(case)} alone: {of_point.text}"),
+    ]
 
 
 def _checks(case: case_file.Case, found: Run, cycle: DutyReport | None) -> Section:

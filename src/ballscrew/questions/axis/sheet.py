@@ -86,9 +86,14 @@ def _places(report: ChainReport) -> Table:
         [place, *(Number(float(report.series[name][index]), SERIES[name]) for name in names)]
         for index, place in _shown_places(report).items()
     ]
-    friction = units.shown(report.guide_friction, FRICTION) if is_known else ""
-    notes = [f"Lost motion from the {friction} of the guides; backlash comes on top."] if is_known else []
+    notes = [_origin_of_lost_motion(report)] if is_known else []
     return Table("places", "Nut at", ("", *(_PLACES[name] for name in names)), rows, notes)
+
+
+def _origin_of_lost_motion(report: ChainReport) -> str:
+    is_preloaded = bool(getattr(report.case.nut, "preload", 0))
+    backlash = "the preloaded nut has no backlash" if is_preloaded else "backlash comes on top"
+    return f"Lost motion from the {units.shown(report.guide_friction, FRICTION)} of the guides; {backlash}."
 
 
 def _shown_places(report: ChainReport) -> dict[int, str]:

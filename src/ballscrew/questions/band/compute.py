@@ -198,7 +198,7 @@ def _arguments(
         "model": case.model,
         "screw": case.screw,
         "lubricant": case.lubricant,
-        "uncertain": uncertain,
+        "distributions": uncertain,
         "joint": joint,
         "alternatives": alternatives(case),
         "level": LEVEL if options.level is None else options.level,

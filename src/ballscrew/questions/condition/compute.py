@@ -68,7 +68,7 @@ def of_files(
             case.model, case.screw, case.lubricant, tests,
             screw_speed=speed, baseline=options.baseline, false_alarms=options.false_alarms,
             tolerance=options.tolerance, reference_temperature=options.reference_temperature,
-            uncertain=distributions(case), joint=joint_of(case, all_of(case)), kind=options.kind,
+            distributions=distributions(case), joint=joint_of(case, all_of(case)), kind=options.kind,
             inertia=options.inertia,
         )  # fmt: skip
     except InputError as error:

@@ -44,7 +44,7 @@ def band(
     try:
         found = duty_band(
             report.duty,
-            uncertain=uncertain,
+            distributions=uncertain,
             beside=report.case.uncertain_supports,
             samples=SAMPLES if samples is None else samples,
             done=done,

@@ -31,6 +31,7 @@ from ballscrew.basis.sheet import (
     Share,
     Sheet,
     Table,
+    words,
 )
 from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.schema.duty_schema import MOTIONS
@@ -79,7 +80,7 @@ def sheet(report: DutyReport, bands: DutyBandReport | None = None) -> Sheet:
         title(report),
         [
             Lines([Line(text, "small") for text in _assumptions(report)], detail=True),
-            Lines([Line(record.text, "verdict") for record in verdicts(report)]),
+            Lines([Line(text, "verdict") for text in answers(report)]),
             Lines([Line(record.text, "warning", record.name) for record in warnings(report)]),
             _cycle(report, bands),
             _parts(report),
@@ -92,6 +93,16 @@ def sheet(report: DutyReport, bands: DutyBandReport | None = None) -> Sheet:
             _states(report),
         ],
     )
+
+
+def answers(report: DutyReport) -> Iterator[str]:
+    """What a cycle asks of the motor and costs in life, then brake, motor and checks, a sentence each."""
+    numbers = report.numbers
+    peak, rms = (words(Number(numbers[name], _TORQUE)) for name in ("torque_peak", "torque_rms"))
+    life = words(Number(numbers["life_time"], NUMBERS["life_time"]))
+    known = f"; the L10 life is {life}" if math.isfinite(numbers["life_time"]) else ""
+    yield f"the motor gives {peak} at the peak and {rms} RMS{known}"
+    yield from (record.text for record in verdicts(report))
 
 
 def title(report: DutyReport) -> str:
@@ -200,8 +211,8 @@ def _heat(report: DutyReport) -> Iterator[Block]:
     rows: list[list[Cell]] = []
     for name, parts in report.energy_lost_in.items():
         largest = sorted(parts.items(), key=lambda part: -part[1])[:_MECHANISMS]
-        words = ", ".join(f"{part} {units.shown(energy / time, _POWER, 3)}" for part, energy in largest)
-        rows.append([name, Number(heat[name], _POWER, 3), Share(heat[name] / total, bar=False), words])
+        causes = ", ".join(f"{part} {units.shown(energy / time, _POWER, 3)}" for part, energy in largest)
+        rows.append([name, Number(heat[name], _POWER, 3), Share(heat[name] / total, bar=False), causes])
     rows.append(["sum", Number(total, _POWER, 3), Share(1.0, bar=False), ""])
     headings = ("", "mean", "share", "most of it by")
     yield Table("elements", "Heat by element", headings, rows, summed=True, detail=True)

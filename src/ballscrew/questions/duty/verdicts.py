@@ -102,8 +102,14 @@ def _brake(report: DutyReport) -> Record:
         least = min(found.safety for found in brake.conditions)
         message = Message(
             "stays with the motor off: friction from rest is at least {safety} times the torque of the load",
-            {"safety": Measured(least, digits=3)},
+            {"safety": Measured(least, digits=4)},
         )
+        if least < brake.brake_factor:
+            margin = {"margin": Measured(100 * (least - 1), digits=2), "factor": Measured(brake.brake_factor, digits=6)}
+            message = Message(
+                "{stays}: a margin of {margin} % only, less than the factor {factor} of a brake; do not rely on it",
+                {"stays": message, **margin},
+            )
     else:
         goes = _way(report)
         everywhere = len(moving) == len(brake.conditions)

@@ -128,7 +128,8 @@ def text(found: Selection, ranked: Sequence[Ranked], most: int = USUAL_LINES) ->
     if missing and not reason:
         lines += ["", wrapped(f"a candidate holds only once all checks are judged: give {', '.join(missing)}")]
     elif found.best is None and not reason:
-        lines += ["", "no candidate holds within the validity of the model: look at what fails first, and by how much"]
+        which = "none of the candidates judged so far" if found.interrupted else "no candidate"
+        lines += ["", f"{which} holds within the validity of the model: look at what fails first, and by how much"]
     return "\n".join(lines)
 
 

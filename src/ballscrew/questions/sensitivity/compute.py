@@ -50,7 +50,7 @@ def sensitivity(
             case.model,
             case.screw,
             case.lubricant,
-            uncertain={name: u.distribution for name, u in uncertain.items()},
+            distributions={name: u.distribution for name, u in uncertain.items()},
             output=options.output.replace(".", "_"),
             method=cast("Method", options.method),
             samples=options.samples,

@@ -94,7 +94,7 @@ def of_logs(
         change = preload_change(
             case.model, case.screw, case.lubricant, new, worn,
             free=[PRELOAD, *(name for name in options.free if name not in (PRELOAD, "preload"))],
-            uncertain=uncertain, joint=joint_of(case, all_of(case)), tolerance=options.tolerance,
+            distributions=uncertain, joint=joint_of(case, all_of(case)), tolerance=options.tolerance,
             kind=options.kind, inertia=options.inertia,
             dynamic_load_rating=case.listed.get("dynamic_load_rating"), done=done,
         )  # fmt: skip
@@ -110,7 +110,7 @@ def of_torque(case: Case, measured: Reading) -> ServiceReport:
         found = preload_of_torque(
             case.model, case.screw, case.lubricant,
             torque=measured.torque, screw_speed=measured.screw_speed, temperature=measured.temperature,
-            torque_deviation=measured.torque_deviation, uncertain=distributions(case),
+            torque_deviation=measured.torque_deviation, distributions=distributions(case),
             joint=joint_of(case, all_of(case)),
         )  # fmt: skip
     except InputError as error:

@@ -117,5 +117,6 @@ def each(
         raise_if_any(by_row)
     notes = [*map(str, by_row), *([f"{len(faults)} of {len(rows)} rows left out"] if faults else [])]
     if interrupted:
-        notes.append(f"interrupted: {len(found)} of {len(rows)} rows are done, the last is {list(found)[-1]}")
+        done_by_then = f"{len(found)} of {len(rows)} are done and kept, the last is {list(found)[-1]}"
+        notes.append(f"interrupted: {done_by_then} · run the same again for all")
     return OfRows(found, notes, interrupted)

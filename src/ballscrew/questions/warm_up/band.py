@@ -64,7 +64,7 @@ def band(
     try:
         found = warm_up_band(
             duty, surroundings, time=hours * HOUR, cool_down=cool_down * HOUR, shaft_length=length, joint=joint,
-            uncertain={name: one.distribution for name, one in inputs.items() if name not in together},
+            distributions={name: one.distribution for name, one in inputs.items() if name not in together},
             samples=samples, level=0.95 if level is None else level, done=done,
         )  # fmt: skip
     except InputError as error:
