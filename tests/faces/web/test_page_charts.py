@@ -185,3 +185,9 @@ def test_answers_that_are_kept_are_bounded_by_their_size(visit):
         )
     )
     assert found == [1, 2, 3, 4, 5, 6, 7, 7, 1]
+
+
+def test_the_torque_has_its_width_on_a_small_screen(visit):
+    here = visit(width=1024, height=768).open("#A=paper&band=0")
+    here.page.wait_for_selector("#torque-chart .main-svg")
+    assert here.page.locator("#torque-chart .plot .bg").first.bounding_box()["width"] > 400

@@ -3,6 +3,7 @@
 import csv
 import io
 import re
+import urllib.parse
 from pathlib import Path
 
 import numpy as np
@@ -39,6 +40,14 @@ def rows_of_chart(here):
     here.page.wait_for_selector("#nut-unrolled .main-svg")
     text = here.download("#nut-unrolled button:text-is('CSV')").decode()
     return list(csv.reader(io.StringIO(text)))[1:]
+
+
+def test_the_balls_of_a_rigid_double_nut_have_a_bar_for_each_half(visit):
+    here = visit().open("#" + urllib.parse.urlencode({"A": DOUBLE, "A.tables": '{"bodies": null}', "band": "0"}))
+    here.see("#balls-chart").page.locator("#balls-chart").scroll_into_view_if_needed()
+    here.page.wait_for_selector("#balls-chart .main-svg")
+    heights = "all => all.map((one) => one.getBoundingClientRect().height).filter((one) => one > 5)"
+    assert len(here.page.eval_on_selector_all("#balls-chart .bars path", heights)) == 2
 
 
 def test_a_double_nut_between_elastic_bodies(visit, server):

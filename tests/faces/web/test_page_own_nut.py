@@ -42,8 +42,15 @@ def test_few_numbers_become_a_design(visit):
     value, low, high, source = row(page, "ball diameter")
     assert (value, low, high) == ("5.696 mm", "5.24 mm", "7.063 mm")
     assert "ISO 3408-5" in source
+    page.evaluate("scrollTo(0, document.body.scrollHeight)")
+    boxes = [page.locator(f"#own-nut {part}").bounding_box() for part in ("form", "table")]
+    assert boxes[0]["y"] + boxes[0]["height"] <= boxes[1]["y"]  # the form does not lie over its table
     page.click("#own-nut-use")
     page.wait_for_selector("#own-nut >> text=Added as design A: 40x10.")
+    page.wait_for_function("""() => {
+      const { top, bottom } = document.querySelector("#summary").getBoundingClientRect();
+      return top >= 0 && bottom <= innerHeight;
+    }""")
     # the form of the design, which is made anew after the words are there
     page.wait_for_function("[...document.querySelectorAll('input')].some((one) => one.value === '5.696')")
 
@@ -58,6 +65,10 @@ def test_numbers_that_do_not_go_together_are_named(visit):
     page.fill("#own-nut-starts", "1000000")
     page.wait_for_selector("#own-nut .fault >> text=leaves no room for balls")
     assert "0 m" not in page.inner_text("#own-nut .fault")  # that of a ball that nobody has typed
+    page.fill("#own-nut-starts", "")
+    page.fill("#own-nut-preload", "500 %")
+    page.wait_for_selector("#own-nut .fault >> text=must be at most")
+    assert page.inner_text("#own-nut .fault").startswith("preload (own nut): ")
     page.fill("#own-nut-starts", "")
     page.fill("#own-nut-ball_diameter", "60")
     page.wait_for_selector("#own-nut .fault")

@@ -1,5 +1,6 @@
 """The cards of sensitivity, optimisation and condition, and long requests that go on as jobs by themselves."""
 
+import itertools
 import json
 import urllib.parse
 
@@ -42,6 +43,12 @@ def test_sources_of_the_band(visit, server):
     assert abs(number(here, "sensitivity", f"'{first['name']}-1'") / spread - 1) < 1e-12
     page.locator("#sensitivity-chart").scroll_into_view_if_needed()
     page.wait_for_selector("#sensitivity-chart .main-svg")
+    names = "all => all.map((one) => one.getBoundingClientRect()).sort((a, b) => a.top - b.top)"
+    boxes = page.eval_on_selector_all(
+        "#sensitivity-chart .ytick text", f"{names}.map(({{ top, bottom }}) => [top, bottom])"
+    )
+    assert len(boxes) == min(10, len(indices["inputs"]))
+    assert all(above[1] <= below[0] + 1 for above, below in itertools.pairwise(boxes))  # no name lies over another
     title, base, width = page.eval_on_selector(
         "#sensitivity-chart .plot",
         "({ layout, data }) => [layout.xaxis.title.text, data[1].base[0], data[1].x[0]]",

@@ -22,7 +22,7 @@ const GROUPED = [
   /^([-+]?\d{1,3}(?:\.\d{3})+),(\d*)$/,
   /^([-+]?\d{1,3}(?:,\d{3})+)\.(\d*)$/,
 ];
-const PLAIN = /^[-+]?(?:\d+\.?\d*|\.\d+)$/;
+const PLAIN_NUMBER = /^[-+]?(?:\d+\.?\d*|\.\d+)$/;
 /** A number that could be two, where people write a decimal point: 4,000. */
 const EITHER = /^[-+]?\d*[1-9]\d*,\d{3}$/;
 const QUANTITY = /^([-+\d.,' \u00a0\u2009\u202f]*(?:e[-+]?\d+)?)(.*)$/i;
@@ -149,7 +149,7 @@ function numberIn(text) {
   const grouped = GROUPED.map((pattern) => pattern.exec(mantissa)).find((match) => match);
   if (!grouped && language !== "de" && EITHER.test(mantissa)) return Number.NaN;
   const plain = grouped ? `${grouped[1].replace(/[^-+\d]/g, "")}.${grouped[2] ?? ""}` : mantissa.replace(",", ".");
-  return PLAIN.test(plain) ? Number(`${plain}e${exponent}`) : Number.NaN;
+  return PLAIN_NUMBER.test(plain) ? Number(`${plain}e${exponent}`) : Number.NaN;
 }
 
 /**

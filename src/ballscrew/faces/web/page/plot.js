@@ -382,7 +382,8 @@ class Charts {
     for (const [id, chart] of this.#charts) {
       this.#pending.delete(id);
       showLegend(id, chart.legend(palette));
-      this.#show(id, palette, more);
+      const isTall = more?.height && byId(id).classList.contains("tall");
+      this.#show(id, palette, isTall ? { ...more, height: 2 * more.height } : more);
     }
   }
 

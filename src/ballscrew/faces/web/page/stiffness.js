@@ -120,8 +120,9 @@ function drawBalls({ forward_load: forward, backward_load: backward, count }, ha
     { name: text("stiffness.other"), values: converted(backward) },
   ].filter(({ values }) => values.some((value) => value > 0));
   const y = parts.titled("contact_load", text("stiffness.load"));
-  const alike = places.length === 1 && Array.isArray(count);
-  const x = text(alike ? "stiffness.alike" : "stiffness.along");
+  // a bar for all balls of a half
+  const alike = places.length <= halves && Array.isArray(count);
+  const x = text(alike ? (halves > 1 ? "nut_unrolled.half" : "stiffness.alike") : "stiffness.along");
   draw("balls-chart", {
     name: "load_of_each_ball",
     caption: text("stiffness.balls"),

@@ -1,7 +1,7 @@
 // The card of a nut of one's own, which becomes a design.
 
 import * as designs from "../designs.js";
-import { element } from "../dom.js";
+import { byId, element } from "../dom.js";
 import { ownNut } from "../own_nut.js";
 import { LETTERS } from "../state.js";
 import { store } from "../store.js";
@@ -17,6 +17,7 @@ export function setUp(holder) {
     words.textContent = left
       ? text("open.no_room", { names: name, most: LETTERS.length })
       : text("own_nut.done", { name, letter: LETTERS[store.state.show] });
+    if (!left) byId("results").scrollIntoView();
   });
   return { follow };
 }

@@ -32,7 +32,7 @@ const [LIGHT, DARK] = ["#56B4E9", "#0072B2"];
  * @returns {import("../cards.js").Card}
  */
 export function setUp(holder) {
-  const chart = element("div", { id: CHART, class: "chart whole-width", hidden: true });
+  const chart = element("div", { id: CHART, class: "chart tall whole-width", hidden: true });
   const about = [`${text("sensitivity.about")} `, documented("howto/halve_the_band", `${text("sensitivity.how_to")}.`)];
   return askedByButton(holder, "sensitivity", about, "sensitivity.start", [chart], show, {
     names: ["output", "method"],
