@@ -18,6 +18,7 @@ from ballscrew.questions.duty import document as duty_documents
 from ballscrew.questions.duty.compute import duty as duty_of
 from ballscrew.questions.duty.sheet import sheet as duty_sheet
 from ballscrew.questions.run import document as run_documents
+from ballscrew.questions.run import text as run_text
 from ballscrew.questions.run.compute import run
 from ballscrew.questions.service import compute as service
 from ballscrew.questions.service import document as service_documents
@@ -97,6 +98,23 @@ def test_the_band_says_where_the_full_bath_lies():
     alone = dataclasses.replace(report, band=dataclasses.replace(report.band, alternatives={}))
     said = {record.id: record for record in band_documents.verdicts(case, alone)}["band.flooded"]
     assert said.text.startswith("the band takes oil to come back into the track late")
+
+
+@pytest.mark.parametrize("load", ["500 N", "5 kN"])
+def test_the_band_holds_both_torques_that_are_named(load):
+    """Also under a light load, where balls in thick oil skid in a full bath alone."""
+    tables = case_file.read(ROOT / "examples" / "feed_drive.toml")
+    tables["lubricant"] = {"oil": "Arcanol LOAD150", "temperature": "-10 degC"}
+    tables["operation"]["axial_load"] = load
+    case = case_file.build(tables)
+    report = band.band(case, band.BandOptions(samples=512))
+    found, both = run(case).friction, report.band["screw_torque"].both
+    assert found.starvation
+    assert both.low <= found.screw_torque < found.flooded_torque == report.flooded_torque <= both.high
+    assert "inlet" in report.band.alternatives
+    rows = dict(zip(*(column.cells for column in run_text.results_table(run(case)).columns), strict=True))
+    assert rows["friction torque on the screw"] == f"{found.screw_torque:.4g} N m"
+    assert rows["friction torque on the screw in a full bath of oil"] == f"{found.flooded_torque:.4g} N m"
 
 
 def tables_of_duty(temperature, *settings):

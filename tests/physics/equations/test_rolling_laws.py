@@ -173,5 +173,11 @@ def test_starvation_factor(S, factor):
     assert rolling.rolling_starvation_factor(S) == pytest.approx(factor, rel=RELATIVE)
 
 
+@pytest.mark.parametrize("S", [1e-7, 0.2, 1.0, 10.0, 1e4])
+def test_the_film_ratio_of_a_starvation_factor_is_its_inverse(S):
+    factor = rolling.rolling_starvation_factor(S)
+    assert rolling.inlet_film_ratio(factor) == pytest.approx(S, rel=1e-9)
+
+
 def test_an_ample_supply_starves_nothing():
     assert rolling.rolling_starvation_factor(1e6) == pytest.approx(1.0, rel=1e-4)

@@ -25,6 +25,9 @@ from ballscrew.physics.friction import directions
 
 #: How the outputs begin that say for which reason a sample is not valid.
 VALIDITY = "validity_"
+#: Slots whose laws are drawn wherever they give a torque: whether a track is full of oil is not measured, and answers
+#: name the torque of a full bath whatever balls do in it.
+NOT_MEASURED = frozenset({"inlet"})
 #: Points that a Sobol' sequence of 30 bits has.
 _MOST_SAMPLES = 2**30
 Values = NDArray[np.float64]
@@ -125,7 +128,8 @@ class BandEvaluator:
                 result = dataclasses.replace(subject, model=candidate.model).at(point)
                 with np.errstate(all="ignore"):
                     ratio = np.asarray(result.screw_torque, dtype=float) / central.screw_torque
-                    usable = _as_valid(result.validity, central.validity) & np.isfinite(ratio) & (ratio > 0)
+                    holds = _as_valid(result.validity, central.validity) | (candidate.slot in NOT_MEASURED)
+                    usable = holds & np.isfinite(ratio) & (ratio > 0)
                 ratios.setdefault(candidate.slot, []).append((candidate.name, np.where(usable, ratio, np.nan)))
         return cls(sampler, central, ratios)
 

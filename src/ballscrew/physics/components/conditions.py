@@ -59,6 +59,8 @@ class ContactConditions:
     minimum_film_thickness: Annotated[Length, Info("h", "minimum film thickness", "um")] = None
     film_parameter: Annotated[Ratio, Info(r"\lambda", "film thickness / combined roughness")] = None
     inlet_film_factor: Annotated[Ratio, Info(r"\phi_T", "what the heat of the inlet leaves of the film")] = None
+    #: What the oil at the inlet suffices for of the film.
+    inlet_supply_factor: Ratio = None
     #: Of the law in the slot ``full_film``; None where there is none, and the coefficient of the friction law counts.
     full_film_friction_coefficient: Ratio | None = None
 

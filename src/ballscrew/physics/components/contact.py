@@ -164,8 +164,8 @@ def rolling_contact(
     )
     known = vars(conditions)  # filled in stages, here and nowhere else: a new object for each costs more than its law
     inlet = laws.inlet(conditions)
-    known["inlet_film_factor"] = inlet.film
-    thickness = inlet.film * laws.film(conditions)
+    known["inlet_film_factor"], known["inlet_supply_factor"] = inlet.film, inlet.supply
+    thickness = inlet.film * inlet.supply * laws.film(conditions)
     known["minimum_film_thickness"] = namespace(v, thickness).where(v == 0, 0.0, thickness)
     known["film_parameter"] = laws.film_parameter(conditions)
     if laws.full_film is not None:

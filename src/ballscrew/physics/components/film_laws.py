@@ -72,6 +72,9 @@ def literal_film_parameter(conditions: ContactConditions) -> Ratio:
 
 # -- the inlet ------------------------------------------------------------------------------------
 
+#: Share of the rolling force that an inlet leaves which has as much oil as the film of a full one.
+JUST_ENOUGH = rolling.rolling_starvation_factor(1.0)
+
 
 @law_traits(excluded="leaves the heat of the inlet out: a known error, and no doubt")
 def ideal_inlet(conditions: ContactConditions) -> InletFactors:
@@ -84,9 +87,10 @@ def ideal_inlet(conditions: ContactConditions) -> InletFactors:
 class Inlet(ByValue):
     """An inlet that its own shear heats (Gupta1992) and that may not be full.
 
-    The heating thins the film and the rolling force alike; missing oil lowers the rolling force only. The oil that the
-    balls push aside does not flow back in time at high speed and viscosity (SKF2018: kinematic replenishment); a
-    supply that is known to be short is told by ``inlet_film_ratio`` (BibouletHoupertLines2010).
+    The heating thins the film and the rolling force alike. The oil that the balls push aside does not flow back in time
+    at high speed and viscosity (SKF2018: kinematic replenishment); a supply that is known to be short is told by
+    ``inlet_film_ratio`` (BibouletHoupertLines2010). Missing oil lowers the rolling force, and what is left of that says
+    how much oil there is: the film is no thicker than the oil before it, which counts from a ninth of the force down.
     """
 
     inlet_film_ratio: Annotated[
@@ -117,7 +121,11 @@ class Inlet(ByValue):
             self.replenishment_constant,
         )
         supplied = rolling.rolling_starvation_factor(self.inlet_film_ratio)
-        return InletFactors(heating, heating * supplied * replenished)
+        left = supplied * replenished
+        xp = namespace(left)
+        is_short = left < JUST_ENOUGH
+        supply = xp.where(is_short, rolling.inlet_film_ratio(xp.where(is_short, left, JUST_ENOUGH)), 1.0)
+        return InletFactors(heating, heating * supplied * replenished, supply)
 
 
 @law_traits(alternative=True)

@@ -53,10 +53,11 @@ class FilmParameterLaw(Protocol):
 
 
 class InletFactors(NamedTuple):
-    """Factors of the inlet on film thickness and rolling force."""
+    """Factors of the inlet: its heat on the film, all it does on the rolling force, missing oil on the film."""
 
     film: Ratio
     rolling: Ratio
+    supply: Ratio = 1.0
 
 
 class InletLaw(Protocol):

@@ -240,7 +240,8 @@ def arana_traction(conditions: ContactConditions) -> Ratio:
 
     The viscosity is that at the mean pressure, the coefficient in the Eyring stress that at the greatest one, both by
     the pressure modulus of the oil where that is known, else by Roelands1966; the film is the central one with the
-    heat of its inlet. Said to be within 0.005 of friction measured between two discs (Arana2019, as quoted elsewhere).
+    heat and the supply of its inlet. Said to be within 0.005 of friction measured between two discs (Arana2019, as
+    quoted elsewhere).
     """
     oil, p_m, u_s = conditions.lubricant, conditions.mean_pressure, conditions.nominal_sliding_speed
     loaded, moving = p_m > 0, u_s > 0
@@ -250,7 +251,7 @@ def arana_traction(conditions: ContactConditions) -> Ratio:
     greatest = xp.maximum(conditions.maximum_pressure, 1e6)
     alpha = rheology.secant_pressure_viscosity_coefficient(oil.viscosity, oil.viscosity_under(greatest), greatest)
     tau_E = traction.arana_eyring_stress(oil.limiting_shear_coefficient, alpha)
-    rate = _shear_rate(conditions, conditions.inlet_film_factor)
+    rate = _shear_rate(conditions, conditions.inlet_film_factor * conditions.inlet_supply_factor)
     stress = traction.eyring_shear_stress(oil.viscosity_under(safe), rate, tau_E)
     limit = traction.limiting_shear_stress(safe, oil.limiting_shear_coefficient)
     return xp.where(loaded & moving, traction.film_friction_coefficient(xp.minimum(stress, limit), safe), 0.0)

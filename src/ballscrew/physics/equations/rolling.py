@@ -289,6 +289,21 @@ def rolling_starvation_factor(inlet_film_ratio: Ratio) -> Ratio:
     return (S**2 + 162.8 * S) / (S**2 + 193.1 * S + 1257)
 
 
+def inlet_film_ratio(rolling_starvation_factor: Ratio) -> Ratio:
+    r"""Film where the inlet begins over the fully flooded one, of an inlet that leaves this share of the rolling force.
+
+    .. math:: S = \frac{2514 \phi_S}{162.8 - 193.1 \phi_S
+        + \sqrt{\left(162.8 - 193.1 \phi_S\right)^2 + 5028 \phi_S \left(1 - \phi_S\right)}}
+
+    The inverse of :func:`rolling_starvation_factor`, BibouletHoupertLines2010 (44): 0.24 where 0.03 of the force is
+    left. Without limit for a full inlet.
+    """
+    phi_S = rolling_starvation_factor
+    xp = namespace(phi_S)
+    b = 162.8 - 193.1 * phi_S
+    return 2514 * phi_S / (b + xp.sqrt(b**2 + 5028 * phi_S * (1 - phi_S)))
+
+
 def replenishment_factor(
     kinematic_viscosity: KinematicViscosity,
     entrainment_speed: Speed,

@@ -2,7 +2,8 @@
 
 One rule for all answers. Which of the two torques a ball screw has is not measured: the factor that starves is one of
 bearings (:func:`~ballscrew.physics.equations.rolling.replenishment_factor`), and in the cold it may make friction fall
-that would rise with a full track. A supply that is known to be short (``inlet_film_ratio``) is left as it is given.
+that would rise with a full track, and at last be that of contacts without a film. A supply that is known to be short
+(``inlet_film_ratio``) is left as it is given.
 """
 
 from __future__ import annotations
@@ -47,8 +48,13 @@ class BothTorques(NamedTuple):
 
 
 def differs(given: Any, flooded: Any) -> Any:
-    """Mask: the torque of a full bath is larger by more than :data:`LARGEST_DIFFERENCE`; False where one is NaN."""
-    return as_array(flooded) > (1 + LARGEST_DIFFERENCE) * as_array(given)
+    """Mask: one of the torques is larger by more than :data:`LARGEST_DIFFERENCE`; False where one is NaN.
+
+    It is that of the full bath, but far beyond what the heat of the inlet is known for: there a thick film may rub less
+    than none.
+    """
+    one, other, most = as_array(given), as_array(flooded), 1 + LARGEST_DIFFERENCE
+    return (other > most * one) | (one > most * other)
 
 
 def most_starved(given: Any, flooded: Any) -> tuple[float, float] | None:
@@ -58,7 +64,8 @@ def most_starved(given: Any, flooded: Any) -> tuple[float, float] | None:
     if not np.any(apart):
         return None
     with np.errstate(over="ignore"):  # infinite where there is no friction as given
-        ratio = np.where(apart, flooded / np.maximum(given, np.finfo(float).tiny), 0.0)
+        tiny = np.finfo(float).tiny
+        ratio = np.where(apart, np.maximum(flooded, given) / np.maximum(np.minimum(given, flooded), tiny), 0.0)
     place = np.unravel_index(int(np.argmax(ratio)), ratio.shape)
     return float(given[place]), float(flooded[place])
 

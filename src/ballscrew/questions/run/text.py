@@ -73,7 +73,7 @@ def print_run(run: Run) -> None:
     ):
         line(text, "dim")
     console.print()
-    console.print(_results(run))
+    console.print(results_table(run))
     for text in rules_contradict(run):
         line(text, "dim")
     for record in run.verdicts:
@@ -100,9 +100,11 @@ def _warnings(run: Run) -> list[Record]:
     return [record for record in run.conditions if not (repeated and record.id == "validity.skid")]
 
 
-def _results(run: Run) -> Table:
+def results_table(run: Run) -> Table:
+    """The first results, with the torque of a full bath of oil beside one that is starved of it."""
     table = table_of("Torque and efficiency", "", "")
-    for name in SHOWN:
+    starved = ["flooded_torque"] if run.friction.starvation else []
+    for name in (SHOWN[0], *starved, *SHOWN[1:]):
         if name in run.quantities:
             known = run.quantities[name]
             table.add_row(known.info.meaning, shown_or_dash(getattr(run.friction, name), known))
