@@ -6,35 +6,32 @@
 from __future__ import annotations
 
 import argparse
-import dataclasses
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from ballscrew.cases.case_files import case_file
-from ballscrew.cases.screw_tables.nut_kinds import NUTS
 from ballscrew.engine.uncertainty.default_uncertainties import JUDGEMENT, DefaultUncertainty, default_uncertainties
-from ballscrew.evidence.validation.entries import Conditions, Values
-from ballscrew.evidence.validation.rows import screw_of
-from ballscrew.evidence.validation.sets import SETS
-from ballscrew.physics.components.nut import DoubleNut, Nut, OversizeBallNut
-from ballscrew.physics.components.operating_state import OperatingState
-from ballscrew.physics.friction.calibrations import calibrated, calibration
-from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.evidence.validation.entries import Entry, Point, may_be_fitted
 from ballscrew.questions.band import compute as band
 from ballscrew.questions.band import figure as figures
 from ballscrew.questions.shared import charts
-from ballscrew.questions.validate.compute import shipped_rows
+from ballscrew.questions.validate.compute import evaluate, request
+from ballscrew.questions.validate.uncertainty import with_bands
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 #: Where the coverage stands: too slow for each build of the pages.
 PAGE = Path(__file__).parent / "coverage.inc"
-#: Kinds of nut by set, and preloads in per cent of the dynamic load rating for which a band of torques is stated.
-_PRELOADS = {"rexroth-double-nut": (DoubleNut, (7, 10)), "rexroth-single-nut": (OversizeBallNut, (5,))}
-CALIBRATION = "rexroth-2006"
-SAMPLES = 2**11
+#: Sets of torques without load of ball screws.
+SETS_COVERED = ("rexroth-double-nut", "rexroth-single-nut", "hiwin-stock", "thk-jis", "xjtu")
+#: What was made of rows before, the most of it first.
+_USES = (
+    "a calibration is fitted to them",
+    "kept aside, but seen when a factor was chosen",
+    "never used",
+)
 
 
 def write(folder: Path) -> None:
@@ -75,75 +72,57 @@ def _source(one: DefaultUncertainty) -> str:
 
 
 class Covered(NamedTuple):
-    """A row of a vendor, or a screw that could be the measured one, against the band of the model."""
+    """What a row states, against the band of the model: a torque lies "in" it, "below" or "above" it."""
 
-    #: What is stated of the row lies "in" the band, "below" or "above" it.
     places: tuple[str, ...]
-    #: Width of the band over its median.
+    #: Upper over lower end of the band.
     width: float
 
 
 def coverage_table() -> str:
     """Number of stated torques inside, below and above the model's 95 % interval of their row, and its width."""
     lines = [
-        "| rows | model | in the band | below it | above it | width / median of the band, in the median |",
-        "|---|---|---:|---:|---:|---:|",
+        "| maker | nuts | model | these rows | in the band | below it | above it | high / low of the band, median |",
+        "|---|---|---|---|---:|---:|---:|---:|",
     ]
-    for model in (FrictionModel.reference(), calibrated(FrictionModel.reference(), calibration(CALIBRATION))):
-        label = "reference" if model == FrictionModel.reference() else "calibrated"
-        found = {name: coverage(model, name) for name in _PRELOADS}
-        found["both of these"] = [one for those in found.values() for one in those]
-        if model == FrictionModel.reference():
-            found["xjtu, two torques against each screw that it could be"] = coverage(model, "xjtu")
-        for words, those in found.items():
-            lines.append(f"| {words} | {label} | {_counts(those)} | {np.median([one.width for one in those]):.2f} |")
+    grouped: dict[tuple[str, ...], list[Covered]] = {}
+    for entries, _ in evaluate(request(SETS_COVERED)):
+        for entry in entries:
+            if entry.calibration is not None and entry.calibration not in entry.data.calibrations:
+                continue
+            # of screws each of which could be the one measured validate makes no band
+            for point in (with_bands(entry) if entry.data.alternatives else entry).points:
+                label = "calibrated" if entry.calibration else "reference"
+                nuts = f"two torques, {point.group} that it could be" if entry.data.alternatives else point.group
+                key = (entry.data.maker, nuts, label, _use(entry, point))
+                grouped.setdefault(key, []).append(_covered(entry, point))
+    for key, those in sorted(grouped.items(), key=lambda item: (item[0][2] != "reference", _USES.index(item[0][3]))):
+        lines.append(f"| {' | '.join(key)} | {_counts(those)} | {np.median([one.width for one in those]):.1f} |")
     return "\n".join(lines) + "\n"
+
+
+def _use(entry: Entry, point: Point) -> str:
+    """The use that was made of a row before."""
+    fitted, seen, never = _USES
+    if entry.data.alternatives:
+        return never
+    if entry.data.name != "hiwin-stock" or may_be_fitted(entry.data.name, point):
+        return fitted
+    return never if point.group.startswith("single") else seen
+
+
+def _covered(entry: Entry, point: Point) -> Covered:
+    assert point.uncertainty is not None, point.name
+    low, high = point.uncertainty
+    band = point.band
+    stated = (band.low, band.high) if entry.data.alternatives else (band.middle,)
+    places = ("below" if one < low else "above" if one > high else "in" for one in stated if one is not None)
+    return Covered(tuple(places), high / low)
 
 
 def _counts(those: Sequence[Covered]) -> str:
     places = [place for one in those for place in one.places]
     return " | ".join(f"{places.count(place)} of {len(places)}" for place in ("in", "below", "above"))
-
-
-def coverage(model: FrictionModel, name: str) -> list[Covered]:
-    """The rows of a set against the bands of a model at their conditions, without load."""
-    found: list[Covered] = []
-    for values, nut, stated in _rows(name):
-        of_row = band.band(_case(model, values, nut), band.BandOptions(samples=SAMPLES)).band["screw_torque"]
-        low, high = of_row.both
-        places = ("below" if one < low else "above" if one > high else "in" for one in stated)
-        found.append(Covered(tuple(places), (high - low) / of_row.median))
-    return found
-
-
-def _rows(name: str) -> Iterator[tuple[Values, Nut, Sequence[float]]]:
-    """The values of the rows of a set, their nuts, and what is stated of each.
-
-    That is the middle of a vendor's band, or each of the two torques measured.
-    """
-    for values in shipped_rows(SETS[name]):
-        if name == "xjtu":
-            yield values, NUTS[values["nut"]](preload=values["preload"]), (values["torque_min"], values["torque_max"])
-            continue
-        kind, preloads = _PRELOADS[name]
-        for percent in preloads:
-            column = f"no_load_torque_{percent}pct"
-            middle = (values[f"{column}_min"] + values[f"{column}_max"]) / 2
-            yield values, kind(preload=percent / 100 * values["dynamic_load_rating"]), (middle,)
-
-
-def _case(model: FrictionModel, values: Values, nut: Nut) -> case_file.Case:
-    """Case of a row without load, at its conditions."""
-    at = Conditions().of(values)
-    return case_file.Case(
-        model=model,
-        screw=dataclasses.replace(screw_of(values).screw(), nut=nut),
-        lubricant=at.lubricant,
-        operation=OperatingState(axial_load=0.0, screw_speed=at.screw_speed),
-        sweep={},
-        oil={"grade": at.grade, "temperature": at.temperature},
-        calibration=None if model == FrictionModel.reference() else calibration(CALIBRATION),
-    )
 
 
 def main() -> None:

@@ -54,8 +54,8 @@ def sweep(
     Work goes block by block on a few threads, of ``block_size`` points at most, and
     ``done(finished, total)`` reports the points.
     The ``engine`` is chosen by the size of the work: ``"numpy"``, or ``"compiled"``, which needs the extra ``fast``.
-    ``"model"`` calls the model itself on all points: without the quarter of a second that recording it takes, which a
-    few thousand points do not pay back. Engines differ by rounding.
+    ``"model"`` calls the model itself on all points: without recording it, which takes about a second with the
+    reference model and is not paid back by a few thousand points. Engines differ by rounding.
 
     ``to`` names a folder for sweeps larger than the memory: a Zarr store that is filled block by
     block, two of which are in memory at a time. It needs the extra ``data``. The same call goes on
