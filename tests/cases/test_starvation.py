@@ -25,9 +25,9 @@ from ballscrew.questions.sweep import compute as sweep
 from ballscrew.questions.sweep import document as sweep_documents
 from ballscrew.questions.warm_up import compute as warm_up
 from ballscrew.questions.warm_up import document as warm_up_documents
-from ballscrew.questions.warm_up import report as warm_up_report
 from ballscrew.questions.warm_up import self_heating
 from ballscrew.questions.warm_up.self_heating_document import with_self_heating
+from ballscrew.questions.warm_up.sheet import sheet as warm_up_sheet
 from support.commands import ROOT
 
 COLD = {
@@ -351,8 +351,9 @@ def test_an_export_is_judged_without_load_too():
 def test_the_report_has_both_torques_of_a_cycle_and_of_warming_up():
     case = case_file.build(tables_of_duty("-5 degC"), moves=True)
     cold = warm_up.warmed_up(warm_up.load(ROOT / "examples" / "warm_up.toml", ["surroundings.ambient=-5 degC"], None))
-    for blocks in (report_blocks.blocks(duty_sheet(duty_of(case)), "duty"), warm_up_report.blocks(cold)):
+    of_warm_up = report_blocks.blocks(warm_up_sheet(cold), "warm_up")
+    for blocks in (report_blocks.blocks(duty_sheet(duty_of(case)), "duty"), of_warm_up):
         assert "in a full bath of oil" in blocks[0].text
-    steady = warm_up_report.blocks(cold)[1].left[0]
+    steady = next(block for block in of_warm_up if getattr(block, "title", "") == "Steady state")
     assert steady.columns == ("", "value", "in a full bath of oil")
     assert {len(row) for row in steady.rows} == {3}

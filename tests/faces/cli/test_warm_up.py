@@ -12,14 +12,15 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.json_text import plain
+from ballscrew.basis.sheet import Columns
+from ballscrew.faces.sheets import terminal
 from ballscrew.questions.band.heat_samples import heat_samples
 from ballscrew.questions.duty import band as duty_band
 from ballscrew.questions.warm_up import band as warm_up_band
-from ballscrew.questions.warm_up import table as warm_up_tables
 from ballscrew.questions.warm_up.compute import SERIES, load, warmed_up
 from ballscrew.questions.warm_up.document import document as document_of
 from ballscrew.questions.warm_up.self_heating import self_heating
-from ballscrew.questions.warm_up.text import text
+from ballscrew.questions.warm_up.sheet import sheet
 from support.commands import ROOT
 from support.pictures import drawn, size
 
@@ -130,15 +131,16 @@ def test_band_in_all_forms(ballscrew, tmp_path):
     assert {"temperature", "axial_load", "screw_speed"}.isdisjoint(inputs)
     assert found["inputs"]["surroundings"]["ball_conductance"] == 4.0
     assert band["equilibrium"]["exists_share"] == 1
-    # the dashed lines of the end run below the legend of the temperatures
-    assert "[h]" in drawn(tmp_path / "band.svg", legends_over_curves=1).text
+    shown = drawn(tmp_path / "band.svg").text
+    assert "time [h]" in shown
+    assert "95 % of samples" in shown
     with (tmp_path / "all" / "warm_up_band.csv").open(encoding="utf-8", newline="") as stream:
         rows = list(csv.DictReader(stream))
     assert [float(row["temperature of the nut, high [degC]"]) for row in rows] == pytest.approx(
         [value - 273.15 for value in band["nut_temperature"]["high"]], abs=1e-6
     )
     said = " ".join(ballscrew(*common, "--only-given").stdout.split())
-    assert "Band: 95 % of 16 samples" in said
+    assert "Bands: 95 % of 16 samples" in said
     assert "of 1 uncertain inputs of surroundings, screw, oil and model, 1 of them given" in said
 
 
@@ -169,7 +171,7 @@ def test_an_operating_point_goes_to_and_fro(case):
     assert results["network"]["mean_speed"] == pytest.approx(1000 * math.tau / 60, rel=1e-12)
     assert set(results["preload"]) == {0.0}
     assert "verdict.preload" not in records(written, "verdicts")
-    said = text(report)
+    said = terminal.text(sheet(report))
     assert "to and fro over 500 mm, half the shaft, under the load of the case" in said
     assert "preload" not in said.partition("Steady state")[0].partition("time ")[2]
     # every quantity of the series has its unit in the document
@@ -228,7 +230,7 @@ def test_a_length_that_is_not_given_is_assumed_and_warned_of(case, settings, len
 
 def test_words_say_what_stands_in_the_document(case):
     report = warmed_up(case(POINT + DOUBLE), hours=0.5, cool_down=0.25)
-    said, written = " ".join(text(report).split()), plain(document_of(report))
+    said, written = " ".join(terminal.text(sheet(report)).split()), plain(document_of(report))
     for record in (*written["verdicts"], *written["warnings"]):
         assert record["text"] in said
     assert "0.75 h" in said
@@ -250,7 +252,7 @@ def test_runaway_is_said_and_no_number_clipped(case):
     assert end["nut_temperature"] is None
     assert verdict["severity"] == "error"
     assert written["results"]["time"][-1] <= written["results"]["stopped"] < 2 * 3600
-    assert "Steady state: none" in text(report)
+    assert "Steady state: none" in terminal.text(sheet(report))
     with pytest.raises(InputError, match="finds no steady state"):
         self_heating(case(POINT + DOUBLE.replace("3 kN", "5 kN"), *hot))
 
@@ -304,9 +306,9 @@ def test_run_and_check_say_self_heating(ballscrew, tmp_path):
 
 def test_columns_of_the_shaft(case):
     report = warmed_up(case(POINT), hours=0.1)
-    table = warm_up_tables.shaft(report)
-    assert len(table.headings) == 1 + report.warm_up.places.size
-    assert np.shape(table.rows) == (report.warm_up.time.size, len(table.headings))
+    (shaft,) = (block for block in sheet(report).of_kind(Columns) if block.name == "shaft")
+    assert len(shaft.columns) == 1 + report.warm_up.places.size
+    assert {len(column.values) for column in shaft.columns} == {report.warm_up.time.size}
 
 
 @pytest.mark.parametrize(

@@ -47,7 +47,6 @@ from ballscrew.questions.duty.compute import NUMBERS, duty
 from ballscrew.questions.run.compute import run
 from ballscrew.questions.shared.report_blocks import Bar, Columns, Links, Picture, Table, value
 from ballscrew.questions.shared.report_numbers import banded, banded_share
-from ballscrew.questions.warm_up import report as warm_up_report
 from ballscrew.questions.warm_up.compute import warmed_up
 from ballscrew.questions.warm_up.verdicts import verdicts
 
@@ -696,15 +695,15 @@ def test_heat_that_cannot_be_computed_says_why():
     """A case with surroundings whose oil has no temperature still has its report."""
     case = case_of("feed_drive")
     oil = bs.Lubricant(viscosity=0.1)
-    blocks = warm_up_report.blocks_of(
+    sections = contents._heat(  # the whole report would refuse the oil elsewhere
         dataclasses.replace(case, lubricant=oil, oil={}, surroundings=bs.Surroundings(shaft_length=1.0))
     )
-    assert "Heat is not computed: lubricant.viscosity: has no temperature" in str(blocks)
+    assert "Heat is not computed: lubricant.viscosity: has no temperature" in str(sections)
 
 
 def test_heat_is_that_of_the_command():
-    report = warmed_up(case_of("warm_up"), warm_up_report.HOURS)
-    words = str(warm_up_report.blocks(report))
+    report = warmed_up(case_of("warm_up"), contents.HOURS)
+    words = str(next(section for section in content_of("warm_up").sections if section.title == "As it warms up"))
     for record in verdicts(report):
         assert record.text[1:] in words
     assert all(line in words for line in report.assumed)

@@ -7,17 +7,18 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from ballscrew.basis.sheet import Columns, Table
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.web import documents
 from ballscrew.faces.web.vocabulary import vocabulary
 from ballscrew.questions.shared import declared
-from ballscrew.questions.warm_up import compute, document, table, text, verdicts
-from ballscrew.questions.warm_up import report as warm_up_report
+from ballscrew.questions.warm_up import compute, document, verdicts
 from ballscrew.questions.warm_up.answer import WarmUpResults
 from ballscrew.questions.warm_up.band_answer import BesideWarmUp
 from ballscrew.questions.warm_up.compute import EQUILIBRIUM, SERIES, load, warmed_up
 from ballscrew.questions.warm_up.self_heating import self_heating
 from ballscrew.questions.warm_up.self_heating_document import with_self_heating
+from ballscrew.questions.warm_up.sheet import sheet
 from support.answers import undescribed, without_unit
 from support.commands import ROOT
 
@@ -33,10 +34,11 @@ def report():
 def test_every_number_over_time_is_on_every_face(report):
     """A number is one field: nothing else has to name it."""
     answer, schema = document.document(report), declared.schema(WarmUpResults).model_json_schema()["properties"]
-    headings = " ".join(table.series(report).headings)
+    (series,) = (block for block in sheet(report).of_kind(Columns) if block.name == "over time")
+    columns = {column.name: column.values for column in series.columns}
     for name, quantity in SERIES.items():
         meaning = quantity.info.meaning
-        assert meaning in headings
+        assert np.array_equal(columns[meaning], report.series[name])
         assert vocabulary()["of_warm_up"][name]["meaning"] == meaning
         part, _, heat = name.partition("_") if name.startswith("heat_") else (name, "", "")
         results, unit = answer["results"][part], answer["units"][part]
@@ -52,16 +54,14 @@ def test_every_number_over_time_is_on_every_face(report):
 def test_every_number_of_the_steady_state_is_on_every_face(report):
     answer, schema = document.document(report), declared.schema(WarmUpResults).model_json_schema()
     described = schema["$defs"]["Equilibrium"]["properties"]
-    words, rows = text.text(report), {row[0] for row in table.steady(report).rows}
-    of_report = {row[0] for row in warm_up_report._steady(report).rows}
+    (steady,) = (block for block in sheet(report).of_kind(Table) if block.name == "steady state")
+    rows = {row[0]: row[1].value for row in steady.rows}
     for name, quantity in EQUILIBRIUM.items():
         meaning = quantity.info.meaning
         assert math.isfinite(answer["results"]["equilibrium"][name])
         assert answer["units"]["equilibrium"][name] == quantity.unit == described[name]["x-si-unit"]
         assert described[name]["description"].startswith(meaning)
-        assert meaning in words
-        assert meaning in rows
-        assert meaning in of_report
+        assert rows[meaning] == answer["results"]["equilibrium"][name]
 
 
 @pytest.mark.parametrize(("settings", "starved"), [(WARM, False), (COLD, True)], ids=["warm", "starved of oil"])

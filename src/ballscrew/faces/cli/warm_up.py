@@ -15,13 +15,16 @@ from ballscrew.questions.warm_up.options import DriftOptions, WarmUpOptions
 if TYPE_CHECKING:
     from ballscrew.cases.case_files.case import Case
     from ballscrew.questions.warm_up.band import WarmUpBandReport
-    from ballscrew.questions.warm_up.compute import WarmUpReport
 
 _TO = "--to"
-#: Files that a folder gets.
-_TABLES, _COMPENSATION, _BANDS, _PICTURE = (
-    ("warm_up.csv", "warm_up.xlsx"), "compensation.csv", "warm_up_band.csv", "warm_up.png"
-)  # fmt: skip
+#: Files that a folder gets, with the columns that they have alone.
+_FILES = {
+    "warm_up.csv": "over time",
+    "warm_up.xlsx": "",
+    "compensation.csv": "compensation",
+    "warm_up_band.csv": "band",
+    "warm_up.png": "",
+}
 
 
 @flags_of(DriftOptions, WarmUpOptions)
@@ -37,6 +40,7 @@ def warm_up(
         ),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+    as_sheet: Annotated[bool, typer.Option("--sheet", help="What people see as one JSON object.")] = False,
     to: Annotated[
         list[Path] | None,
         typer.Option(
@@ -56,10 +60,12 @@ def warm_up(
     """
     from ballscrew.basis.errors import Fault, InputError, raise_if_any
     from ballscrew.basis.output.json_text import as_json as json_text
+    from ballscrew.basis.sheet import document as sheet_document
+    from ballscrew.faces.sheets import terminal, to_file
     from ballscrew.questions.shared.option_values import read
     from ballscrew.questions.warm_up import compute as studies
     from ballscrew.questions.warm_up import document as documents
-    from ballscrew.questions.warm_up import text
+    from ballscrew.questions.warm_up.sheet import sheet
 
     drift, cool_down = read(DriftOptions, written), written["cool_down"]
     rest = (studies.REST if drift.drift_cycle else 0.0) if cool_down is None else cool_down
@@ -72,18 +78,18 @@ def warm_up(
         loaded = studies.drift_cycle(loaded, studies.FEED_SHARE if drift.feed_share is None else drift.feed_share)
     raise_if_any(studies.option_faults(options.band, options.samples, options.level, options.only_given))
     files = [path for place in to or [] for path in _files(place, options.band)]
-    if not options.band:
-        report, banded = studies.warmed_up(loaded, options.hours, options.cool_down), None
-        typer.echo(json_text(documents.document(report)) if as_json else text.text(report))
+    banded = _banded(loaded, options) if options.band else None
+    report = studies.warmed_up(loaded, options.hours, options.cool_down) if banded is None else banded.report
+    seen = sheet(report, banded)
+    if as_sheet:
+        typer.echo(json_text(sheet_document(seen)))
+    elif as_json:
+        typer.echo(json_text(documents.document(report) if banded is None else documents.with_band(banded)))
     else:
-        banded = _banded(loaded, options)
-        report = banded.report
-        said = json_text(documents.with_band(banded)) if as_json else f"{text.text(report)}\n{text.band_text(banded)}"
-        typer.echo(said)
+        typer.echo(terminal.text(seen))
     for path in files:
-        own = path.name if path.parent in (to or []) else ""
-        _write(path, report, banded, own)
-        typer.echo(f"{path}", err=as_json)
+        to_file.write(path, seen, "" if path in (to or []) else _FILES[path.name])
+        typer.echo(f"{path}", err=as_json or as_sheet)
 
 
 def _banded(case: Case, options: WarmUpOptions) -> WarmUpBandReport:
@@ -118,28 +124,10 @@ def _files(place: Path, band: bool) -> list[Path]:
             place.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise write_error(_TO, place, error) from None
-        found = [place / name for name in (*_TABLES, _COMPENSATION, *((_BANDS,) if band else ()), _PICTURE)]
+        found = [place / name for name, columns in _FILES.items() if band or columns != "band"]
     for path in found:
         if path.suffix.lower() in row_tables.KINDS:
             row_tables.check_path(path)
         else:
             check_writable(_TO, path)
     return found
-
-
-def _write(path: Path, report: WarmUpReport, bands: WarmUpBandReport | None, own: str) -> None:
-    """Write one file; ``own`` is its name in a folder, by which it has a table of its own."""
-    from ballscrew.questions.shared import row_tables
-    from ballscrew.questions.warm_up import table as warm_up_tables
-
-    if own == _COMPENSATION:
-        warm_up_tables.write_compensation(path, report)
-    elif own == _BANDS and bands is not None:
-        warm_up_tables.write_band(path, bands)
-    elif path.suffix.lower() in row_tables.KINDS:
-        warm_up_tables.write(path, report, bands)
-    else:
-        from ballscrew.questions.shared import chart_files as files
-        from ballscrew.questions.warm_up import figure as figures  # matplotlib is slow to import
-
-        files.draw(lambda: figures.picture(report, bands), path, _TO)

@@ -45,6 +45,8 @@ Done = Callable[[int, int], None]
 _ANSWERED, _BANDED, _DRAWN, ALL = 5, 60, 85, 100
 #: Pages at most, and how many more a cycle of motion, the stiffness over its stroke and the heat may take.
 _PAGES, _PAGES_OF_CYCLE, _PAGES_OF_STIFFNESS, _PAGES_OF_HEAT = 5, 2, 1, 1
+#: Hours of work that the section on heat shows.
+HOURS = 4.0
 #: Sources of what a report says besides the model: the ratings and checks.
 _OF_CHECKS = ("ISO3408-5", "ISO76")
 #: Samples of the bands of a cycle, and where its balls are solved one by one: a fifth of the time of a report.
@@ -153,9 +155,15 @@ def _heat(case: case_file.Case) -> list[Section]:
     """The section on the heat of a case that has surroundings."""
     if case.surroundings is None:
         return []
-    from ballscrew.questions.warm_up import report
+    from ballscrew.faces.sheets import report_blocks
+    from ballscrew.questions.warm_up.compute import warmed_up
+    from ballscrew.questions.warm_up.sheet import sheet
 
-    return [Section("As it warms up", report.blocks_of(case))]
+    try:
+        blocks = report_blocks.blocks(sheet(warmed_up(case, HOURS)), "warm_up")
+    except InputError as error:
+        blocks = [Paragraph(f"Heat is not computed: {'; '.join(map(str, error.faults))}.")]
+    return [Section("As it warms up", blocks)]
 
 
 def subtitle(case: case_file.Case) -> list[str]:
