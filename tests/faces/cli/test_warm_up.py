@@ -131,15 +131,16 @@ def test_band_in_all_forms(ballscrew, tmp_path):
     assert {"temperature", "axial_load", "screw_speed"}.isdisjoint(inputs)
     assert found["inputs"]["surroundings"]["ball_conductance"] == 4.0
     assert band["equilibrium"]["exists_share"] == 1
-    # the dashed lines of the end run below the legend of the temperatures
-    assert "[h]" in drawn(tmp_path / "band.svg", legends_over_curves=1).text
+    shown = drawn(tmp_path / "band.svg").text
+    assert "time [h]" in shown
+    assert "95 % of samples" in shown
     with (tmp_path / "all" / "warm_up_band.csv").open(encoding="utf-8", newline="") as stream:
         rows = list(csv.DictReader(stream))
     assert [float(row["temperature of the nut, high [degC]"]) for row in rows] == pytest.approx(
         [value - 273.15 for value in band["nut_temperature"]["high"]], abs=1e-6
     )
     said = " ".join(ballscrew(*common, "--only-given").stdout.split())
-    assert "Band: 95 % of 16 samples" in said
+    assert "Bands: 95 % of 16 samples" in said
     assert "of 1 uncertain inputs of surroundings, screw, oil and model, 1 of them given" in said
 
 

@@ -37,7 +37,8 @@ if TYPE_CHECKING:  # slow to import
 
 _TIME, _GROWTH, _TORQUE = SERIES["time"], SERIES["shaft_growth"], SERIES["screw_torque"]
 _TEMPERATURE = SERIES["shaft_temperature"]
-_MARGIN = Quantity("margin", "1", Info("", "stability margin of the thermal loop (1: no feedback, 0: thermal runaway)"))
+_MARGIN = Quantity("margin", "1", Info("", "stability margin of the thermal loop"))
+_MARGIN_NOTE = "The stability margin is 1 without feedback, and 0 at thermal runaway."
 #: Columns of the table of instants.
 _SHOWN = {
     "nut_temperature": "nut",
@@ -151,7 +152,7 @@ def _steady(report: WarmUpReport, bands: WarmUpBandReport | None) -> Table:
     margins = [Number(each.warm_up.equilibrium.margin, _MARGIN, 3) for each in reports]
     columns = ("", "value", _BATH)[: 1 + len(reports)]
     if not end.exists:
-        row = ["stability margin of the thermal loop; below 0 there is none", *margins]
+        row = [f"{_MARGIN.info.meaning}; below 0 there is none", *margins]
         return Table("steady state", "Steady state: none", columns, [row])
     steady, rows = {} if bands is None else bands.bands.steady, list[list[Cell]]()
     for name in _with_preload(list(EQUILIBRIUM), report):
@@ -159,7 +160,7 @@ def _steady(report: WarmUpReport, bands: WarmUpBandReport | None) -> Table:
         band = (float(steady[name][0]), float(steady[name][1])) if name in steady else None
         numbers = [Number(each.equilibrium[name], quantity, band=band if each is report else None) for each in reports]
         rows.append([quantity.info.meaning, *numbers])
-    return Table("steady state", "Steady state", columns, [*rows, [_MARGIN.info.meaning, *margins]])
+    return Table("steady state", "Steady state", columns, [*rows, [_MARGIN.info.meaning, *margins]], [_MARGIN_NOTE])
 
 
 def _drift(report: WarmUpReport) -> Table:
