@@ -32,7 +32,7 @@ _SUBJECTS = {
 for _folder, _subject in _SUBJECTS.items():
     _names = [name for name, module in _MODULES.items() if module.split(".")[1] == _folder]
     _lines = [", ".join(_names[place : place + 6]) for place in range(0, len(_names), 6)]
-    __doc__ += f"\n{_subject}:\n    " + ",\n    ".join(_lines) + "\n"
+    __doc__ = f"{__doc__ or ''}\n{_subject}:\n    " + ",\n    ".join(_lines) + "\n"
 
 __all__ = sorted(_MODULES)  # pyright: ignore[reportUnsupportedDunderAll]  (read from the stub)
 
