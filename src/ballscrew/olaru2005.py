@@ -126,8 +126,7 @@ def a_b_corrected(R_x: Any, k: Any, W: Any) -> tuple[Any, Any]:
         is_below = np.exp(2 * middle) * (K - D) / D < k
         low, high = np.where(is_below, middle, low), np.where(is_below, high, middle)
     kappa = np.exp(low)
-    E = elliptic_integrals(kappa)[1]
-    a = R_x * (6 * kappa**2 * E * k / (np.pi * (1 + k)) * W) ** (1 / 3)
+    a = R_x * (6 * kappa**2 * elliptic_integrals(kappa)[1] * k / (np.pi * (1 + k)) * W) ** (1 / 3)
     return a, a / kappa
 
 

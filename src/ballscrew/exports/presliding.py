@@ -138,9 +138,9 @@ def presliding(handed: HandOver) -> Presliding | None:
         faults.append(Fault("hand_over.presliding_speed", problem, "", 'give a slow one: "6 rpm"'))
     raise_if_any(faults)
     subject = handed.subject
-    parts, operation = (subject.model, subject.screw, subject.lubricant), {"axial_load": load, "screw_speed": speed}
-    found = reversal(*parts, **operation)
-    curve = WindingUp.of(found, loops(*parts, found, **operation))
+    parts = subject.model, subject.screw, subject.lubricant
+    found = reversal(*parts, axial_load=load, screw_speed=speed)
+    curve = WindingUp.of(found, loops(*parts, found, axial_load=load, screw_speed=speed))
     fit, steady = fit_slip_elements(curve, count), float(curve.steady_torque)
     return Presliding(
         elements=tuple(Element(float(one.slip_torque) / steady, float(one.slip_angle)) for one in fit.elements),
