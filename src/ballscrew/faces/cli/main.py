@@ -10,6 +10,7 @@ import functools
 import io
 import os
 import sys
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated, Any, NoReturn
 
@@ -171,6 +172,8 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # a terminal that has no "·" still gets an answer
             stream.reconfigure(errors="backslashreplace")
+    if not sys.warnoptions:  # -W and PYTHONWARNINGS ask for them; what matters stands in the answer
+        warnings.simplefilter("ignore")
     _pint_plugins.hidden_from_pint += ["dask", "scipy"]
     try:
         try:
