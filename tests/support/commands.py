@@ -17,6 +17,9 @@ from pathlib import Path
 ROOT = Path(__file__).parents[2]
 FORK_SERVER = Path(__file__).with_name("fork_server.py")
 
+#: Warnings of libraries that end any command: where they are due, an answer says in words what has no value.
+ERRORS = ("RuntimeWarning", "FutureWarning")
+
 _SMALL_FILES = """
 import os, resource, sys
 resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, 10_000))
@@ -97,7 +100,7 @@ class Commands:
         streams: Sequence[int],
         environment: Mapping[str, str] | None = None,
         module: str = "ballscrew.faces.cli",
-        errors: Sequence[str] = (),
+        errors: Sequence[str] = ERRORS,
         lines: bool = False,
     ) -> Process:
         """A command that runs with these three streams; with ``errors``, categories of warnings that end it.
@@ -130,7 +133,7 @@ class Commands:
         folder: Path,
         environment: Mapping[str, str] | None = None,
         module: str = "ballscrew.faces.cli",
-        errors: Sequence[str] = (),
+        errors: Sequence[str] = ERRORS,
         timeout: float | None = 300,
     ) -> subprocess.CompletedProcess[str]:
         """Run a command to its end: what it printed, and its exit code."""

@@ -131,6 +131,7 @@ def become(asked: dict, streams: list[int]) -> None:
     sys.argv = [asked["module"], *asked["arguments"]]
     for category in asked["errors"]:
         warnings.filterwarnings("error", category=getattr(__builtins__, category))
+    sys.warnoptions = [f"error::{category}" for category in asked["errors"]]  # as -W: the program leaves them alone
     warnings.filterwarnings("default", category=EncodingWarning)  # forgets which warnings were shown while loading
     code = 1
     try:

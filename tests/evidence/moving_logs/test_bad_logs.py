@@ -101,3 +101,16 @@ def test_single_missing_rows_and_uneven_steps_are_filled_in():
 def test_options_that_make_no_sense(options, words):
     with pytest.raises(InputError, match=words):
         bs.fit_motion(MODEL, SCREW_OF, OIL, GOOD, **options)
+
+
+def test_the_log_of_a_controller_that_samples_slowly():
+    """Ten rows a second of short moves: hardly a row stands clear of its noise, and no filter makes more of them."""
+    random = np.random.default_rng(1)
+    speed = np.tile(np.repeat([0.0, 0.03, 0.0, -0.03], [15, 4, 15, 4]), 6)
+    speed = speed + np.where(speed == 0, 0.0, 0.005) * random.standard_normal(speed.size)
+    force = 400 * np.sign(speed) + 100 * random.standard_normal(speed.size)
+    data = {"time": 0.1 * np.arange(speed.size), "speed": np.round(speed, 3), "force": force}
+    with pytest.raises(InputError, match="moves too little above its noise: ") as caught:
+        bs.fit_motion(MODEL, SCREW_OF, OIL, data)
+    assert "12 of 228 rows are faster than " in str(caught.value.faults[0])
+    assert "a fit needs 16" in str(caught.value.faults[0])

@@ -7,6 +7,7 @@ import math
 import re
 import subprocess
 import sys
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ import pytest
 import xarray as xr
 
 import ballscrew as bs
+from ballscrew.faces.cli import main as program
 from ballscrew.physics.friction.result import MECHANISMS
 
 ROOT = Path(__file__).parents[3]
@@ -408,3 +410,13 @@ def test_citations_survive_without_docstrings(ballscrew, example):
     )
     assert optimised.stdout == ballscrew("cite", example).stdout
     assert "HamrockDowson1977" in optimised.stdout
+
+
+@pytest.mark.parametrize(("asked", "shown"), [([], 0), (["default"], 1)])
+def test_warnings_of_libraries_reach_the_terminal_only_where_python_is_asked_for_them(asked, shown, monkeypatch):
+    monkeypatch.setattr(sys, "warnoptions", asked)
+    monkeypatch.setattr(program, "command_line", lambda: lambda: np.ones(1) / np.zeros(1))
+    with warnings.catch_warnings(record=True) as seen:
+        warnings.simplefilter("always")
+        program.main()
+    assert len(seen) == shown

@@ -1,14 +1,17 @@
 """The answer of a fit: declared once, and the same on every face."""
 
+import dataclasses
 import tomllib
 
 import pytest
 
+from ballscrew.basis import units
 from ballscrew.basis.output.json_text import plain
 from ballscrew.cases.case_files import case_file
 from ballscrew.questions.fit import compute, document, table
 from ballscrew.questions.fit.answer import FitResults, FittedNumber
 from ballscrew.questions.fit.log import read_options, steady_log
+from ballscrew.questions.fit.text import trade_off
 from ballscrew.questions.shared import declared
 from support.answers import undescribed, without_unit
 from support.fit_logs import EXAMPLES, FRICTION, OFFSET, PAPER, columns, text_of
@@ -66,3 +69,15 @@ def test_every_number_has_a_unit(fitted):
 
 def test_every_part_is_described():
     assert list(undescribed(FitResults)) == []
+
+
+def test_no_trade_off_is_not_taken_for_a_log_that_determines_each_number(tmp_path):
+    path = tmp_path / "log.csv"
+    path.write_text(text_of(columns(60)), encoding="utf-8")
+    case = case_file.build(tomllib.loads(PAPER), None, EXAMPLES)
+    options = read_options(case, {"free": [FRICTION]})
+    model = compute.fit(case, steady_log(case, path, options), options).model
+    assert units.filled(trade_off(model)) == "Trade-offs: none; the log determines each number by itself"
+    untold = dataclasses.replace(model.estimates[FRICTION], identified=False, std=None)
+    said = units.filled(trade_off(dataclasses.replace(model, estimates={FRICTION: untold})))
+    assert said == "Trade-offs: none; the log does not determine: boundary friction coefficient"

@@ -131,6 +131,11 @@ class Equation:
         stride = int(np.min(np.diff(self.used))) if self.used.size > 1 else 1
         return self.used.size * stride * self.log.step
 
+    @property
+    def periods(self) -> float:
+        """Periods of the cutoff in that time."""
+        return self.duration * self.cutoff
+
 
 def _linear_columns(motion: Kinematics) -> Floats:
     speed = motion.speed

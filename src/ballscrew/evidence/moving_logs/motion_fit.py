@@ -13,7 +13,7 @@ from ballscrew.basis.errors import Fault, InputError, accepts_units, each_of, ra
 from ballscrew.basis.quantities import Force, Info, Quantity, Ratio, Unit, quantities_of
 from ballscrew.basis.records import Message, Named, Record
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.evidence.moving_logs.equation import DeadTime, Equation, dead_time
+from ballscrew.evidence.moving_logs.equation import AT_REST, DeadTime, Equation, dead_time
 from ballscrew.evidence.moving_logs.linear_model import NAMES, LinearModel, linear_model, unit_change
 from ballscrew.evidence.moving_logs.moving_log import MovingLog
 from ballscrew.evidence.moving_logs.power_law import PowerLaw, power_law
@@ -32,6 +32,8 @@ LINEAR, POWER, SCREW = "coulomb-viscous", "power-law", "screw"
 DEFAULT_FREE = ("viscosity",)
 #: What is fitted as well where the preload of the case is too much.
 PRELOAD = "nut.preload"
+#: The filtered rows of a period are hardly independent: a fit needs so many periods for each number.
+PERIODS_PER_NUMBER = 4
 #: Factors of both cutoffs under which the linear model is fitted again.
 FILTER_FACTORS = (0.5, 2.0)
 #: The screw's model does not fit if it is so many times as far off as the linear one, which it holds as a special case.
@@ -40,6 +42,7 @@ WORSE = 1.02
 _TABLE_ERROR = 0.02
 #: The axial load of the table of friction, as a share of the force of the largest acceleration.
 _LOAD_ROOM = 1.1
+_REST = Quantity("rest", "m/s", Info("v", "speed that is clear of its noise", "mm/s"))
 _GRAVITY = Message(
     "the offset is gravity and the zero error of the force together · to tell them apart, record it once more "
     "with another mass, or read the force with the motor off"
@@ -274,12 +277,25 @@ def _log_of(data: Any, screw: BallScrew) -> MovingLog:
 
 
 def _equation(log: MovingLog, **options: float) -> Equation:
-    """The equation of a log; raises for one that hardly moves, or changes a unit midway."""
+    """The equation of a log; raises for one that hardly moves above its noise, or changes a unit midway."""
     equation = Equation.of(log, **options)
     name = log.source[0] if log.source else "log"
-    if equation.used.size < 4 * len(NAMES):
-        remedy = "record strokes in both directions that last longer than the noise needs to be filtered"
-        raise InputError(Fault(name, "has too few rows that move", f"{equation.used.size} rows", remedy))
+    needed = PERIODS_PER_NUMBER * len(NAMES)
+    if equation.periods < needed:
+        problem = Message(
+            "moves too little above its noise: {moving} of {rows} rows are faster than {rest}, which is {periods} "
+            "periods of the filter that the noise asks for ({cutoff}), and a fit needs {needed}",
+            {
+                "moving": str(len(log) - equation.left_out.get(AT_REST, 0)),
+                "rows": str(len(log)),
+                "rest": units.measured(equation.rest, _REST, 3),
+                "periods": units.fixed(equation.periods, 1),
+                "cutoff": units.in_unit(equation.cutoff, "Hz", 2),
+                "needed": str(needed),
+            },
+        )
+        remedy = "record more rows a second, or longer strokes in both directions"
+        raise InputError(Fault(name, problem, "", remedy))
     fault = unit_change(equation, name)
     raise_if_any([fault] if fault is not None else [])
     return equation
@@ -305,8 +321,11 @@ def _filter_effects(equation: Equation) -> list[FilterEffect]:
         changes["dead time left in"] = {"shift": 0.0}
     found: list[FilterEffect] = []
     for name, change in changes.items():
-        again = linear_model(Equation.of(equation.log, **{**own, **change}))
-        found.append(FilterEffect(name, again.values, again.relative_error))
+        again = Equation.of(equation.log, **{**own, **change})
+        if again.used.size < PERIODS_PER_NUMBER * len(NAMES):  # that filter leaves nothing to fit to
+            continue
+        linear = linear_model(again)
+        found.append(FilterEffect(name, linear.values, linear.relative_error))
     return found
 
 

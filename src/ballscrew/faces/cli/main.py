@@ -10,6 +10,7 @@ import functools
 import io
 import os
 import sys
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated, Any, NoReturn
 
@@ -179,6 +180,8 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # a terminal that has no "·" still gets an answer
             stream.reconfigure(errors="backslashreplace")
+    if not sys.warnoptions:  # -W and PYTHONWARNINGS ask for them; what matters stands in the answer
+        warnings.simplefilter("ignore")
     _pint_plugins.hidden_from_pint += ["dask", "scipy"]
     if not any(word.startswith("--scheduler") for word in sys.argv):
         absent: Any = None  # as if it were not installed: xarray would load it, which takes seconds after a boot

@@ -129,6 +129,8 @@ def trade_off(model: CalibratedModel) -> Message:
     shares = {n: power * scales[n] / abs(values[n] or scales[n]) for n, power in least.powers.items()}
     largest = max(map(abs, shares.values()), default=0.0)
     kept = {name: share for name, share in shares.items() if abs(share) >= _LEAST_TRADED * largest}
+    if unknown := [name for name, estimate in model.estimates.items() if len(kept) < 2 and not estimate.identified]:
+        return Message("Trade-offs: none; the log does not determine: {names}").of(names=both(map(Named, unknown)))
     if len(kept) < 2:
         return Message("Trade-offs: none; the log determines each number by itself")
     (first, change), *others = sorted(kept.items(), key=lambda item: -abs(item[1]))
