@@ -1,6 +1,7 @@
 """What can be taken away from the page: each file is parsed, and its numbers are those of the page."""
 
 import csv
+import functools
 import io
 import json
 import re
@@ -45,7 +46,11 @@ def toml_and_json(here, path):
     assert printed.exit_code == 0
     document = json.loads(taken(here, "JSON"))
     assert_same(document, json.loads(printed.stdout))
-    assert document["results"]["screw_torque"] == here.numbers()["results"]["screw_torque"]
+    shown = here.numbers()["results"]
+    assert shown == {name: document["results"][name] for name in shown}
+    of_nut = "all => all.map((one) => [one.dataset.name, Number(one.value)])"
+    for name, value in here.page.eval_on_selector_all("#stiffness data", of_nut):
+        assert functools.reduce(dict.get, name.split("-"), document["loads"]) == value, name
 
 
 def rows_of(content):
