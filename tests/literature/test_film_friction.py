@@ -37,6 +37,7 @@ def film(oil, pressure, rate):
         nominal_sliding_speed=rate * 1e-6,
         central_film_thickness=2e-6,
         inlet_film_factor=0.5,
+        inlet_supply_factor=1.0,
     )
 
 

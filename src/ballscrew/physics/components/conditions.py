@@ -60,7 +60,7 @@ class ContactConditions:
     film_parameter: Annotated[Ratio, Info(r"\lambda", "film thickness / combined roughness")] = None
     inlet_film_factor: Annotated[Ratio, Info(r"\phi_T", "what the heat of the inlet leaves of the film")] = None
     #: What the oil at the inlet suffices for of the film.
-    inlet_supply_factor: Ratio = None
+    inlet_supply_factor: Ratio = 1.0
     #: Of the law in the slot ``full_film``; None where there is none, and the coefficient of the friction law counts.
     full_film_friction_coefficient: Ratio | None = None
 
