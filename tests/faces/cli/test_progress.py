@@ -77,7 +77,7 @@ def test_what_takes_seconds_is_named_while_it_lasts(on_terminal, command, option
 
 def test_dask_is_loaded_for_a_scheduler_only():
     """xarray would load it where it is installed: seconds after a boot."""
-    pytest.importorskip("dask")
+    pytest.importorskip("dask", reason='needs dask, of the extra "cluster"')
     code = """if True:
         import atexit, sys
         from ballscrew.faces.cli.main import main
