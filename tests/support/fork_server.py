@@ -7,6 +7,7 @@ it with the address of a socket; it ends when its standard input does.
 
 import array
 import atexit
+import builtins
 import contextlib
 import gc
 import io
@@ -130,7 +131,7 @@ def become(asked: dict, streams: list[int]) -> None:
     sys.stderr = os.fdopen(2, "w", encoding="utf-8", errors="backslashreplace", buffering=1, closefd=False)
     sys.argv = [asked["module"], *asked["arguments"]]
     for category in asked["errors"]:
-        warnings.filterwarnings("error", category=getattr(__builtins__, category))
+        warnings.filterwarnings("error", category=getattr(builtins, category))
     sys.warnoptions = [f"error::{category}" for category in asked["errors"]]  # as -W: the program leaves them alone
     warnings.filterwarnings("default", category=EncodingWarning)  # forgets which warnings were shown while loading
     code = 1

@@ -5,9 +5,10 @@ import math
 import numpy as np
 import pytest
 
+from ballscrew.basis.sheet import Table
 from ballscrew.cases.case_files import case_file
-from ballscrew.questions.axis import text
 from ballscrew.questions.axis.compute import chain_of, load
+from ballscrew.questions.axis.sheet import sheet
 from ballscrew.questions.check.compute import checked
 from support.commands import ROOT
 
@@ -44,7 +45,8 @@ def test_friction_of_guides_however_small_makes_lost_motion():
     ],
 )
 def test_only_a_nut_without_preload_has_backlash(nut, words):
-    assert text.note_of_lost_motion(chain_of(changed(nut=nut))).endswith(f"of the guides; {words}")
+    places = next(iter(sheet(chain_of(changed(nut=nut))).of_kind(Table)))
+    assert places.notes[0].endswith(f"of the guides; {words}.")
 
 
 def test_extremes_are_those_of_the_travel(report):

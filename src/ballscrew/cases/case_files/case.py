@@ -11,7 +11,6 @@ from ballscrew.axis.duty_cycle.axis import Axis
 from ballscrew.axis.duty_cycle.motor import Motor
 from ballscrew.axis.motion.profiles import Motion, Segments
 from ballscrew.axis.supports.mounted_bearing import MountedBearing
-from ballscrew.axis.thermal.network import nut_mass_of
 from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.basis import units
 from ballscrew.basis.arrays import lazy
@@ -248,6 +247,8 @@ class Case(Displayed):
 
 def _light(axis: Axis | None, screw: BallScrew) -> list[Record]:
     """A warning of an axis that moves less than the nut alone weighs; without any mass it is a force that moves."""
+    from ballscrew.axis.thermal.network import nut_mass_of  # loads xarray
+
     nut = nut_mass_of(screw)
     if axis is None or not 0 < axis.mass < _LEAST_MASS * nut:
         return []

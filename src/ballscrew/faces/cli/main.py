@@ -180,8 +180,8 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):  # a terminal that has no "·" still gets an answer
             stream.reconfigure(errors="backslashreplace")
-    if not sys.warnoptions:  # -W and PYTHONWARNINGS ask for them; what matters stands in the answer
-        warnings.simplefilter("ignore")
+    if not sys.warnoptions:  # -W and PYTHONWARNINGS ask for them
+        warnings.simplefilter("ignore")  # those of libraries: what matters to people stands in the answer
     _pint_plugins.hidden_from_pint += ["dask", "scipy"]
     if not any(word.startswith("--scheduler") for word in sys.argv):
         absent: Any = None  # as if it were not installed: xarray would load it, which takes seconds after a boot
