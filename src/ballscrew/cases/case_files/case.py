@@ -247,10 +247,12 @@ class Case(Displayed):
 
 def _light(axis: Axis | None, screw: BallScrew) -> list[Record]:
     """A warning of an axis that moves less than the nut alone weighs; without any mass it is a force that moves."""
-    from ballscrew.axis.thermal.network import nut_mass_of  # loads xarray
+    if axis is None:
+        return []
+    from ballscrew.axis.thermal.network import nut_mass_of  # loads xarray, which a single run does without
 
     nut = nut_mass_of(screw)
-    if axis is None or not 0 < axis.mass < _LEAST_MASS * nut:
+    if not 0 < axis.mass < _LEAST_MASS * nut:
         return []
     quantity = fields_of(Axis)["mass"]
     message = _LIGHT.of(mass=Measured(float(axis.mass), quantity), nut=Measured(nut, quantity, digits=2))
