@@ -77,7 +77,7 @@ _SECTION = re.compile(r"\[[a-z_.]+\]")
 #: Two words that nobody reads: classes of elements, units, selectors, and a defect of the page.
 CODES = {
     "(prefers-color-scheme: dark)", "chart low", "chart low whole-width",
-    "chart whole-width", "field given",
+    "chart tall whole-width", "chart whole-width", "field given",
     "field start given",
     "input, select", "kg cm^2", "lbf in", "line thin", "mm rpm",
     "no element #…", "no element …", "part absent", "part-of-axis absent", "scroll whole", "verdict careful",
@@ -418,4 +418,5 @@ def test_angles_of_a_message_are_those_of_the_program(language):
     angle = re.compile(r"\d+(?:[.,]\d+)?(?=\s?(?:deg\b(?!C)|°(?!\s?C)))")
     for key, text in languages.texts()[language].items():
         if key.startswith("message."):
-            assert {*angle.findall(text)} <= {*re.findall(r"\d+(?:[.,]\d+)?", key)}, key
+            angles = {one.replace(",", ".") for one in angle.findall(text)}
+            assert angles <= {*re.findall(r"\d+(?:\.\d+)?", key)}, key
