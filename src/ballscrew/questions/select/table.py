@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from ballscrew.questions.check.table import of_checks
@@ -28,7 +29,7 @@ def of_selection(ranked: Sequence[Ranked]) -> RowTable:
         cells: dict[str, object] = {
             "rank": each.rank, "name": found.name, "nut": found.variant.nut, "preload as given": found.variant.preload,
             "oil": found.variant.oil_name, "holds": int(found.holds), "pareto": int(each.pareto),
-            "largest utilisation": found.worst, "verdict": verdict(found),
+            "largest utilisation": _finite(found.worst), "verdict": verdict(found),
         }  # fmt: skip
         for name, objective in OBJECTIVES.items():
             put(cells, objective.quantity, found.objectives[name])
@@ -38,9 +39,14 @@ def of_selection(ranked: Sequence[Ranked]) -> RowTable:
             for name in BRAKE:
                 put(cells, NUMBERS["torque_peak"], getattr(found.duty.brake, name), f"brake {name}")
         for check in found.checks:
-            cells[f"{check.name.replace('_', ' ')} utilisation"] = check.utilisation
+            cells[f"{check.name.replace('_', ' ')} utilisation"] = _finite(check.utilisation)
         if found.complete:
             row = next(of_check)
             cells |= {table.headings[place]: row[place] for place in kept}
         rows.append(cells)
     return of_cells(rows)
+
+
+def _finite(share: float | None) -> float | None:
+    """A share of a limit; none where nothing of the limit is left."""
+    return share if share is not None and math.isfinite(share) else None
