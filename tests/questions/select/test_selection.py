@@ -362,8 +362,11 @@ def test_the_motor_of_a_starved_cycle_is_listed_by_the_larger_torque(ballscrew, 
     mine, units = document["candidates"][0], document["units"]
     given, full, larger = mine["duty"], mine["full_bath"], mine["motor_torque"]
     assert mine["starved"]
-    assert (given["torque_peak"], given["torque_rms"]) == pytest.approx((10.2, 6.33), rel=0.01)
-    assert (full["torque_peak"], full["torque_rms"]) == pytest.approx((15.92, 9.60), rel=0.01)
+    # the peaks of the load and of friction, and what accelerates the shaft at 3 m/s², lead 10 mm
+    shaft = mine["objectives"]["inertia"] * 3 * 2 * math.pi / 0.01
+    assert given["torque_peak"] == pytest.approx(10.2 + shaft, rel=0.01)
+    assert full["torque_peak"] == pytest.approx(15.92 + shaft, rel=0.01)
+    assert full["torque_rms"] > 1.4 * given["torque_rms"]
     assert larger == {name: full[name] for name in ("torque_peak", "torque_rms")}
     assert mine["objectives"]["drive_torque"] == larger["torque_peak"]
     assert units["motor_torque"]["torque_rms"] == units["full_bath"]["torque_rms"] == "N m"
