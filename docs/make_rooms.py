@@ -22,6 +22,8 @@ CONTRIBUTING = HERE / "CONTRIBUTING.md"
 BEGIN, END = "<!-- rooms: begin -->", "<!-- rooms: end -->"
 #: The public face: it loads what is asked for by name, and is no folder.
 FACE = "ballscrew"
+#: The paper in one file, which imports nothing and is in no folder.
+PAPER = "ballscrew.olaru2005"
 BASIS = "basis"
 
 
@@ -84,7 +86,7 @@ def edges(place: Callable[[str], str]) -> Iterator[tuple[str, str]]:
 
 def arrows(place: Callable[[str], str]) -> dict[str, frozenset[str]]:
     """The places that each place imports."""
-    found: dict[str, set[str]] = {place(module): set() for module in modules() if module != FACE}
+    found: dict[str, set[str]] = {place(module): set() for module in modules() if module not in (FACE, PAPER)}
     for one, other in edges(place):
         found[one].add(other)
     return {name: frozenset(others - {name}) for name, others in found.items()}
