@@ -8,7 +8,7 @@ import pytest
 
 from ballscrew.axis.supports.stiffness import stiffness_over_stroke
 from ballscrew.basis.errors import InputError
-from ballscrew.basis.sheet import Columns
+from ballscrew.basis.output.sheet import Columns
 from ballscrew.cases.case_files import case_file
 from ballscrew.physics.sizing.installation import Ends
 from ballscrew.questions.axis.compute import chain_of, load

@@ -8,7 +8,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.basis.output.json_text import plain
-from ballscrew.basis.sheet import Table
+from ballscrew.basis.output.sheet import Table
 from ballscrew.faces.sheets import terminal
 from ballscrew.questions.compensation.compute import position_compensation
 from ballscrew.questions.compensation.document import document

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from ballscrew.basis.sheet import Chart, Columns, Table
+from ballscrew.basis.output.sheet import Chart, Columns, Table
 from ballscrew.cases.case_files import case_file
 from ballscrew.questions.condition import compute
 from ballscrew.questions.condition.options import ConditionOptions

@@ -9,7 +9,7 @@ import pytest
 
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.json_text import as_json
-from ballscrew.basis.sheet import Bars, Lines, Table
+from ballscrew.basis.output.sheet import Bars, Lines, Table
 from ballscrew.cases.case_files import case_file, uncertain_inputs
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.questions.sensitivity import compute

@@ -12,7 +12,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.json_text import plain
-from ballscrew.basis.sheet import Columns
+from ballscrew.basis.output.sheet import Columns
 from ballscrew.faces.sheets import terminal
 from ballscrew.questions.band.heat_samples import heat_samples
 from ballscrew.questions.duty import band as duty_band

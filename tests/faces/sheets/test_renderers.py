@@ -8,8 +8,7 @@ import zipfile
 import numpy as np
 import pytest
 
-from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.basis.sheet import (
+from ballscrew.basis.output.sheet import (
     Axis,
     Band,
     Bar,
@@ -30,6 +29,7 @@ from ballscrew.basis.sheet import (
     document,
     words,
 )
+from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.faces.sheets import files, pictures, report_blocks, terminal, to_file
 from support.pictures import drawn
 

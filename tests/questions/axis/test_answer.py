@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ballscrew.basis.sheet import Columns, Table
+from ballscrew.basis.output.sheet import Columns, Table
 from ballscrew.questions.axis import document
 from ballscrew.questions.axis.answer import ChainResults
 from ballscrew.questions.axis.compute import FRICTION, LOAD, SERIES, SPEED, chain_of, load

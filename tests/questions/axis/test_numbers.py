@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from ballscrew.basis.sheet import Table
+from ballscrew.basis.output.sheet import Table
 from ballscrew.cases.case_files import case_file
 from ballscrew.questions.axis.compute import chain_of, load
 from ballscrew.questions.axis.sheet import sheet

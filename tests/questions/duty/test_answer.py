@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from ballscrew.basis.sheet import Table
+from ballscrew.basis.output.sheet import Table
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.web.vocabulary import vocabulary
 from ballscrew.questions.duty import compute, document

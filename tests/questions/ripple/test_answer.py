@@ -8,7 +8,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
-from ballscrew.basis.sheet import Columns, Table
+from ballscrew.basis.output.sheet import Columns, Table
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import terminal
 from ballscrew.physics.components.chain_force import ChainBallForce

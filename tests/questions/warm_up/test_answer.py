@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from ballscrew.basis.sheet import Columns, Table
+from ballscrew.basis.output.sheet import Columns, Table
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.web import documents
 from ballscrew.faces.web.vocabulary import vocabulary

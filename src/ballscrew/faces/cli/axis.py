@@ -43,7 +43,7 @@ def axis(
     [axis] and [motion] the travel, the largest load and the largest speed are theirs, or else of [operation].
     """
     from ballscrew.basis.output.json_text import as_json as json_text
-    from ballscrew.basis.sheet import document as sheet_document
+    from ballscrew.basis.output.sheet import document as sheet_document
     from ballscrew.faces.sheets import terminal, to_file
     from ballscrew.questions.axis import compute
     from ballscrew.questions.axis import document as documents

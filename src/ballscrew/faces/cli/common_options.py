@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ballscrew.faces.cli.start import INTERRUPTED
+from ballscrew.faces.cli import INTERRUPTED
 
 if TYPE_CHECKING:
     from ballscrew.questions.shared.every_row import OfRows, RowCase

@@ -37,7 +37,7 @@ def compensation(
     from ballscrew.basis.atomic_files import atomic_write, check_writable
     from ballscrew.basis.errors import Fault, InputError, nearest
     from ballscrew.basis.output.json_text import as_json as json_text
-    from ballscrew.basis.sheet import document as sheet_document
+    from ballscrew.basis.output.sheet import document as sheet_document
     from ballscrew.faces.sheets import terminal
     from ballscrew.questions.compensation import compute
     from ballscrew.questions.compensation import document as documents

@@ -54,7 +54,7 @@ def duty(
     stands beside the numbers; [model] name = "constant-efficiency" asks for it.
     """
     from ballscrew.basis.output.json_text import as_json as json_text
-    from ballscrew.basis.sheet import document as sheet_document
+    from ballscrew.basis.output.sheet import document as sheet_document
     from ballscrew.cases.case_files import case_file
     from ballscrew.faces.sheets import terminal, to_file
     from ballscrew.questions.duty import compute

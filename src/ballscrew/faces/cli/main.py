@@ -19,6 +19,7 @@ from typer.core import TyperCommand, TyperGroup
 
 from ballscrew.basis import pint_plugins as _pint_plugins
 from ballscrew.faces.cli import (
+    INTERRUPTED,
     axis,
     card,
     catalogue,
@@ -50,7 +51,6 @@ from ballscrew.faces.cli import (
 )
 from ballscrew.faces.cli.common_options import CALIBRATION_NAMES, MODEL_NAMES, compiling_on_terminal
 from ballscrew.faces.cli.flags import with_flags
-from ballscrew.faces.cli.start import INTERRUPTED
 
 
 class _Command(TyperCommand):

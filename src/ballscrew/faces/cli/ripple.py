@@ -42,7 +42,7 @@ def ripple(
     one of lost preload and of circuits without room: --fault all has the figures for this nut.
     """
     from ballscrew.basis.output.json_text import as_json as json_text
-    from ballscrew.basis.sheet import document as sheet_document
+    from ballscrew.basis.output.sheet import document as sheet_document
     from ballscrew.cases.case_files import case_file
     from ballscrew.faces.cli.progress import progress
     from ballscrew.faces.sheets import terminal, to_file

@@ -43,7 +43,7 @@ def sensitivity(
     rarely known, with a usual one. Laws are not varied here.
     """
     from ballscrew.basis.output.json_text import as_json as json_text
-    from ballscrew.basis.sheet import document as sheet_document
+    from ballscrew.basis.output.sheet import document as sheet_document
     from ballscrew.cases.case_files import case_file
     from ballscrew.faces.cli import progress
     from ballscrew.faces.sheets import terminal, to_file

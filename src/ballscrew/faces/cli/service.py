@@ -49,7 +49,7 @@ def service(
     friction, the oil, the seals.
     """
     from ballscrew.basis.output.json_text import as_json as json_text
-    from ballscrew.basis.sheet import document as sheet_document
+    from ballscrew.basis.output.sheet import document as sheet_document
     from ballscrew.cases.case_files import case_file
     from ballscrew.faces.cli.progress import progress
     from ballscrew.faces.sheets import terminal, to_file

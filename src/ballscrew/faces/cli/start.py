@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import sys
 
-#: The exit code of a program that Ctrl-C ends.
-INTERRUPTED = 130
+from ballscrew.faces.cli import INTERRUPTED
 
 
 def main() -> None:

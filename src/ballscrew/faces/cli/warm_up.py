@@ -60,7 +60,7 @@ def warm_up(
     """
     from ballscrew.basis.errors import Fault, InputError, raise_if_any
     from ballscrew.basis.output.json_text import as_json as json_text
-    from ballscrew.basis.sheet import document as sheet_document
+    from ballscrew.basis.output.sheet import document as sheet_document
     from ballscrew.faces.sheets import terminal, to_file
     from ballscrew.questions.shared.option_values import read
     from ballscrew.questions.warm_up import compute as studies

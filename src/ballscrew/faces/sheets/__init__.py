@@ -1,1 +1,1 @@
-"""Renderers of sheets (:mod:`ballscrew.basis.sheet`): the terminal, pictures, files, and blocks of a report."""
+"""Renderers of sheets (:mod:`ballscrew.basis.output.sheet`): the terminal, pictures, files, and blocks of a report."""

@@ -12,7 +12,7 @@ import numpy as np
 
 from ballscrew.basis import units
 from ballscrew.basis.atomic_files import atomic_write
-from ballscrew.basis.sheet import Cell, Column, Columns, Number, Share, Sheet, Table
+from ballscrew.basis.output.sheet import Cell, Column, Columns, Number, Share, Sheet, Table
 from ballscrew.questions.shared.row_tables import RowTable, write_csv, xlsx_bytes
 
 _DIGITS = 12

@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from ballscrew.basis import units
+from ballscrew.basis.output.sheet import Axis, Band, Bar, Bars, Chart, Colour, Curve, Level, Lines, Map, Sheet, Vertical
 from ballscrew.basis.quantities import Quantity
-from ballscrew.basis.sheet import Axis, Band, Bar, Bars, Chart, Colour, Curve, Level, Lines, Map, Sheet, Vertical
 from ballscrew.questions.shared import charts
 from ballscrew.questions.shared.report_blocks import sentence
 

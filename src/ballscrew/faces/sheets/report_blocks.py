@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ballscrew.basis.sheet import Chart, Lines, Map, Sheet, words
-from ballscrew.basis.sheet import Table as SheetTable
+from ballscrew.basis.output.sheet import Chart, Lines, Map, Sheet, words
+from ballscrew.basis.output.sheet import Table as SheetTable
 from ballscrew.questions.shared.chart_svg import named, svg_of
 from ballscrew.questions.shared.report_blocks import Bar, Block, Bullets, Paragraph, Picture, Table, sentence
 

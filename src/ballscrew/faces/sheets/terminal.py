@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ballscrew.basis.output.sheet import Line, Lines, Sheet, Table, words
 from ballscrew.basis.output.wrapping import aligned, beside, wrapped
-from ballscrew.basis.sheet import Line, Lines, Sheet, Table, words
 
 _BAR = 24
 

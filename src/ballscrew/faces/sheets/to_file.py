@@ -6,8 +6,8 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from ballscrew.basis.errors import Fault, raise_if_any
+from ballscrew.basis.output.sheet import Sheet
 from ballscrew.basis.records import Message
-from ballscrew.basis.sheet import Sheet
 from ballscrew.questions.shared import chart_files, row_tables
 
 

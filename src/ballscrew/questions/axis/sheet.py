@@ -8,8 +8,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.basis.sheet import (
+from ballscrew.basis.output.sheet import (
     Axis,
     Band,
     Block,
@@ -28,6 +27,7 @@ from ballscrew.basis.sheet import (
     Table,
     Vertical,
 )
+from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.cases.case_files import descriptions
 from ballscrew.questions.axis.compute import FRICTION, SERIES, SPRINGS, ChainReport
 from ballscrew.questions.shared.elements_text import element_lines

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ballscrew.basis import units
+from ballscrew.basis.output.sheet import Axis, Chart, Column, Columns, Curve, Line, Lines, Number, Sheet, Table
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.basis.sheet import Axis, Chart, Column, Columns, Curve, Line, Lines, Number, Sheet, Table
 from ballscrew.questions.compensation.compute import PositionCompensation
 from ballscrew.questions.warm_up.compute import WarmUpReport
 from ballscrew.questions.warm_up.verdicts import verdicts, warnings

@@ -8,8 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.basis.sheet import (
+from ballscrew.basis.output.sheet import (
     Axis,
     Band,
     Block,
@@ -27,6 +26,7 @@ from ballscrew.basis.sheet import (
     Table,
     Vertical,
 )
+from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import design, model_text, nut_text
 from ballscrew.evidence.service.condition_values import Condition

@@ -12,8 +12,7 @@ from ballscrew.axis.duty_cycle.axis import Axis as AxisOfMass
 from ballscrew.axis.duty_cycle.brake import LetGo
 from ballscrew.axis.motion.profiles import Trapezoid
 from ballscrew.basis import units
-from ballscrew.basis.quantities import Info, Quantity, fields_of
-from ballscrew.basis.sheet import (
+from ballscrew.basis.output.sheet import (
     Axis,
     Bar,
     Bars,
@@ -33,6 +32,7 @@ from ballscrew.basis.sheet import (
     Table,
     words,
 )
+from ballscrew.basis.quantities import Info, Quantity, fields_of
 from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.schema.duty_schema import MOTIONS
 from ballscrew.cases.screw_tables.nut_kinds import LISTED

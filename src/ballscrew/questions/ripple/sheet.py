@@ -8,8 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.quantities import Array, Info, Quantity, quantities_of
-from ballscrew.basis.sheet import (
+from ballscrew.basis.output.sheet import (
     Axis,
     Cell,
     Chart,
@@ -25,6 +24,7 @@ from ballscrew.basis.sheet import (
     Table,
     Vertical,
 )
+from ballscrew.basis.quantities import Array, Info, Quantity, quantities_of
 from ballscrew.cases.case_files import descriptions
 from ballscrew.physics.moving_balls.ripple import NamedOrder, Ripple
 from ballscrew.questions.ripple.compute import RippleReport, relative

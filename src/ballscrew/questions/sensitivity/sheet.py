@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 
 from ballscrew.basis import units
+from ballscrew.basis.output.sheet import Bar, Bars, Cell, Colour, Line, Lines, Number, Share, Sheet, Table, Vertical
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.basis.sheet import Bar, Bars, Cell, Colour, Line, Lines, Number, Share, Sheet, Table, Vertical
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import design, title
 from ballscrew.cases.case_files.spelling import THOUSANDS

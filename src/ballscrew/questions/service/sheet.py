@@ -8,9 +8,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.quantities import Info, Quantity, fields_of
-from ballscrew.basis.records import Message, Named, Value
-from ballscrew.basis.sheet import (
+from ballscrew.basis.output.sheet import (
     Axis,
     Bar,
     Bars,
@@ -27,6 +25,8 @@ from ballscrew.basis.sheet import (
     Sheet,
     Table,
 )
+from ballscrew.basis.quantities import Info, Quantity, fields_of
+from ballscrew.basis.records import Message, Named, Value
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import design, model_text, nut_text
 from ballscrew.evidence.service.preload_estimate import PreloadEstimate

@@ -8,10 +8,10 @@ from typing import Any
 
 from ballscrew.basis import units
 from ballscrew.basis.output.plain_numbers import plain
+from ballscrew.basis.output.sheet import Cell, Number, Share, Table
 from ballscrew.basis.output.wrapping import beside
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.basis.records import Message, in_file
-from ballscrew.basis.sheet import Cell, Number, Share, Table
 from ballscrew.cases.case_files.case import Case
 from ballscrew.physics.sizing.checks import Check
 from ballscrew.physics.sizing.sources import QUALIFICATIONS

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.quantities import Array, Info, Quantity
-from ballscrew.basis.sheet import (
+from ballscrew.basis.output.sheet import (
     Axis,
     Band,
     Block,
@@ -27,6 +26,7 @@ from ballscrew.basis.sheet import (
     Sheet,
     Table,
 )
+from ballscrew.basis.quantities import Array, Info, Quantity
 from ballscrew.cases.case_files import descriptions
 from ballscrew.questions.duty.compute import NUMBERS
 from ballscrew.questions.warm_up.compute import EQUILIBRIUM, PLACE, SERIES, WarmUpReport
