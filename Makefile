@@ -1,6 +1,6 @@
 # make demo: set up and reproduce the paper.  make test: set up and run the tests (make test-all: the long ones too).
-# make app: the page in the browser.
-.PHONY: app demo test test-all lint types layers js docs pages bench hostile mutate mutate-check constraints floors readme rooms interpreter interpreter-check \
+# make quick: the tests that an edit can break.  make app: the page in the browser.
+.PHONY: app demo test test-all quick quick-map lint types layers js docs pages bench hostile mutate mutate-check constraints floors readme rooms interpreter interpreter-check \
 	screenshots dist release trials workflows clean
 
 .DEFAULT_GOAL := demo
@@ -54,6 +54,14 @@ app: $(READY)
 
 test: $(READY)
 	$(BIN)/pytest
+
+# the tests that an edit can break, as many as fit into a minute: chosen by a map of what each test runs, which
+# make quick-map measures in twenty minutes. SINCE=commit: where the edit began; SECONDS=40: of the tests, without their start
+quick: $(READY)
+	@$(BIN)/python tools/mutation/quick.py --since $(or $(SINCE),HEAD) --seconds $(or $(SECONDS),40)
+
+quick-map: $(READY)
+	$(BIN)/python tools/mutation/quick.py --measure
 
 test-all: $(READY)
 	$(BIN)/pytest -m "long or not long" --hypothesis-profile=long

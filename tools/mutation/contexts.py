@@ -54,7 +54,7 @@ def pytest_configure() -> None:
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_protocol(item: pytest.Item) -> Generator[None, object, object]:
-    """Count lines for the test, without the values of its parameters."""
+    """Count lines for the test; for each of its parameters only where the environment has ``EACH_PARAMETER``."""
     with _counted(_test(item)):
         return (yield)
 
@@ -97,7 +97,7 @@ def _counted(name: str) -> Generator[None]:
 
 
 def _test(item: pytest.Item) -> str:
-    return item.nodeid.partition("[")[0]
+    return item.nodeid if "EACH_PARAMETER" in os.environ else item.nodeid.partition("[")[0]
 
 
 @pytest.hookimpl(wrapper=True)

@@ -1,0 +1,287 @@
+"""The tests that an edit can break, as many as a minute holds: ``make quick [SINCE=commit] [SECONDS=45]``.
+
+Git says which functions have changed since a commit, the last one unless told; a map in ``out/quick`` says which tests
+run them. Tests that changed themselves come first, then those that run least beside the changed functions, one of each
+file in turn, until their measured times fill the budget. What is left out is counted and said.
+
+``make quick-map`` measures the map, in some twenty minutes. It holds functions by their names, so that it stays of use
+while they move and change; tests and functions that are newer than the map are not in it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import gzip
+import json
+import os
+import shutil
+import sqlite3
+import subprocess
+import sys
+import time
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from coverage.numbits import numbits_to_nums
+
+HERE = Path(__file__).parent
+ROOT = HERE.parents[1]
+SOURCE = ROOT / "src" / "ballscrew"
+WORK = ROOT / "out" / "quick"
+MAP = WORK / "map.json.gz"
+#: Code that runs when its module is imported.
+MODULE = "<module>"
+#: Tests that are in no map, as they start processes, servers and browsers, or take minutes for one room.
+UNMEASURED = tuple(
+    f"tests/{name}" for name in ("compiler/kernels", "docs", "engine/sweeps", "exports", "faces/site", "faces/web")
+)
+#: Processes that run tests, and seconds that each takes to start.
+WORKERS = min(os.cpu_count() or 1, 4)
+PYTEST = ("-q", "-p", "no:randomly", "--no-header")
+
+
+class Reach(NamedTuple):
+    """Which tests run which function."""
+
+    tests: Sequence[str]
+    seconds: Sequence[float]
+    #: Places in ``tests`` by function, as ``physics/equations/film.py:minimum_film_thickness``.
+    functions: Mapping[str, Sequence[int]]
+
+
+class Choice(NamedTuple):
+    """Tests to run, and how many more run what has changed."""
+
+    tests: Sequence[str]
+    seconds: float
+    left: int
+    seconds_left: float
+
+
+# -- what has changed -------------------------------------------------------------------------------
+
+
+def changed_lines(since: str) -> dict[str, set[int]]:
+    """Lines of today's files that differ from a commit; of a deletion, the line above it."""
+    diff = git("diff", "--unified=0", "--no-renames", since, "--", "src", "tests")
+    lines: dict[str, set[int]] = defaultdict(set)
+    file = ""
+    for line in diff.splitlines():
+        if line.startswith("+++ "):
+            file = line.removeprefix("+++ ").removeprefix("b/")
+        elif line.startswith("@@") and file != os.devnull:
+            start, _, count = line.split("+")[1].split(" ")[0].partition(",")
+            lines[file].update(range(int(start), int(start) + max(int(count or 1), 1)))
+    for file in git("ls-files", "--others", "--exclude-standard", "src", "tests").splitlines():
+        lines[file].add(0)
+    return dict(lines)
+
+
+def git(*arguments: str) -> str:
+    """Output of a command of git."""
+    return subprocess.run(("git", *arguments), cwd=ROOT, check=True, capture_output=True, text=True).stdout
+
+
+def functions_of(text: str) -> list[str]:
+    """The name of the function that each line stands in, the first line at place 1; ``<module>`` where in none."""
+    names = [MODULE] * (text.count("\n") + 2)
+
+    def name(nodes: Iterable[ast.stmt], outer: str) -> None:
+        for node in nodes:
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+                full = f"{outer}{node.name}"
+                if not isinstance(node, ast.ClassDef):
+                    first = node.body[0].lineno
+                    last = node.end_lineno or first
+                    names[first : last + 1] = [full] * (last + 1 - first)
+                name(node.body, f"{full}.")
+
+    name(ast.parse(text).body, "")
+    return names
+
+
+def changed_functions(lines: Mapping[str, set[int]]) -> set[str]:
+    """Functions with changed lines; all of a module where what runs at its import has changed, or its data."""
+    changed: set[str] = set()
+    for file, numbers in lines.items():
+        if not file.startswith("src/ballscrew/"):
+            continue
+        path = file.removeprefix("src/ballscrew/")
+        if not file.endswith(".py"):
+            readers = git("grep", "--name-only", "--fixed-strings", Path(file).name, "--", "src/ballscrew/*.py")
+            changed |= {f"{reader.removeprefix('src/ballscrew/')}:{MODULE}" for reader in readers.splitlines()}
+        elif (ROOT / file).is_file():
+            names = functions_of((ROOT / file).read_text(encoding="utf-8"))
+            changed |= {f"{path}:{names[min(number, len(names) - 1)]}" for number in numbers}
+    return changed
+
+
+# -- which tests ------------------------------------------------------------------------------------
+
+
+def chosen(reach: Reach, changed: Iterable[str], tests: Sequence[str], budget: float) -> Choice:
+    """Tests within a budget of seconds: changed ones, then those that run least else, of each file in turn."""
+    of_module = defaultdict(set)
+    runs = [0] * len(reach.tests)
+    for function, indices in reach.functions.items():
+        of_module[function.partition(":")[0]].update(indices)
+        for index in indices:
+            runs[index] += 1
+    candidates: set[int] = set()
+    for function in changed:
+        path, _, name = function.partition(":")
+        candidates.update(of_module[path] if name == MODULE else reach.functions.get(function, of_module[path]))
+    # the files of changed tests are run whole
+    candidates -= {index for index in candidates if reach.tests[index].partition("::")[0] in tests}
+    by_file: dict[str, list[int]] = defaultdict(list)
+    for index in sorted(candidates, key=lambda index: (runs[index], reach.seconds[index])):
+        by_file[reach.tests[index].partition("::")[0]].append(index)
+    seconds = sum(s for test, s in zip(reach.tests, reach.seconds, strict=True) if test.partition("::")[0] in tests)
+    ids = []
+    for index in in_turn(list(by_file.values())):
+        if seconds + reach.seconds[index] <= budget:
+            seconds += reach.seconds[index]
+            ids.append(index)
+    left = candidates.difference(ids)
+    return Choice(
+        [*tests, *(reach.tests[index] for index in ids)], seconds, len(left), sum(reach.seconds[i] for i in left)
+    )
+
+
+def in_turn(lists: Sequence[Sequence[int]]) -> Iterator[int]:
+    """The first of each list, then the second of each, and so on."""
+    for place in range(max(map(len, lists), default=0)):
+        yield from (each[place] for each in lists if place < len(each))
+
+
+def read_map() -> Reach:
+    """The map as it was measured last."""
+    if not MAP.is_file():
+        raise SystemExit("There is no map of tests yet: `make quick-map` measures it once, in some twenty minutes.")
+    with gzip.open(MAP, "rt", encoding="utf-8") as file:
+        return Reach(**json.load(file))
+
+
+def run(since: str, budget: float, list_only: bool) -> int:
+    """Choose tests, say which, and run them; the exit code of pytest."""
+    lines = changed_lines(since)
+    tests = [file for file in lines if file.startswith("tests/") and Path(file).name.startswith("test_")]
+    tests = [file for file in tests if (ROOT / file).is_file()]
+    changed = changed_functions(lines)
+    reach = read_map()
+    choice = chosen(reach, changed, tests, budget * WORKERS)
+    print(f"{len(changed)} functions have changed since {since}, {len(tests)} files of tests")
+    print(f"{len(choice.tests)} chosen, {choice.seconds:.0f} s of processor; {choice.left} left out, "
+          f"{choice.seconds_left:.0f} s", flush=True)  # fmt: skip
+    scripts = [file for file in lines if file.endswith((".js", ".css", ".html"))]
+    if scripts:
+        print("Scripts of the page are not in the map: make js, pytest tests/faces/web/test_page*.py", flush=True)
+    if list_only or not choice.tests:
+        print("\n".join(choice.tests))
+        return 0
+    arguments = WORK / "arguments.txt"
+    arguments.write_text("\n".join(choice.tests), encoding="utf-8")
+    workers = str(WORKERS) if choice.seconds > 5 else "0"
+    command = [sys.executable, "-m", "pytest", "-n", workers, *PYTEST, f"@{arguments}"]
+    return subprocess.run(command, cwd=ROOT, check=False).returncode
+
+
+# -- the map ----------------------------------------------------------------------------------------
+
+
+def measure() -> None:
+    """Run all tests that have a map, in as many processes as there are processors, and write what they run."""
+    shutil.rmtree(WORK, ignore_errors=True)
+    files = sorted(file.relative_to(ROOT).as_posix() for file in (ROOT / "tests").rglob("test_*.py"))
+    files = [file for file in files if not file.startswith(UNMEASURED)]
+    started = time.monotonic()
+    shards = [measured(WORK / f"shard{number}", files[number::WORKERS]) for number in range(WORKERS)]
+    for process in shards:
+        if process.wait() > 1:  # a test that fails is no reason to have no map
+            raise SystemExit("The tests could not be run: see out/quick/shard*/pytest.txt")
+    reach = joined([WORK / f"shard{number}" for number in range(WORKERS)])
+    with gzip.open(MAP, "wt", encoding="utf-8") as file:
+        json.dump(reach._asdict(), file)
+    minutes = (time.monotonic() - started) / 60
+    print(f"{len(reach.tests)} tests run {len(reach.functions)} functions; measured in {minutes:.0f} min")
+
+
+def measured(folder: Path, files: Sequence[str]) -> subprocess.Popen[bytes]:
+    """A process of pytest that notes in a folder what each test runs."""
+    commands = folder / "commands"
+    commands.mkdir(parents=True)
+    include = f"{SOURCE}/*"
+    environment = {
+        **os.environ, "COVERAGE_FILE": str(folder / "coverage"), "SECONDS_OF_TESTS": str(folder / "seconds.json"),
+        "PYTHONPATH": str(HERE), "LINES_OF_COMMANDS": str(commands), "LINES_OF": include, "EACH_PARAMETER": "1",
+    }  # fmt: skip
+    coverage = [sys.executable, "-m", "coverage", "run", f"--rcfile={os.devnull}", f"--include={include}"]
+    with (folder / "pytest.txt").open("wb") as output:
+        return subprocess.Popen(
+            [*coverage, "-m", "pytest", "-n0", *PYTEST, "-p", "contexts", "--tb=line", *files],
+            cwd=ROOT, env=environment, stdout=output, stderr=subprocess.STDOUT,
+        )  # fmt: skip
+
+
+def joined(folders: Iterable[Path]) -> Reach:
+    """What the processes have noted, as one map."""
+    seconds: dict[str, float] = {}
+    functions: dict[str, set[str]] = defaultdict(set)
+    for folder in folders:
+        noted = json.loads((folder / "seconds.json").read_text(encoding="utf-8"))
+        shared = noted["shared"]
+        seconds |= {test: s for test, s in noted["seconds"].items() if test not in shared}
+        for file, context, lines in executed(folder):
+            names = names_in(file)
+            tests = shared.get(context, (context,))
+            path = Path(file).relative_to(SOURCE).as_posix()
+            for name in {names[line] for line in lines if line < len(names)}:
+                functions[f"{path}:{name}"].update(tests)
+    tests = sorted(seconds)
+    place = {test: index for index, test in enumerate(tests)}
+    by_function = {name: sorted(place[test] for test in reached) for name, reached in functions.items()}
+    return Reach(tests, [round(seconds[test], 4) for test in tests], by_function)
+
+
+def executed(folder: Path) -> Iterator[tuple[str, str, Iterable[int]]]:
+    """Files, what was run there for (a test or a shared fixture), and lines."""
+    database = sqlite3.connect(folder / "coverage")
+    query = ("select path, context, numbits from line_bits join file on file.id = file_id "
+             "join context on context.id = context_id where context != ''")  # fmt: skip
+    for path, context, bits in database.execute(query):
+        yield path, context, numbits_to_nums(bits)
+    for file in (folder / "commands").iterdir():
+        noted = json.loads(file.read_text(encoding="utf-8"))
+        if noted["context"]:
+            yield from ((path, noted["context"], lines) for path, lines in noted["lines"].items())
+
+
+_NAMES: dict[str, list[str]] = {}
+
+
+def names_in(file: str) -> list[str]:
+    """The functions by line of a file, read once."""
+    if file not in _NAMES:
+        _NAMES[file] = functions_of(Path(file).read_text(encoding="utf-8"))
+    return _NAMES[file]
+
+
+def main() -> None:
+    """Read the command line."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--since", default="HEAD", help="the commit that the edit began from")
+    parser.add_argument("--seconds", type=float, default=40.0, help="budget of the tests, without their start")
+    parser.add_argument("--list", action="store_true", help="list the tests, and run nothing")
+    parser.add_argument("--measure", action="store_true", help="measure the map anew")
+    options = parser.parse_args()
+    if options.measure:
+        measure()
+    else:
+        sys.exit(run(options.since, options.seconds, options.list))
+
+
+if __name__ == "__main__":
+    main()
