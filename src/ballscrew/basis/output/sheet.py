@@ -74,8 +74,6 @@ class Table:
     rows: Sequence[Sequence[Cell]]
     #: Sentences below it.
     notes: Sequence[str] = ()
-    #: The last row is the sum of the others.
-    summed: bool = False
     #: Left out where room is short, on pages of a report.
     detail: bool = False
 

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ballscrew.faces.cli.common_options import AllowCode, CaseFile, ModelName
+from ballscrew.faces.cli.common_options import AllowCode, AsJson, AsSheet, CaseFile, ModelName, print_answer
 from ballscrew.faces.cli.flags import flags_of
 from ballscrew.questions.axis.options import AxisOptions
 
@@ -25,8 +25,8 @@ def axis(
             "--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set installation.ends="fixed-fixed".'
         ),
     ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
-    as_sheet: Annotated[bool, typer.Option("--sheet", help="What people see as one JSON object.")] = False,
+    as_json: AsJson = False,
+    as_sheet: AsSheet = False,
     to: Annotated[
         list[Path] | None,
         typer.Option(
@@ -42,9 +42,7 @@ def axis(
     Nut, shaft, bearings, mount and the twist of the shaft, one behind the other. The case has an [installation]; with
     [axis] and [motion] the travel, the largest load and the largest speed are theirs, or else of [operation].
     """
-    from ballscrew.basis.output.json_text import as_json as json_text
-    from ballscrew.basis.output.sheet import document as sheet_document
-    from ballscrew.faces.sheets import terminal, to_file
+    from ballscrew.faces.sheets import to_file
     from ballscrew.questions.axis import compute
     from ballscrew.questions.axis import document as documents
     from ballscrew.questions.axis.sheet import sheet
@@ -55,10 +53,7 @@ def axis(
     to_file.check(to or [])
     report = compute.chain_of(loaded, options.at)
     seen = sheet(report)
-    if as_sheet:
-        typer.echo(json_text(sheet_document(seen)))
-    else:
-        typer.echo(json_text(documents.document(report)) if as_json else terminal.text(seen))
+    print_answer(seen, lambda: documents.document(report), as_json=as_json, as_sheet=as_sheet)
     for path in to or []:
         to_file.write(path, seen)
         typer.echo(f"{path}: {len(report.chain.position)} places", err=as_json or as_sheet)

@@ -8,6 +8,8 @@ from typing import Annotated
 
 import typer
 
+from ballscrew.faces.cli.common_options import AsJson
+
 app = typer.Typer(
     help="Screws as catalogues list them, and case files made of them.", no_args_is_help=True, rich_markup_mode=None
 )
@@ -19,7 +21,6 @@ Rows = Annotated[
 KeepGoing = Annotated[
     bool, typer.Option("--keep-going", help="Leave faulty rows of the table out, and say which; fails if none is good.")
 ]
-AsJson = Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")]
 
 
 @app.command("list")

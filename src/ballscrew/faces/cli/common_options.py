@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import sys
-from collections.abc import Generator, Mapping, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -13,6 +13,7 @@ import typer
 from ballscrew.faces.cli import INTERRUPTED
 
 if TYPE_CHECKING:
+    from ballscrew.basis.output.sheet import Sheet
     from ballscrew.questions.shared.every_row import OfRows, RowCase
 
 #: Stand for the names of the models and of the calibrations in help texts; replaced when the help is shown.
@@ -34,6 +35,8 @@ Settings = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set operation.axial_load="4 kN".'),
 ]
+AsJson = Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")]
+AsSheet = Annotated[bool, typer.Option("--sheet", help="What people see as one JSON object.")]
 AllowCode = Annotated[
     bool, typer.Option("--allow-code", help='Let the case name laws of your own, "module:name", and run their code.')
 ]
@@ -53,6 +56,20 @@ Rows = Annotated[
 ]
 Row = Annotated[str | None, typer.Option("--row", metavar="NAME", help="Only this row of --rows.")]
 KeepGoing = Annotated[bool, typer.Option("--keep-going", help="Leave faulty rows out, and say how many.")]
+
+
+def print_answer(sheet: Sheet, document: Callable[[], Mapping[str, Any]], *, as_json: bool, as_sheet: bool) -> None:
+    """Print a sheet as text, or as JSON; or the ``document`` of the answer, which is made only then."""
+    from ballscrew.basis.output import json_text
+    from ballscrew.basis.output import sheet as sheets
+    from ballscrew.faces.sheets import terminal
+
+    if as_sheet:
+        typer.echo(json_text.as_json(sheets.document(sheet)))
+    elif as_json:
+        typer.echo(json_text.as_json(document()))
+    else:
+        typer.echo(terminal.text(sheet, getattr(sys.stdout, "encoding", None) or ""))
 
 
 def check_rows(rows: Path | None, row: str | None) -> None:

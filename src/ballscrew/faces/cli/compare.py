@@ -9,6 +9,7 @@ import typer
 
 from ballscrew.faces.cli.common_options import (
     AllowCode,
+    AsJson,
     CalibrationName,
     ModelName,
     SelfHeatingOption,
@@ -24,7 +25,7 @@ def compare(
     model: ModelName = None,
     calibration: CalibrationName = None,
     settings: Settings = None,
-    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+    as_json: AsJson = False,
     to: Annotated[
         Path | None,
         typer.Option("--to", "-o", metavar="FILE", help="Also draw a picture of the spread: .png, .svg or .pdf."),

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ballscrew.faces.cli.common_options import AllowCode, CaseFile, ModelName, Settings
+from ballscrew.faces.cli.common_options import AllowCode, AsJson, AsSheet, CaseFile, ModelName, Settings, print_answer
 from ballscrew.faces.cli.flags import flags_of
 from ballscrew.questions.compensation.options import CompensationOptions
 
@@ -22,8 +22,8 @@ def compensation(
     written: Mapping[str, Any],
     model: ModelName = None,
     settings: Settings = None,
-    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
-    as_sheet: Annotated[bool, typer.Option("--sheet", help="What people see as one JSON object.")] = False,
+    as_json: AsJson = False,
+    as_sheet: AsSheet = False,
     allow_code: AllowCode = False,
 ) -> None:
     """Growth of a warm shaft as a table for a control.
@@ -36,9 +36,6 @@ def compensation(
     """
     from ballscrew.basis.atomic_files import atomic_write, check_writable
     from ballscrew.basis.errors import Fault, InputError, nearest
-    from ballscrew.basis.output.json_text import as_json as json_text
-    from ballscrew.basis.output.sheet import document as sheet_document
-    from ballscrew.faces.sheets import terminal
     from ballscrew.questions.compensation import compute
     from ballscrew.questions.compensation import document as documents
     from ballscrew.questions.compensation.sheet import sheet
@@ -63,9 +60,4 @@ def compensation(
     with atomic_write("--out", out) as path:
         path.write_text(LISTS[to](result, options.axis), encoding="utf-8")
     typer.echo(f"{out}", err=as_json or as_sheet)
-    if as_sheet:
-        typer.echo(json_text(sheet_document(sheet(result, report))))
-    elif as_json:
-        typer.echo(json_text(documents.document(result, report)))
-    else:
-        typer.echo(terminal.text(sheet(result, report)))
+    print_answer(sheet(result, report), lambda: documents.document(result, report), as_json=as_json, as_sheet=as_sheet)

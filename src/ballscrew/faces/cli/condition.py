@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, ModelName
+from ballscrew.faces.cli.common_options import AllowCode, AsJson, AsSheet, CalibrationName, ModelName, print_answer
 from ballscrew.faces.cli.flags import flags_of
 from ballscrew.questions.condition.options import ConditionOptions
 
@@ -34,8 +33,8 @@ def condition(
         list[str] | None,
         typer.Option("--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set nut.preload="4 kN ± 10 %".'),
     ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
-    as_sheet: Annotated[bool, typer.Option("--sheet", help="What people see as one JSON object.")] = False,
+    as_json: AsJson = False,
+    as_sheet: AsSheet = False,
     to: Annotated[
         Path | None,
         typer.Option("--to", metavar="FILE", help="Also write tables (.xlsx, .csv) or a picture (.pdf, .png, .svg)."),
@@ -47,11 +46,9 @@ def condition(
     All torques are reduced to one temperature by the model; without logged temperatures the intervals are wide, and the
     output says so first.
     """
-    from ballscrew.basis.output.json_text import as_json as json_text
-    from ballscrew.basis.output.sheet import document as sheet_document
     from ballscrew.cases.case_files import case_file
     from ballscrew.faces.cli.progress import progress
-    from ballscrew.faces.sheets import terminal, to_file
+    from ballscrew.faces.sheets import to_file
     from ballscrew.questions.condition import compute
     from ballscrew.questions.condition.document import document
     from ballscrew.questions.condition.sheet import sheet
@@ -65,12 +62,7 @@ def condition(
     with progress("condition") as done:
         result = compute.of_files(loaded, tests or [], options, done)
     seen = sheet(loaded, result)
-    if as_sheet:
-        typer.echo(json_text(sheet_document(seen)))
-    elif as_json:
-        typer.echo(json_text(document(loaded, result)))
-    else:
-        typer.echo(terminal.text(seen, getattr(sys.stdout, "encoding", None) or ""))
+    print_answer(seen, lambda: document(loaded, result), as_json=as_json, as_sheet=as_sheet)
     if to is not None:
         to_file.write(to, seen)
         typer.echo(f"{to}: {len(result.states)} tests", err=as_json or as_sheet)

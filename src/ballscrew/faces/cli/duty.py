@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName
+from ballscrew.faces.cli.common_options import (
+    AllowCode,
+    AsJson,
+    AsSheet,
+    CalibrationName,
+    CaseFile,
+    ModelName,
+    print_answer,
+)
 from ballscrew.faces.cli.flags import flags_of
 from ballscrew.questions.duty.options import DutyOptions
 
@@ -27,8 +34,8 @@ def duty(
         list[str] | None,
         typer.Option("--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set axis.mass="500 kg".'),
     ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
-    as_sheet: Annotated[bool, typer.Option("--sheet", help="What people see as one JSON object.")] = False,
+    as_json: AsJson = False,
+    as_sheet: AsSheet = False,
     to: Annotated[
         list[Path] | None,
         typer.Option(
@@ -53,10 +60,8 @@ def duty(
     The case has an [axis] and a [motion], and perhaps a [motor]; it needs no [operation]. The rule of catalogues
     stands beside the numbers; [model] name = "constant-efficiency" asks for it.
     """
-    from ballscrew.basis.output.json_text import as_json as json_text
-    from ballscrew.basis.output.sheet import document as sheet_document
     from ballscrew.cases.case_files import case_file
-    from ballscrew.faces.sheets import terminal, to_file
+    from ballscrew.faces.sheets import to_file
     from ballscrew.questions.duty import compute
     from ballscrew.questions.duty import document as documents
     from ballscrew.questions.duty.sheet import sheet
@@ -71,12 +76,12 @@ def duty(
     options = read(DutyOptions, written)
     bands = _banded(report, options) if options.is_banded else None
     seen = sheet(report, bands)
-    if as_sheet:
-        typer.echo(json_text(sheet_document(seen)))
-    elif as_json:
-        typer.echo(json_text(documents.document(report) if bands is None else documents.with_band(bands)))
-    else:
-        typer.echo(terminal.text(seen, getattr(sys.stdout, "encoding", None) or ""))
+    print_answer(
+        seen,
+        lambda: documents.document(report) if bands is None else documents.with_band(bands),
+        as_json=as_json,
+        as_sheet=as_sheet,
+    )
     for path in to or []:
         to_file.write(path, seen)
         typer.echo(f"{path}: {len(report.duty.states.time)} states", err=as_json or as_sheet)

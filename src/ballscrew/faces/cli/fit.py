@@ -11,7 +11,16 @@ from typing import Annotated, Any
 
 import typer
 
-from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, ModelName, Row, Rows, Verbose, check_rows
+from ballscrew.faces.cli.common_options import (
+    AllowCode,
+    AsJson,
+    CalibrationName,
+    ModelName,
+    Row,
+    Rows,
+    Verbose,
+    check_rows,
+)
 from ballscrew.faces.cli.flags import flags_of
 from ballscrew.questions.fit.options import FitOptions
 from ballscrew.questions.fit_motion.options import FitMotionOptions
@@ -47,7 +56,7 @@ def fit(
             help='Change a value, or give a prior: --set model.friction.boundary_friction_coefficient="0.12 ± 0.03".',
         ),
     ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+    as_json: AsJson = False,
     to: Annotated[
         Path | None,
         typer.Option(

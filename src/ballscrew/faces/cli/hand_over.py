@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName, Settings
+from ballscrew.faces.cli.common_options import AllowCode, AsJson, CalibrationName, CaseFile, ModelName, Settings
 from ballscrew.faces.cli.flags import flags_of
 from ballscrew.questions.hand_over.options import HandOverOptions
 
@@ -25,7 +25,7 @@ def hand_over(
     settings: Settings = None,
     *,
     written: Mapping[str, Any],
-    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+    as_json: AsJson = False,
     allow_code: AllowCode = False,
 ) -> None:
     """Write the model for a simulator, a robot or a control. Its range and its worst error come with it."""

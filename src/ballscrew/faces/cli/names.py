@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from ballscrew.faces.cli.common_options import AsJson
+
 
 def list_names(
     kind: Annotated[str, typer.Argument(metavar="KIND", help="grades, laws, models, inputs or outputs.")],
@@ -16,7 +18,7 @@ def list_names(
     words: Annotated[
         list[str] | None, typer.Option("--word", metavar="WORD", help="Only lines with this word, such as film.")
     ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+    as_json: AsJson = False,
 ) -> None:
     """List grades, laws, models, inputs or outputs. Grades are those of oils; inputs are what can be varied."""
     from ballscrew.basis.output.json_text import as_json as json_text

@@ -7,13 +7,14 @@ from typing import Annotated
 
 import typer
 
+from ballscrew.faces.cli.common_options import AsJson
+
 app = typer.Typer(help="Oils and greases as their makers state them.", no_args_is_help=True, rich_markup_mode=None)
 
 File = Annotated[
     Path | None,
     typer.Option("--oils", metavar="FILE", help="A file of your own, .toml, in place of the library."),
 ]
-AsJson = Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")]
 
 
 @app.command("list")

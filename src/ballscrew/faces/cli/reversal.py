@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName, Settings
+from ballscrew.faces.cli.common_options import AllowCode, AsJson, CalibrationName, CaseFile, ModelName, Settings
 from ballscrew.faces.cli.flags import flags_of
 from ballscrew.questions.reversal.options import ReversalOptions
 
@@ -21,7 +21,7 @@ def reversal(
     model: ModelName = None,
     calibration: CalibrationName = None,
     settings: Settings = None,
-    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+    as_json: AsJson = False,
     to: Annotated[
         Path | None, typer.Option("--to", "-o", metavar="FILE", help="Also draw a picture: .png, .svg or .pdf.")
     ] = None,

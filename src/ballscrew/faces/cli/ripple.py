@@ -8,7 +8,15 @@ from typing import Annotated, Any
 
 import typer
 
-from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName
+from ballscrew.faces.cli.common_options import (
+    AllowCode,
+    AsJson,
+    AsSheet,
+    CalibrationName,
+    CaseFile,
+    ModelName,
+    print_answer,
+)
 from ballscrew.faces.cli.flags import flags_of
 from ballscrew.questions.ripple.options import RippleOptions
 
@@ -24,8 +32,8 @@ def ripple(
         list[str] | None,
         typer.Option("--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set nut.preload="4 kN".'),
     ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
-    as_sheet: Annotated[bool, typer.Option("--sheet", help="What people see as one JSON object.")] = False,
+    as_json: AsJson = False,
+    as_sheet: AsSheet = False,
     to: Annotated[
         Path | None,
         typer.Option(
@@ -41,11 +49,9 @@ def ripple(
     The balls of each circuit are followed through grooves that deviate. Torque is a poor sensor of spalls and a good
     one of lost preload and of circuits without room: --fault all has the figures for this nut.
     """
-    from ballscrew.basis.output.json_text import as_json as json_text
-    from ballscrew.basis.output.sheet import document as sheet_document
     from ballscrew.cases.case_files import case_file
     from ballscrew.faces.cli.progress import progress
-    from ballscrew.faces.sheets import terminal, to_file
+    from ballscrew.faces.sheets import to_file
     from ballscrew.questions.ripple import compute
     from ballscrew.questions.ripple import document as documents
     from ballscrew.questions.ripple.sheet import sheet
@@ -57,10 +63,7 @@ def ripple(
     with progress("ripple"):
         report = compute.ripple_of(loaded, options)
     seen = sheet(report)
-    if as_sheet:
-        typer.echo(json_text(sheet_document(seen)))
-    else:
-        typer.echo(json_text(documents.document(report)) if as_json else terminal.text(seen))
+    print_answer(seen, lambda: documents.document(report), as_json=as_json, as_sheet=as_sheet)
     if to is not None:
         to_file.write(to, seen)
         typer.echo(f"{to}: {len(report.ripple.angle)} angles", err=as_json or as_sheet)

@@ -10,6 +10,7 @@ import typer
 
 from ballscrew.faces.cli.common_options import (
     AllowCode,
+    AsJson,
     CalibrationName,
     CaseFile,
     KeepGoing,
@@ -37,7 +38,7 @@ def run(
     model: ModelName = None,
     calibration: CalibrationName = None,
     settings: Settings = None,
-    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+    as_json: AsJson = False,
     band: Annotated[
         bool,
         typer.Option("--band", help="Band of the results by uncertain inputs and other laws, 95 % of the samples."),

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, CaseFile, ModelName
+from ballscrew.faces.cli.common_options import (
+    AllowCode,
+    AsJson,
+    AsSheet,
+    CalibrationName,
+    CaseFile,
+    ModelName,
+    print_answer,
+)
 from ballscrew.faces.cli.flags import flags_of
 from ballscrew.questions.sensitivity.options import SensitivityOptions
 
@@ -27,8 +34,8 @@ def sensitivity(
             "--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set screw.lead="10 mm ± 0.02 mm".'
         ),
     ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
-    as_sheet: Annotated[bool, typer.Option("--sheet", help="What people see as one JSON object.")] = False,
+    as_json: AsJson = False,
+    as_sheet: AsSheet = False,
     to: Annotated[
         Path | None,
         typer.Option(
@@ -42,11 +49,9 @@ def sensitivity(
     Uncertain inputs are those that the case file gives a distribution, such as "0.54 ± 0.01", and those that are
     rarely known, with a usual one. Laws are not varied here.
     """
-    from ballscrew.basis.output.json_text import as_json as json_text
-    from ballscrew.basis.output.sheet import document as sheet_document
     from ballscrew.cases.case_files import case_file
     from ballscrew.faces.cli import progress
-    from ballscrew.faces.sheets import terminal, to_file
+    from ballscrew.faces.sheets import to_file
     from ballscrew.questions.sensitivity import compute
     from ballscrew.questions.sensitivity.document import document
     from ballscrew.questions.sensitivity.sheet import sheet
@@ -58,12 +63,7 @@ def sensitivity(
     with progress.progress("sensitivity") as done:
         report = compute.sensitivity(loaded, options, done)
     seen = sheet(loaded, report)
-    if as_sheet:
-        typer.echo(json_text(sheet_document(seen)))
-    elif as_json:
-        typer.echo(json_text(document(loaded, report)))
-    else:
-        typer.echo(terminal.text(seen, getattr(sys.stdout, "encoding", None) or ""))
+    print_answer(seen, lambda: document(loaded, report), as_json=as_json, as_sheet=as_sheet)
     if to is not None:
         to_file.write(to, seen)
         typer.echo(f"{to}: {len(report.result.inputs)} inputs", err=as_json or as_sheet)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, ModelName
+from ballscrew.faces.cli.common_options import AllowCode, AsJson, AsSheet, CalibrationName, ModelName, print_answer
 from ballscrew.faces.cli.flags import flags_of
 from ballscrew.questions.service.options import ReadingOptions, ServiceOptions
 
@@ -33,8 +32,8 @@ def service(
         list[str] | None,
         typer.Option("--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set nut.preload="4 kN ± 10 %".'),
     ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
-    as_sheet: Annotated[bool, typer.Option("--sheet", help="What people see as one JSON object.")] = False,
+    as_json: AsJson = False,
+    as_sheet: AsSheet = False,
     picture: Annotated[
         Path | None,
         typer.Option("--picture", metavar="FILE", help="Draw both logs and both preloads: .png, .svg or .pdf."),
@@ -48,11 +47,9 @@ def service(
     The answer has its interval and its probability. What else could have changed the torque is fitted, too: boundary
     friction, the oil, the seals.
     """
-    from ballscrew.basis.output.json_text import as_json as json_text
-    from ballscrew.basis.output.sheet import document as sheet_document
     from ballscrew.cases.case_files import case_file
     from ballscrew.faces.cli.progress import progress
-    from ballscrew.faces.sheets import terminal, to_file
+    from ballscrew.faces.sheets import to_file
     from ballscrew.questions.service import compute
     from ballscrew.questions.service.document import document
     from ballscrew.questions.service.reading import check_question, reading
@@ -71,12 +68,7 @@ def service(
         with progress("service") as done:
             report = compute.of_logs(loaded, logs or [], options, done)
     seen = sheet(loaded, report)
-    if as_sheet:
-        typer.echo(json_text(sheet_document(seen)))
-    elif as_json:
-        typer.echo(json_text(document(loaded, report)))
-    else:
-        typer.echo(terminal.text(seen, getattr(sys.stdout, "encoding", None) or ""))
+    print_answer(seen, lambda: document(loaded, report), as_json=as_json, as_sheet=as_sheet)
     if picture is not None:
         to_file.write(picture, seen, option="--picture")
         typer.echo(f"{picture}: {len(report.estimates)} preloads", err=as_json or as_sheet)

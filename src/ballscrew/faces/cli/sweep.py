@@ -12,6 +12,7 @@ import typer
 
 from ballscrew.faces.cli.common_options import (
     AllowCode,
+    AsJson,
     CalibrationName,
     CaseFile,
     KeepGoing,
@@ -63,7 +64,7 @@ def sweep(
     trust: Annotated[
         bool, typer.Option("--trust", help="Write into a .zarr that belongs to another user, who can change it.")
     ] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
+    as_json: AsJson = False,
     model: ModelName = None,
     calibration: CalibrationName = None,
     settings: Settings = None,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ballscrew.faces.cli.common_options import AllowCode, CaseFile, ModelName
+from ballscrew.faces.cli.common_options import AllowCode, AsJson, AsSheet, CaseFile, ModelName, print_answer
 from ballscrew.faces.cli.flags import flags_of
 from ballscrew.questions.warm_up.options import DriftOptions, WarmUpOptions
 
@@ -39,8 +39,8 @@ def warm_up(
             "--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set surroundings.ambient="25 degC".'
         ),
     ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="One JSON object, SI units.")] = False,
-    as_sheet: Annotated[bool, typer.Option("--sheet", help="What people see as one JSON object.")] = False,
+    as_json: AsJson = False,
+    as_sheet: AsSheet = False,
     to: Annotated[
         list[Path] | None,
         typer.Option(
@@ -59,9 +59,7 @@ def warm_up(
     transients are drawn with other surroundings, among them the conduction through the balls, the least known.
     """
     from ballscrew.basis.errors import Fault, InputError, raise_if_any
-    from ballscrew.basis.output.json_text import as_json as json_text
-    from ballscrew.basis.output.sheet import document as sheet_document
-    from ballscrew.faces.sheets import terminal, to_file
+    from ballscrew.faces.sheets import to_file
     from ballscrew.questions.shared.option_values import read
     from ballscrew.questions.warm_up import compute as studies
     from ballscrew.questions.warm_up import document as documents
@@ -81,12 +79,12 @@ def warm_up(
     banded = _banded(loaded, options) if options.band else None
     report = studies.warmed_up(loaded, options.hours, options.cool_down) if banded is None else banded.report
     seen = sheet(report, banded)
-    if as_sheet:
-        typer.echo(json_text(sheet_document(seen)))
-    elif as_json:
-        typer.echo(json_text(documents.document(report) if banded is None else documents.with_band(banded)))
-    else:
-        typer.echo(terminal.text(seen))
+    print_answer(
+        seen,
+        lambda: documents.document(report) if banded is None else documents.with_band(banded),
+        as_json=as_json,
+        as_sheet=as_sheet,
+    )
     for path in files:
         to_file.write(path, seen, "" if path in (to or []) else _FILES[path.name])
         typer.echo(f"{path}", err=as_json or as_sheet)

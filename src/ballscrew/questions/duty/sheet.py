@@ -197,7 +197,6 @@ def _parts(report: DutyReport) -> Table:
         headings,
         [*rows, row("sum", *sums, bar=False)],
         [_PARTS_NOTE],
-        summed=True,
     )
 
 
@@ -215,7 +214,7 @@ def _heat(report: DutyReport) -> Iterator[Block]:
         rows.append([name, Number(heat[name], _POWER, 3), Share(heat[name] / total, bar=False), causes])
     rows.append(["sum", Number(total, _POWER, 3), Share(1.0, bar=False), ""])
     headings = ("", "mean", "share", "most of it by")
-    yield Table("elements", "Heat by element", headings, rows, summed=True, detail=True)
+    yield Table("elements", "Heat by element", headings, rows, detail=True)
     lost = [
         (element, part, energy) for element, parts in report.energy_lost_in.items() for part, energy in parts.items()
     ]
