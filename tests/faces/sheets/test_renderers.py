@@ -170,7 +170,7 @@ def test_csv_and_workbook(tmp_path):
     assert [name in listed for name in ("parts", "life", "states")] == [True] * 3
     # one unit in the heading, several beside the numbers
     parts, life = (files.rows_of(SHEET.blocks[index]) for index in (2, 3))
-    assert parts.headings == ["parts", "stroke [mm]", "from", "to", "share", "why"]
+    assert parts.headings == ["parts", "stroke [mm]", "stroke [mm] from", "stroke [mm] to", "share", "why"]
     assert parts.rows[0] == ["first", 250.0, 212.34, 298.76, 0.75, "long"]
     assert life.headings == ["life", "value", "unit"]
     assert life.rows == [["turns", 1.126e9, ""], ["travel", 2000.0, "mm"]]
@@ -197,9 +197,24 @@ def test_bars_of_parts():
     assert panel.collections[0].get_segments()[0][:, 0] == pytest.approx([200, 450])
 
 
-def test_csv_without_columns_is_of_the_longest_table(tmp_path):
-    files.write(tmp_path / "a.csv", Sheet("s", [Table("t", "T", ("", "share"), [["half", Share(0.5)]])]))
-    assert (tmp_path / "a.csv").read_text() == "t,share\nhalf,0.5\n"
+def test_csv_is_the_first_table_of_columns_or_else_the_first_table(tmp_path):
+    """By their order, not by their lengths, which differ from case to case."""
+    short = Table("t", "T", ("", "share"), [["half", Share(0.5)]])
+    long = Table("u", "U", ("", "share"), [["a", Share(0.1)], ["b", Share(0.2)]])
+    columns = [Columns("one", [Column("x", [1])]), Columns("two", [Column("x", [1, 2])])]
+    for blocks, name, text in (
+        ([short, long], "", "t,share\nhalf,0.5\n"),
+        ([short, *columns], "", "x\n1\n"),
+        ([short, *columns], "two", "x\n1\n2\n"),
+    ):
+        files.write(tmp_path / "a.csv", Sheet("s", blocks), name)
+        assert (tmp_path / "a.csv").read_text() == text
+
+
+def test_no_table_takes_the_place_of_another_of_its_name():
+    table = Table("t", "T", ("",), [["a"]])
+    with pytest.raises(AssertionError, match="two tables of one name"):
+        Sheet("s", [table, table])
 
 
 def test_axes_of_a_picture():

@@ -224,6 +224,10 @@ class Sheet:
     title: str
     blocks: Sequence[Block]
 
+    def __post_init__(self) -> None:
+        names = [block.name for block in self.of_kind(Table, Columns)]
+        assert len({*names}) == len(names), f"two tables of one name: {names}"
+
     def of_kind(self, *kinds: type[Any]) -> Iterator[Any]:
         """The blocks of some kinds, in their order."""
         return (block for block in self.blocks if isinstance(block, kinds))

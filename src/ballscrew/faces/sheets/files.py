@@ -1,4 +1,4 @@
-"""A sheet as tables in files: all of them in a workbook, the longest in CSV; numbers in the units of their headings."""
+"""A sheet as tables in files: all of them in a workbook, the first of columns in CSV; numbers in the units of their headings."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ _DIGITS = 12
 def write(to: Path, sheet: Sheet, name: str = "") -> None:
     """Write .xlsx (all tables) or .csv, whole or not at all.
 
-    CSV has the table of a name, or else the longest, of columns where there are some.
+    CSV has the table of a name, or else the first, of columns where there are some.
     """
     with atomic_write("--to", to) as path:
         if to.suffix.lower() == ".xlsx":
             path.write_bytes(xlsx_bytes({block.name: rows_of(block) for block in sheet.of_kind(Table, Columns)}))
         else:
             named = [block for block in sheet.of_kind(Columns, Table) if block.name == name]
-            tables = named or list(sheet.of_kind(Columns)) or list(sheet.of_kind(Table))
-            write_csv(path, max(map(rows_of, tables), key=lambda table: len(table.rows)))
+            first, *_ = [*named, *sheet.of_kind(Columns), *sheet.of_kind(Table)]
+            write_csv(path, rows_of(first))
 
 
 def rows_of(block: Table | Columns) -> RowTable:
@@ -67,8 +67,8 @@ def _of_table(table: Table) -> Iterator[tuple[str, Sequence[Any]]]:
             heading = units.heading(quantity, heading)
         yield heading, [_value(cell) for cell in cells]
         if any(isinstance(cell, Number | Share) and cell.band for cell in cells):
-            for end, of in enumerate(("from", "to")):
-                yield of, [_end(cell, end) for cell in cells]
+            for end, word in enumerate(("from", "to")):
+                yield f"{heading} {word}", [_end(cell, end) for cell in cells]
         if len(quantities) > 1:
             yield "unit", [units.label(cell.quantity) if isinstance(cell, Number) else None for cell in cells]
 

@@ -25,7 +25,7 @@ def check(paths: Iterable[Path]) -> None:
 
 
 def write(to: Path, sheet: Sheet, name: str = "", option: str = "--to") -> None:
-    """Write one file, whole or not at all: .csv has the columns of a name, or the longest; ``option`` asks for it."""
+    """Write one file, whole or not at all: .csv has the columns of a name, or the first; ``option`` asks for it."""
     if to.suffix.lower() in row_tables.KINDS:
         from ballscrew.faces.sheets import files
 

@@ -85,12 +85,12 @@ def sheet(report: DutyReport, bands: DutyBandReport | None = None) -> Sheet:
             _cycle(report, bands),
             _parts(report),
             *_charts(report),
+            _states(report),
             *_heat(report),
             *_power_off(report),
             *_life(report),
             _rules(report),
             check_table(report.checks, _GIVE),
-            _states(report),
         ],
     )
 
