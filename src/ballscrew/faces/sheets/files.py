@@ -1,4 +1,4 @@
-"""A sheet as tables in files: all of them in a workbook, the first of columns in CSV; numbers in the units of their headings."""
+"""A sheet as tables in files: all in a workbook, the first one of columns in CSV; numbers in the units of headings."""
 
 from __future__ import annotations
 
