@@ -6,7 +6,7 @@ the printed form with the suffix ``_corrected``, and says why. :func:`printed` a
 the presets ``olaru2005`` and ``corrected`` of :class:`ballscrew.FrictionModel`, whose oracle in the tests this file is.
 
 The suffixes ``s`` and ``n`` are screw and nut. What the paper leaves open is chosen here as in the presets:
-:math:`Q = F/(z \sin\alpha)`, :math:`F_B = 1\,\mathrm{N}/z`, :math:`\mu_b = 0.1`, :math:`Y = 0.34`.
+:math:`Q = F/(z \sin\alpha)`, :math:`\mu_b = 0.1`, :math:`Y = 0.34`; :math:`F_B` is imposed, in the paper 1/z and 2/z N.
 """
 
 from __future__ import annotations
@@ -299,6 +299,37 @@ def eta(M_Sa: Any, M_S: Any) -> Any:
 # -- put together -----------------------------------------------------------------------------------------------------
 
 
+class Case(NamedTuple):
+    """A screw, its oil and its operating point, in SI but for the speed."""
+
+    #: Diameter of the pitch circle, lead and ball diameter, m.
+    d_m: Any
+    p: Any
+    d_w: Any
+    #: Loaded balls.
+    z: Any
+    #: Contact angle, rad.
+    alpha: Any
+    #: Curvature parameters of screw and nut.
+    f_s: Any
+    f_n: Any
+    #: Roughness of ball, screw and nut, m.
+    sigma_b: Any
+    sigma_s: Any
+    sigma_n: Any
+    #: Equivalent modulus, Pa.
+    E: Any
+    #: Viscosity, Pa s, and pressure-viscosity coefficient, 1/Pa.
+    eta_0: Any
+    alpha_p: Any
+    #: Axial load, N, and speed, revolutions per minute.
+    F: Any
+    n: Any
+    #: Force between balls, N, and its friction coefficient.
+    F_B: Any
+    mu_b: Any = 0.1
+
+
 class Torques(NamedTuple):
     """Friction torques on screw and nut, the torque without friction (N m), and the efficiency."""
 
@@ -308,29 +339,21 @@ class Torques(NamedTuple):
     eta: Any
 
 
-def printed(
-    *, d_m: Any, p: Any, d_w: Any, z: Any, alpha: Any, f_s: Any, f_n: Any, sigma_b: Any, sigma_s: Any, sigma_n: Any,
-    E: Any, eta_0: Any, alpha_p: Any, F: Any, n: Any, F_B: Any = None, mu_b: Any = 0.1, Y: Any = 0.34,
-    literal_lambda: bool = False,
-) -> Torques:  # fmt: skip
-    """The paper as printed; with ``literal_lambda`` to the letter, without the square root that (22) of 4 needs.
-
-    Diameter d_m, lead p and ball d_w in m, z balls, contact angle alpha in rad, conformities f, roughnesses sigma in m,
-    equivalent modulus E in Pa, viscosity eta_0 in Pa s, alpha_p in 1/Pa, axial load F in N, speed n in rpm.
-    """
-    force = 1 / z if F_B is None else F_B
+def printed(case: Case, *, Y: Any = 0.34, literal_lambda: bool = False) -> Torques:
+    """The paper as printed; with ``literal_lambda`` to the letter, without the square root that (22) of 4 needs."""
+    d_m, p, d_w, z, alpha, f_s, f_n, sigma_b, sigma_s, sigma_n, E, eta_0, alpha_p, F, n, F_B, mu_b = case
     Q, speed = F / (z * np.sin(alpha)), v(n, d_w, d_m, alpha)
     F_r, M = {}, {}
     for race, R_x, f, sigma in (("s", R_xs, f_s, sigma_s), ("n", R_xn, f_n, sigma_n)):
         R = R_x(d_w, d_m, alpha)
         ratio = k(R_y(f, d_w), R)
-        parameters = G(E, alpha_p), U(eta_0, speed, E, R), W(Q, E, R)
-        F_r[race] = F_R(E, R, ratio, *parameters)
-        axes = a(R, ratio, parameters[2]), b(R, ratio, parameters[2])
-        film = h(R, parameters[1], parameters[0], parameters[2], *axes)
+        g, u, w = G(E, alpha_p), U(eta_0, speed, E, R), W(Q, E, R)
+        F_r[race] = F_R(E, R, ratio, g, u, w)
+        axes = a(R, ratio, w), b(R, ratio, w)
+        film = h(R, u, g, w, *axes)
         mu = mu_m(mu_a((lambda_ if literal_lambda else lambda_corrected)(film, sigma_b, sigma)))
         M[race] = M_C(mu, Q, axes[0], R_d(d_w, f), Y) + M_ER(d_w, Q, ratio)
-    ball = M["s"] + M["n"], M_B(mu_b, force, d_w), F_r["s"], F_r["n"], force, d_w, d_m, alpha
+    ball = M["s"] + M["n"], M_B(mu_b, F_B, d_w), F_r["s"], F_r["n"], F_B, d_w, d_m, alpha
     radius = R_s(d_m, d_w, alpha)
     screw = M_S(z, M_s(F_s(*ball), radius))
     nut = M_N(z, M_n(F_n(*ball), R_n(d_m, d_w, alpha)))
@@ -338,29 +361,26 @@ def printed(
     return Torques(screw, nut, ideal, eta(ideal, screw))
 
 
-def corrected(
-    *, d_m: Any, p: Any, d_w: Any, z: Any, alpha: Any, f_s: Any, f_n: Any, sigma_b: Any, sigma_s: Any, sigma_n: Any,
-    E: Any, eta_0: Any, alpha_p: Any, F: Any, n: Any, F_B: Any = None, mu_b: Any = 0.1,
-) -> Torques:  # fmt: skip
-    """The paper with its misprints and missing reactions put right, and nothing added; inputs as of :func:`printed`.
+def corrected(case: Case) -> Torques:
+    """The paper with its misprints and missing reactions put right, and nothing added.
 
     The balls roll in the plane that touches their helix: all equations hold there with the diameter d_m/cos(phi) and
     the contact angle of cosine cos(alpha) cos(phi), phi the lead angle.
     """
-    imposed = 1 / z if F_B is None else F_B
+    d_m, p, d_w, z, alpha, f_s, f_n, sigma_b, sigma_s, sigma_n, E, eta_0, alpha_p, F, n, F_B, mu_b = case
     phi = np.arctan(p / (np.pi * d_m))
     Q = F / (z * np.sin(alpha) * np.cos(phi))
     d_m, alpha = d_m / np.cos(phi), np.arccos(np.cos(alpha) * np.cos(phi))
-    speed, M_b = v(n, d_w, d_m, alpha), M_B_corrected(mu_b, imposed, d_w)
-    force = F_B_corrected(imposed, M_b, d_m, alpha)
+    speed, M_b = v(n, d_w, d_m, alpha), M_B_corrected(mu_b, F_B, d_w)
+    force = F_B_corrected(F_B, M_b, d_m, alpha)
     F_r, M_e, mu, axis, radius = {}, {}, {}, {}, {}
     for race, R_x, f, sigma in (("s", R_xs, f_s, sigma_s), ("n", R_xn, f_n, sigma_n)):
         R = R_x(d_w, d_m, alpha)
         ratio = k(R_y(f, d_w), R)
-        parameters = G(E, alpha_p), U(eta_0, speed, E, R), W(Q, E, R)
-        F_r[race] = F_R(E, R, ratio, *parameters)
-        axes = a_b_corrected(R, ratio, parameters[2])
-        film = h_corrected(R, parameters[1], parameters[0], parameters[2], *axes)
+        g, u, w = G(E, alpha_p), U(eta_0, speed, E, R), W(Q, E, R)
+        F_r[race] = F_R(E, R, ratio, g, u, w)
+        axes = a_b_corrected(R, ratio, w)
+        film = h_corrected(R, u, g, w, *axes)
         mu[race] = mu_m(mu_a(lambda_corrected(film, sigma_b, sigma)))
         M_e[race], axis[race], radius[race] = M_ER(d_w, Q, ratio), axes[0], R_d(d_w, f)
     M = dict(M_e)
