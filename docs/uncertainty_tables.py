@@ -15,8 +15,9 @@ import numpy as np
 from ballscrew.cases.case_files import case_file
 from ballscrew.engine.uncertainty.default_uncertainties import JUDGEMENT, DefaultUncertainty, default_uncertainties
 from ballscrew.evidence.validation.entries import Entry, Point, may_be_fitted
+from ballscrew.faces.sheets import pictures
 from ballscrew.questions.band import compute as band
-from ballscrew.questions.band import figure as figures
+from ballscrew.questions.band.sheet import sheet
 from ballscrew.questions.shared import charts
 from ballscrew.questions.validate.compute import evaluate, request
 from ballscrew.questions.validate.uncertainty import with_bands
@@ -41,7 +42,8 @@ def write(folder: Path) -> None:
     with charts.house_style():
         options = band.BandOptions()
         report = band.band(case, options)
-        charts.save_as(figures.picture(case, report, band.curve(case, report, options)), folder / "band.svg", "svg")
+        seen = sheet(case, report, band.curve(case, report, options))
+        charts.save_as(pictures.picture(seen), folder / "band.svg", "svg")
     (folder / "assumed.md").write_text(assumed_table(), encoding="utf-8")
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import io
 import math
 import subprocess
 import sys
@@ -19,9 +17,10 @@ from benchmarks.hostile.tally import Outcome, Tally
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.json_text import as_json
 from ballscrew.cases.case_files import case_file
+from ballscrew.faces.sheets import terminal
 from ballscrew.questions.run import compute as runs
 from ballscrew.questions.run import document as run_documents
-from ballscrew.questions.run.text import print_run
+from ballscrew.questions.run.sheet import sheet
 
 COUNT, SECONDS = 3_000, 130.0
 TRIED = (
@@ -122,8 +121,7 @@ def not_finite(path: Any) -> str:
     found = runs.run(case)
     document = run_documents.document(found)
     as_json(document)
-    with contextlib.redirect_stdout(io.StringIO()):
-        print_run(found)
+    terminal.text(sheet(found))
     bad = [name for name in TORQUES if not math.isfinite(float(getattr(found.friction, name)))]
     return f"{', '.join(bad)} not finite, without a warning" if bad and not document["warnings"] else ""
 

@@ -8,6 +8,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.axis.thermal.surroundings import Surroundings
+from ballscrew.basis.output.sheet import words
 from ballscrew.cases.case_files import case_file
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.faces.sheets import report_blocks
@@ -18,8 +19,8 @@ from ballscrew.questions.duty import document as duty_documents
 from ballscrew.questions.duty.compute import duty as duty_of
 from ballscrew.questions.duty.sheet import sheet as duty_sheet
 from ballscrew.questions.run import document as run_documents
-from ballscrew.questions.run import text as run_text
 from ballscrew.questions.run.compute import run
+from ballscrew.questions.run.sheet import SHOWN, results_table
 from ballscrew.questions.service import compute as service
 from ballscrew.questions.service import document as service_documents
 from ballscrew.questions.sweep import compute as sweep
@@ -112,7 +113,7 @@ def test_the_band_holds_both_torques_that_are_named(load):
     assert found.starvation
     assert both.low <= found.screw_torque < found.flooded_torque == report.flooded_torque <= both.high
     assert "inlet" in report.band.alternatives
-    rows = dict(zip(*(column.cells for column in run_text.results_table(run(case)).columns), strict=True))
+    rows = {name: words(number) for name, number in results_table(run(case), SHOWN).rows}
     assert rows["friction torque on the screw"] == f"{found.screw_torque:.4g} N m"
     assert rows["friction torque on the screw in a full bath of oil"] == f"{found.flooded_torque:.4g} N m"
 

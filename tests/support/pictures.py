@@ -141,6 +141,9 @@ def _add(group: ET.Element, found: Picture) -> None:
         found.words += _words(group)
     elif kind == "text":
         found.words += _words(group)
+    elif kind == "subfigure":
+        for child in group:
+            _add(child, found)
 
 
 def _add_panel(group: ET.Element, found: Picture) -> None:

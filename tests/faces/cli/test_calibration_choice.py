@@ -12,9 +12,9 @@ from ballscrew.cases.case_files import case_file, descriptions, fitted_case
 from ballscrew.cases.schema.case_schema import json_schema
 from ballscrew.evidence.validation.nearest import near_rows
 from ballscrew.faces.cli.main import app
+from ballscrew.faces.report import contents
 from ballscrew.faces.web import documents
 from ballscrew.physics.friction.calibrations import BY_MAKE, calibration, calibrations
-from ballscrew.questions.run import report as run_report
 from ballscrew.questions.run.compute import run
 from support.commands import ROOT
 from support.drive_case import drive_case
@@ -118,7 +118,7 @@ def test_every_answer_shows_the_ratio_of_the_rows_most_like_the_nut(written, nam
         "rows": near.rows,
     }
     ratio = f"model / vendor: {near.mean:.2f} ± {near.scatter:.2f} for the 6 rows"
-    bullets = run_report.beware(run(case))[-1]
+    bullets = contents.beware(run(case))[-1]
     for texts in (answer["words"]["assumed"], bullets.entries, descriptions.assumptions(case)):
         assert sum(ratio in text for text in texts) == 1
 

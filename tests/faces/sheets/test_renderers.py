@@ -26,6 +26,7 @@ from ballscrew.basis.output.sheet import (
     Sheet,
     Table,
     Vertical,
+    columns_of,
     document,
     words,
 )
@@ -155,7 +156,7 @@ def test_report_leaves_detail_out():
     assert blocks[1].entries == ["It is warm."]
     assert blocks[2].rows[0][:4] == ["first", "250 mm (212.3 to 298.8)", "75.0%", "long"]
     assert blocks[2].rows[0][4].end == 0.75
-    assert blocks[4].words == "Motion; growth: an axis of two parts."
+    assert blocks[4].words == "Motion; growth; shares; parts of a sum: an axis of two parts."
     assert blocks[5].entries == ["Assumed: a length."]
     assert "assumed: nothing" not in str(blocks)
 
@@ -247,3 +248,28 @@ def test_unknown_kinds_of_files_are_refused(tmp_path):
 
     with pytest.raises(InputError, match=r"a\.doc.*\.csv, \.xlsx, \.png, \.svg or \.pdf"):
         to_file.check([tmp_path / "a.doc"])
+
+
+def test_an_end_of_a_band_is_rounded_outward():
+    assert [words(Number(0.12345, LENGTH, 2, toward=way)) for way in (-1, 0, 1)] == ["120 mm", "120 mm", "130 mm"]
+
+
+def test_bars_begin_at_their_origin_or_where_they_say():
+    bars = [Bar("shift", [("", 0.1, "blue")]), Bar("interval", [("", 0.2, "blue")], start=0.3)]
+    (panel,) = pictures.picture(Sheet("s", [Bars("b", LENGTH, bars, origin=0.5)])).axes
+    edges = [(round(bar.get_x(), 9), round(bar.get_x() + bar.get_width(), 9)) for bar in panel.patches]
+    assert edges == [(500, 600), (300, 500)]
+    assert panel.get_xlim()[0] < 300  # no axis begins at a bar
+
+
+def test_rows_need_not_have_the_same_columns():
+    rows = [{"name": ("a", None), "stroke": (0.1, LENGTH)}, {"name": ("b", None), "mass": (None, LENGTH)}]
+    table = files.rows_of(columns_of("t", rows))
+    assert table.headings == ["name", "stroke [mm]", "mass [mm]"]
+    assert table.rows == [["a", 100.0, None], ["b", None, None]]
+
+
+def test_lines_below_a_heading_are_a_list_of_their_own_in_a_report():
+    lines = Lines([Line("what is uncertain:"), Line("  a length"), Line("  a mass")])
+    _, paragraph, bullets = report_blocks.blocks(Sheet("s", [lines]), "s")
+    assert (paragraph.text, bullets.entries) == ("What is uncertain:", ["A length.", "A mass."])

@@ -3,16 +3,19 @@
 import pytest
 
 from ballscrew.basis import units
+from ballscrew.basis.output.sheet import columns_of
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.cases.case_files import case_file
+from ballscrew.faces.sheets import files, terminal
 from ballscrew.faces.web import documents
 from ballscrew.physics.solvers.load_distribution import BallLoads
-from ballscrew.questions.check import document, table, text
+from ballscrew.questions.check import document
 from ballscrew.questions.check.answer import Checks
 from ballscrew.questions.check.compute import BothRatings, Geometry, Options, Rated, one
+from ballscrew.questions.check.sheet import cells, sheet
 from ballscrew.questions.run.compute import run
 from ballscrew.questions.run.nut_loads import NutLoads
-from ballscrew.questions.run.text import stiffness_fields
+from ballscrew.questions.run.sheet import stiffness_fields
 from ballscrew.questions.shared import declared
 from support.answers import undescribed, without_unit
 from support.commands import ROOT
@@ -30,7 +33,8 @@ def schema_of(cls):
 
 
 def test_ratings_are_on_every_face(found):
-    answer, words, headings = document.document(found), text.text(found), table.of_checks([found]).headings
+    answer, words = document.document(found), terminal.text(sheet(found))
+    headings = files.rows_of(columns_of("screws", [cells(found)])).headings
     for name, quantity in quantities_of(Rated).items():
         for of in ("listed", "computed"):
             value = answer["ratings"][of][name]
@@ -43,7 +47,7 @@ def test_ratings_are_on_every_face(found):
 
 
 def test_sizes_are_on_every_face(found):
-    answer, words = document.document(found), text.text(found)
+    answer, words = document.document(found), terminal.text(sheet(found))
     for name, quantity in quantities_of(Geometry).items():
         assert answer["geometry"][name] == getattr(found.geometry, name) > 0
         assert answer["units"]["geometry"][name] == quantity.unit == schema_of(Geometry)[name]["x-si-unit"]
@@ -53,7 +57,7 @@ def test_sizes_are_on_every_face(found):
 
 
 def test_loads_are_on_every_face(found):
-    answer, words = document.document(found), text.text(found)
+    answer, words = document.document(found), terminal.text(sheet(found))
     loads, of_loads = answer["loads"], answer["units"]["loads"]
     schema = declared.schema(NutLoads).model_json_schema()
     of_balls = schema["$defs"]["EachBall"]["properties"]

@@ -12,7 +12,9 @@ import ballscrew as bs
 from ballscrew.basis import units
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.json_text import plain
+from ballscrew.basis.output.sheet import Sheet
 from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.faces.sheets import files as sheet_files
 from ballscrew.physics.equations import geometry
 from ballscrew.questions.check.compute import checked
 from ballscrew.questions.optimise import compute
@@ -28,7 +30,6 @@ from ballscrew.questions.select.need import need_of
 from ballscrew.questions.select.objectives import OBJECTIVES
 from ballscrew.questions.select.pareto import front
 from ballscrew.questions.shared import chart_files as files
-from ballscrew.questions.shared import row_tables
 from support.commands import ROOT
 
 EXAMPLE = ROOT / "examples" / "needs" / "feed_axis.toml"
@@ -177,7 +178,7 @@ def test_the_front_beats_random_search_and_its_members_are_public(ballscrew, tmp
     assert len(found.members) == 3
     assert all(each.holds and each.valid for each in found.members)
     assert max(found.largest_change.values()) < 1e-6  # the last generations have the bodies of the full model
-    table = of_optimisation(found.members)
+    table = sheet_files.rows_of(of_optimisation(found.members))
     headings = dict(zip(table.headings, table.rows[1], strict=True))
     assert headings[units.heading(OBJECTIVES["loss"].quantity)] == pytest.approx(found.members[1].objectives["loss"])
     assert units.heading(OBJECTIVES["price_index"].quantity) not in headings
@@ -261,7 +262,7 @@ def test_a_need_that_nothing_fulfils_ends_in_words(tmp_path):
     assert found.members == []
     assert "no design within the bounds passes all checks" in text(found)
     assert json.loads(json.dumps(plain(document(found))))["candidates"] == []
-    row_tables.write(tmp_path / "empty.csv", of_optimisation(found.members))
+    sheet_files.write(tmp_path / "empty.csv", Sheet("", [of_optimisation(found.members)]))
     files.draw(lambda: picture(found), tmp_path / "empty.svg")
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar, Literal, TypeAlias
 
 from ballscrew.basis import units
@@ -28,6 +28,8 @@ class Number:
     quantity: Quantity
     digits: int = 4
     band: tuple[float, float] | None = None
+    #: Rounded down (-1) or up (1), as the end of a band is.
+    toward: int = 0
 
 
 @dataclasses.dataclass(frozen=True)
@@ -183,6 +185,8 @@ class Bar:
     #: What stands to its right.
     text: str = ""
     hatched: bool = False
+    #: Where it begins, if not where all bars do.
+    start: float | None = None
 
 
 @dataclasses.dataclass(frozen=True)
@@ -194,6 +198,10 @@ class Bars:
     quantity: Quantity
     bars: Sequence[Bar]
     marks: Sequence[Vertical] = ()
+    #: Where bars begin; their parts are what goes beyond.
+    origin: float = 0.0
+    #: Left out where room is short, on pages of a report.
+    detail: bool = False
 
 
 @dataclasses.dataclass(frozen=True)
@@ -212,6 +220,23 @@ class Columns:
     kind: ClassVar = "columns"
     name: str
     columns: Sequence[Column]
+
+
+#: Values of a row by the names of their columns: numbers in SI with their quantity, or what has no unit.
+Cells: TypeAlias = Mapping[str, tuple[Any, Quantity | None]]
+
+
+def columns_of(name: str, rows: Sequence[Cells]) -> Columns:
+    """A table of rows that need not have the same columns; those of the first come first."""
+    quantities = {heading: quantity for cells in reversed(rows) for heading, (_, quantity) in cells.items()}
+    headings = dict.fromkeys(heading for cells in rows for heading in cells)
+    return Columns(
+        name,
+        [
+            Column(heading, [cells.get(heading, (None, None))[0] for cells in rows], quantities[heading])
+            for heading in headings
+        ],
+    )
 
 
 Block: TypeAlias = Lines | Table | Chart | Map | Bars | Columns
@@ -238,9 +263,9 @@ def words(cell: Cell) -> str:
     match cell:
         case None:
             return "–"
-        case Number(value, quantity, digits, band):
+        case Number(value, quantity, digits, band, toward):
             ends = _band_in_words(band, lambda end, to: plain(units.rounded(end, quantity, digits, to)))
-            return f"{_in_words(value, quantity, digits)}{ends}"
+            return f"{_in_words(value, quantity, digits, toward)}{ends}"
         case Share(value, _, band):
             return f"{value:.1%}{_band_in_words(band, _percent)}" if math.isfinite(value) else "–"
         case _:
@@ -260,9 +285,9 @@ def _percent(end: float, toward: int) -> str:
     return f"{(math.ceil(tenths) if toward > 0 else math.floor(tenths)) / 10 + 0.0:.1f}%"
 
 
-def _in_words(value: float, quantity: Quantity, digits: int) -> str:
+def _in_words(value: float, quantity: Quantity, digits: int, toward: int) -> str:
     if math.isfinite(value):
-        return plain(units.shown(value + 0.0, quantity, digits))  # adding zero: no "-0"
+        return plain(units.shown(value + 0.0, quantity, digits, toward))  # adding zero: no "-0"
     return "infinite" if value > 0 else "–"
 
 

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import typer
 
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
-from ballscrew.basis.output import json_text
 from ballscrew.cases.case_files.case_file import Case
+from ballscrew.faces.cli.common_options import print_answer
 from ballscrew.questions.band import compute as band
 from ballscrew.questions.band import document as documents
-from ballscrew.questions.band import text
 from ballscrew.questions.band.options import BandOptions
+from ballscrew.questions.band.sheet import sheet
+from ballscrew.questions.band.tornado import tornado
 from ballscrew.questions.run.compute import run as run_case
 from ballscrew.questions.shared import chart_files as files
 
@@ -41,9 +43,10 @@ def check(wanted: bool, options: BandOptions, to: Path | None, self_heating: boo
         files.check_picture(to)
 
 
-def run_warm(case: Case, options: BandOptions, as_json: bool, done: Callable[[int, int], None]) -> None:
+def run_warm(
+    case: Case, options: BandOptions, done: Callable[[int, int], None], *, as_json: bool, as_sheet: bool
+) -> None:
     """The band of a case as warm as it makes itself: temperature and preload by samples of its surroundings."""
-    from ballscrew.basis.output.wrapping import wrapped
     from ballscrew.questions.band.heat_samples import heat_samples
     from ballscrew.questions.warm_up.self_heating import self_heating
     from ballscrew.questions.warm_up.self_heating_document import with_self_heating
@@ -51,23 +54,32 @@ def run_warm(case: Case, options: BandOptions, as_json: bool, done: Callable[[in
     heating = self_heating(case)
     heat = heat_samples(heating, only_given=options.only_given)
     report = band.band(heating.warm, options, done, heat)
-    if as_json:
-        typer.echo(json_text.as_json(with_self_heating(documents.document(run_case(heating.warm), report), heating)))
-    else:
-        typer.echo("\n".join(wrapped(record.text) for record in heating.records))
-        text.print_band(heating.warm, report)
+
+    def document() -> dict[str, Any]:
+        return with_self_heating(documents.document(run_case(heating.warm), report), heating)
+
+    print_answer(sheet(heating.warm, report, heating=heating.records), document, as_json=as_json, as_sheet=as_sheet)
 
 
-def run(case: Case, options: BandOptions, to: Path | None, as_json: bool, done: Callable[[int, int], None]) -> None:
+def run(
+    case: Case,
+    options: BandOptions,
+    to: Path | None,
+    done: Callable[[int, int], None],
+    *,
+    as_json: bool,
+    as_sheet: bool,
+) -> None:
     """Compute the band of a case, print it, and draw it where that is asked for."""
-    report = band.band(case, options, done)
-    if as_json:
-        typer.echo(json_text.as_json(documents.document(run_case(case), report)))
-    else:
-        text.print_band(case, report)
-    if to is not None:
-        from ballscrew.questions.band import figure as figures  # matplotlib is slow to import
+    from ballscrew.faces.sheets import to_file
 
-        curve = band.curve(case, report, options, done)
-        files.draw(lambda: figures.picture(case, report, curve), to)
-        typer.echo(f"{to}: {report.band.count} samples of {len(report.inputs)} uncertain inputs", err=as_json)
+    report = band.band(case, options, done)
+    curve, swings = None, None
+    if to is not None:
+        curve, swings = band.curve(case, report, options, done), tornado(case, report)
+    seen = sheet(case, report, curve, swings)
+    print_answer(seen, lambda: documents.document(run_case(case), report), as_json=as_json, as_sheet=as_sheet)
+    if to is not None:
+        to_file.write(to, seen)
+        counts = f"{report.band.count} samples of {len(report.inputs)} uncertain inputs"
+        typer.echo(f"{to}: {counts}", err=as_json or as_sheet)

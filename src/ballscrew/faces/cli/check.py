@@ -10,11 +10,13 @@ import typer
 
 from ballscrew.faces.cli.common_options import (
     AllowCode,
+    AsSheet,
     CalibrationName,
     ModelName,
     Row,
     SelfHeatingOption,
     check_rows,
+    print_answer,
     say_of_rows,
 )
 from ballscrew.faces.cli.flags import flags_of
@@ -50,6 +52,7 @@ def check(
         ),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object, of many rows a list; SI units.")] = False,
+    as_sheet: AsSheet = False,
     to: Annotated[
         Path | None, typer.Option("--to", "-o", metavar="FILE", help="Of many rows: also write them, .csv or .xlsx.")
     ] = None,
@@ -61,21 +64,20 @@ def check(
     What is not given is assumed, and the output says what was. The exit code is 0 where a check fails, too: the
     verdict says so; it is 2 only for bad input.
     """
-    from ballscrew.basis.output.json_text import as_json as json_of
     from ballscrew.questions.check.compute import Options, one
     from ballscrew.questions.check.document import document
-    from ballscrew.questions.check.text import text
+    from ballscrew.questions.check.sheet import sheet
 
     options = Options(given(written), settings or [], model, calibration, allow_code, self_heating)
     keep_going: bool = written["keep_going"]
     check_rows(rows, row)
     screws = _asked(name, rows, row, every=every, to=to)
     if screws.name is None or screws.case is not None or screws.are_listed:
-        _check_rows(screws, rows, options, keep_going=keep_going, as_json=as_json, to=to)
+        _check_rows(screws, rows, options, keep_going=keep_going, as_json=as_json, as_sheet=as_sheet, to=to)
         return
     screw, notes = one(screws.name, rows, options, keep_going)
     say_of_rows(notes, interrupted=False)
-    typer.echo(json_of(document(screw)) if as_json else text(screw))
+    print_answer(sheet(screw), lambda: document(screw), as_json=as_json, as_sheet=as_sheet)
 
 
 class _Screws(NamedTuple):
@@ -108,28 +110,34 @@ def _asked(name: str | None, rows: Path | None, row: str | None, *, every: bool,
 
 
 def _check_rows(
-    asked: _Screws, rows: Path | None, options: Options, *, keep_going: bool, as_json: bool, to: Path | None
+    asked: _Screws,
+    rows: Path | None,
+    options: Options,
+    *,
+    keep_going: bool,
+    as_json: bool,
+    as_sheet: bool,
+    to: Path | None,
 ) -> None:
     """Check rows of a table, print a list of them, or the only one in a case, and write the table asked for."""
-    from ballscrew.basis.output.json_text import as_json as json_of
     from ballscrew.faces.cli.progress import progress
+    from ballscrew.faces.sheets import files
     from ballscrew.questions.check.compute import every_row
     from ballscrew.questions.check.document import document, list_document
-    from ballscrew.questions.check.table import of_checks
-    from ballscrew.questions.check.text import list_text, text
+    from ballscrew.questions.check.sheet import of_rows, sheet
     from ballscrew.questions.shared import row_tables
 
     if to is not None:
         row_tables.check_path(to)
     with progress("rows") as done:
         name = asked.case if asked.row else asked.name
-        found = every_row(name, rows, options, keep_going, row=asked.row, done=done)
-    screws = list(found.found.values())
+        checks = every_row(name, rows, options, keep_going, row=asked.row, done=done)
+    screws = list(checks.found.values())
     if asked.are_listed:
-        typer.echo(json_of(list_document(screws)) if as_json else list_text(screws))
+        print_answer(of_rows(screws), lambda: list_document(screws), as_json=as_json, as_sheet=as_sheet)
     else:
-        typer.echo(json_of(document(screws[0])) if as_json else text(screws[0]))
+        print_answer(sheet(screws[0]), lambda: document(screws[0]), as_json=as_json, as_sheet=as_sheet)
     if to is not None:
-        row_tables.write(to, of_checks(screws))
+        files.write(to, of_rows(screws))
         typer.echo(f"{to}: {len(screws)} screws", err=True)
-    say_of_rows(found.notes, found.interrupted)
+    say_of_rows(checks.notes, checks.interrupted)

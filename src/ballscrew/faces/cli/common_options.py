@@ -58,7 +58,7 @@ Row = Annotated[str | None, typer.Option("--row", metavar="NAME", help="Only thi
 KeepGoing = Annotated[bool, typer.Option("--keep-going", help="Leave faulty rows out, and say how many.")]
 
 
-def print_answer(sheet: Sheet, document: Callable[[], Mapping[str, Any]], *, as_json: bool, as_sheet: bool) -> None:
+def print_answer(sheet: Sheet, document: Callable[[], Any], *, as_json: bool, as_sheet: bool) -> None:
     """Print a sheet as text, or as JSON; or the ``document`` of the answer, which is made only then."""
     from ballscrew.basis.output import json_text
     from ballscrew.basis.output import sheet as sheets

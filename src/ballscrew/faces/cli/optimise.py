@@ -66,14 +66,16 @@ def optimise(
         found = optimised(need, seed=options.seed, done=done, **asked)
     typer.echo(json_text(documents.document(found)) if as_json else text.text(found))
     for path in to or []:
+        from ballscrew.basis.output.sheet import Sheet
+        from ballscrew.faces.sheets import files
         from ballscrew.questions.optimise.table import of_optimisation
         from ballscrew.questions.shared import row_tables
 
         if path.suffix.lower() in row_tables.KINDS:
-            row_tables.write(path, of_optimisation(found.members))
+            files.write(path, Sheet("", [of_optimisation(found.members)]))
         else:
             from ballscrew.questions.optimise import figure as optimisation
-            from ballscrew.questions.shared import chart_files as files
+            from ballscrew.questions.shared import chart_files
 
-            files.draw(lambda: optimisation.picture(found), path, _TO)
+            chart_files.draw(lambda: optimisation.picture(found), path, _TO)
         typer.echo(f"{path}: {len(found.members)} designs", err=True)

@@ -11,6 +11,7 @@ import typer
 from ballscrew.faces.cli.common_options import (
     AllowCode,
     AsJson,
+    AsSheet,
     CalibrationName,
     CaseFile,
     KeepGoing,
@@ -21,6 +22,7 @@ from ballscrew.faces.cli.common_options import (
     Settings,
     cases_of_rows,
     check_rows,
+    print_answer,
     say_of_rows,
 )
 from ballscrew.faces.cli.flags import flags_of
@@ -39,6 +41,7 @@ def run(
     calibration: CalibrationName = None,
     settings: Settings = None,
     as_json: AsJson = False,
+    as_sheet: AsSheet = False,
     band: Annotated[
         bool,
         typer.Option("--band", help="Band of the results by uncertain inputs and other laws, 95 % of the samples."),
@@ -69,7 +72,7 @@ def run(
             case, rows, row, settings, model, calibration=calibration, allow_code=allow_code, keep_going=keep_going
         )
         if not has_band:
-            _of_rows(cases, as_json, to, keep_going)
+            _of_rows(cases, as_json=as_json, as_sheet=as_sheet, to=to, keep_going=keep_going)
             return
         loaded = _only(cases)
         say_of_rows(cases.notes, cases.interrupted)
@@ -86,15 +89,13 @@ def run(
         band_command.check(band, options, to, self_heating)
         with progress("band") as done:
             if self_heating:
-                band_command.run_warm(loaded, options, as_json, done)
+                band_command.run_warm(loaded, options, done, as_json=as_json, as_sheet=as_sheet)
             else:
-                band_command.run(loaded, options, to, as_json, done)
+                band_command.run(loaded, options, to, done, as_json=as_json, as_sheet=as_sheet)
         return
-    from ballscrew.basis.output import json_text
-    from ballscrew.basis.output.wrapping import wrapped
     from ballscrew.questions.run.compute import run as run_case
     from ballscrew.questions.run.document import document
-    from ballscrew.questions.run.text import print_run
+    from ballscrew.questions.run.sheet import sheet
     from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
     heating = None
@@ -102,13 +103,9 @@ def run(
         from ballscrew.questions.warm_up import self_heating as studies
 
         heating = studies.self_heating(loaded)
-    found = run_case(loaded if heating is None else heating.warm)
-    if as_json:
-        typer.echo(json_text.as_json(with_self_heating(document(found), heating)))
-    else:
-        if heating is not None:
-            typer.echo("\n".join(wrapped(record.text) for record in heating.records))
-        print_run(found)
+    result = run_case(loaded if heating is None else heating.warm)
+    seen = sheet(result, heating=() if heating is None else heating.records)
+    print_answer(seen, lambda: with_self_heating(document(result), heating), as_json=as_json, as_sheet=as_sheet)
 
 
 def _check_self_heating(asked: bool, rows: Path | None) -> None:
@@ -121,14 +118,13 @@ def _check_self_heating(asked: bool, rows: Path | None) -> None:
         raise InputError(Fault("--self-heating", "is given beside --rows", "", "leave one of them out"))
 
 
-def _of_rows(cases: OfRows[RowCase], as_json: bool, to: Path | None, keep_going: bool) -> None:
+def _of_rows(cases: OfRows[RowCase], *, as_json: bool, as_sheet: bool, to: Path | None, keep_going: bool) -> None:
     """Results of each row: one line each, and a table in a file."""
-    from ballscrew.basis.output import json_text
     from ballscrew.faces.cli.progress import progress
+    from ballscrew.faces.sheets import files
     from ballscrew.questions.run.compute import run as run_case
     from ballscrew.questions.run.document import list_document
-    from ballscrew.questions.run.rows_text import list_text
-    from ballscrew.questions.run.table import of_runs
+    from ballscrew.questions.run.sheet import of_rows
     from ballscrew.questions.shared import every_row, row_tables
 
     if to is not None:
@@ -137,9 +133,10 @@ def _of_rows(cases: OfRows[RowCase], as_json: bool, to: Path | None, keep_going:
         work = {each.place: each for each in cases.found.values()}
         ran = every_row.each(work, lambda each: run_case(each.case), keep_going=keep_going, done=done)
     runs = {work[place].row.name: run for place, run in ran.found.items()}
-    typer.echo(json_text.as_json(list_document(runs)) if as_json else list_text(runs))
+    seen = of_rows(runs)
+    print_answer(seen, lambda: list_document(runs), as_json=as_json, as_sheet=as_sheet)
     if to is not None:
-        row_tables.write(to, of_runs(runs))
+        files.write(to, seen)
         typer.echo(f"{to}: {len(runs)} screws", err=True)
     say_of_rows([*cases.notes, *ran.notes], ran.interrupted)
 

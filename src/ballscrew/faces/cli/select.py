@@ -132,9 +132,11 @@ def _written(path: Path, found: Selection, kept: Sequence[Ranked], rank: int | N
         case_text.save(path, found, chosen, said)
         return f"{chosen.candidate.variant.label}, rank {chosen.rank}: {said}"
     if path.suffix.lower() in row_tables.KINDS:
-        from ballscrew.questions.select import table as selection_tables
+        from ballscrew.basis.output.sheet import Sheet
+        from ballscrew.faces.sheets import files
+        from ballscrew.questions.select.table import of_selection
 
-        row_tables.write(path, selection_tables.of_selection(kept))
+        files.write(path, Sheet("", [of_selection(kept)]))
     else:
         from ballscrew.questions.select import figure as selection
         from ballscrew.questions.shared import chart_files as files

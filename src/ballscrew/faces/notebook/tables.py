@@ -17,7 +17,7 @@ from ballscrew.engine.uncertainty.bands import Band, Interval
 from ballscrew.engine.uncertainty.sensitivity import Sensitivity
 from ballscrew.evidence.calibration.fit_result import FitResult
 from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
-from ballscrew.questions.run.text import SHOWN
+from ballscrew.questions.run.sheet import SHOWN
 from ballscrew.questions.shared.text_tables import shown_or_dash
 
 _KNOWN = quantities_of(FrictionResult)

@@ -10,23 +10,29 @@ import numpy as np
 
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.output import bibliography
+from ballscrew.basis.output.sheet import Table as SheetTable
+from ballscrew.basis.records import Record
 from ballscrew.basis.version import __version__
 from ballscrew.cases.case_files import case_file, descriptions
 from ballscrew.faces.report import input_tables
 from ballscrew.faces.report.contact_geometry import drawn_ball
 from ballscrew.faces.report.curves import Curves, curves
 from ballscrew.faces.report.drawing import drawing
+from ballscrew.faces.sheets import report_blocks
 from ballscrew.physics.sizing.dn_limits import GENERAL, speed_limit_of
 from ballscrew.questions.band import compute as band
-from ballscrew.questions.band import report as band_report
+from ballscrew.questions.band import sheet as band_sheet
 from ballscrew.questions.band.options import BandOptions
-from ballscrew.questions.check import report as check_report
-from ballscrew.questions.check.compute import checked
+from ballscrew.questions.band.tornado import tornado
+from ballscrew.questions.check.compute import Checked, checked
+from ballscrew.questions.check.sheet import unlisted_ratings
 from ballscrew.questions.duty.compute import DutyReport, duty
-from ballscrew.questions.run import report as run_report
+from ballscrew.questions.run import sheet as run_sheet
 from ballscrew.questions.run.compute import Run, run
+from ballscrew.questions.shared.check_lines import check_table
 from ballscrew.questions.shared.report_blocks import (
     Block,
+    Bullets,
     Columns,
     Links,
     Paragraph,
@@ -71,21 +77,21 @@ def content(case: case_file.Case, done: Done | None = None, samples: int | None 
     pictures = _pictures(curves(case))
     _tell(done, _DRAWN)
     inputs = input_tables.tables(case)
-    bands = uncertain.band.outputs if band_report.has_band(uncertain) else {}
-    beside = band_report.vendor_blocks(case)
+    vendor = vendor_rows(case)
     cycle = _duty(case)
+    seen = band_sheet.sheet(case, uncertain, tornado=tornado(case, uncertain))
     sections = [
-        Section("Answer", _answer(cycle, band_report.answer(found, uncertain), case)),
+        Section("Answer", _answer(cycle, answer(found, uncertain), case)),
         _checks(case, found, cycle),
-        Section("Result", [Columns.of(run_report.results(found, bands)), *_drawing(found)]),
-        Section("Where the torque comes from", run_report.parts(found)),
+        Section("Result", [results(found, uncertain), *_drawing(found)]),
+        Section("Where the torque comes from", parts(found)),
         Section("Around the operating point", pictures),
-        Section("How far off it may be", band_report.blocks(case, uncertain)),
-        *([Section("Beside a vendor's rows", beside)] if beside else []),
+        Section("How far off it may be", report_blocks.blocks(seen, "band")),
+        *([Section("Beside a vendor's rows", vendor)] if vendor else []),
         *_cycle(cycle),
         *_stiffness(case),
         *_heat(case),
-        Section("What to beware of", run_report.beware(found)),
+        Section("What to beware of", beware(found)),
         Section(
             "Inputs and model", [*_model(case), Columns.of([*inputs, input_tables.laws(case)]), origins(case, inputs)]
         ),
@@ -120,15 +126,70 @@ def _checks(case: case_file.Case, found: Run, cycle: DutyReport | None) -> Secti
     """The checks over the cycle where there is one, else of the operating point: one verdict, and of what it is."""
     of_point = checked("", case, known=found)
     if cycle is None:
-        return Section("Checks", check_report.checks(of_point))
-    return Section("Checks over the cycle", check_report.over_a_cycle(cycle, of_point))
+        return Section(
+            "Checks", [_verdict(of_point.verdict, of_point), report_blocks.table(check_table(of_point.checks, {}))]
+        )
+    from ballscrew.questions.duty.verdicts import verdicts
+
+    verdict = next(record for record in verdicts(cycle) if record.id == "verdict.checks")
+    limits = report_blocks.table(check_table(cycle.checks, {}))
+    return Section("Checks over the cycle", [_verdict(verdict.text, of_point), limits])
+
+
+def _verdict(verdict: str, of_point: Checked) -> Paragraph:
+    """The verdict on checks, and on what they rest."""
+    no_nut = "" if of_point.case.nut else "the case has no nut: it is checked as a single nut without preload"
+    texts = filter(None, [verdict, no_nut, unlisted_ratings(of_point)])
+    return Paragraph(" ".join(f"{sentence(text)}." for text in texts), strong=True)
+
+
+# -- the operating point --------------------------------------------------------------------------
+
+
+def answer(found: Run, uncertain: band.BandReport) -> Paragraph:
+    """The answer at the operating point with its bands."""
+    return Paragraph(" ".join(f"{sentence(text)}." for text in band_sheet.answer(found, uncertain)), strong=True)
+
+
+def results(found: Run, uncertain: band.BandReport) -> Columns:
+    """Torque, efficiency and power with their bands; of a nut how it gives way; and the contacts with screw and nut."""
+    bands = uncertain.band.outputs if band_sheet.has_band(uncertain) else {}
+    tables = run_sheet.sheet(found, bands).of_kind(SheetTable)
+    return Columns.of([report_blocks.table(table) for table in tables if not table.detail and table.name != "parts"])
+
+
+def parts(found: Run) -> list[Block]:
+    """The parts of the friction torque, the greatest first, as numbers and bars."""
+    tables = [report_blocks.table(table) for table in run_sheet.parts(found)]
+    return [*tables] or [Paragraph("There is no friction torque to take apart: it is zero, or no number, here.")]
+
+
+def vendor_rows(case: case_file.Case) -> list[Block]:
+    """The rows of a vendor most like the nut, and what the model says of them."""
+    near = band_sheet.vendor_rows(case)
+    return [] if near is None else [Paragraph(f"{sentence(near[0])}."), report_blocks.table(near[1])]
+
+
+def beware(found: Run) -> list[Block]:
+    """Limits of validity, assumptions, and neglected effects."""
+    warned = [f"Beware: {text}." for text in map(_warning, found.warnings)]
+    holds = Paragraph("All conditions of the model hold at the operating point.")
+    assumed = descriptions.assumed(found.case, found.ball_to_ball_force)
+    return [Bullets(warned) if warned else holds, Bullets([f"{sentence(line)}." for line in assumed])]
+
+
+def _warning(record: Record) -> str:
+    """The reason and its text; the loss of the preload is a sentence of its own."""
+    return f"{record.name}: {record.text}" if record.id == f"validity.{record.name}" else record.text
+
+
+# -- the cycle, the stroke, heat ------------------------------------------------------------------
 
 
 def _cycle(cycle: DutyReport | None) -> list[Section]:
     """The section on the cycle of a case."""
     if cycle is None:
         return []
-    from ballscrew.faces.sheets import report_blocks
     from ballscrew.questions.duty.sheet import sheet
 
     return [Section("Over a cycle of the motion", report_blocks.blocks(sheet(cycle, _bands(cycle)), "duty"))]
@@ -153,7 +214,6 @@ def _stiffness(case: case_file.Case) -> list[Section]:
     """The section on what gives way between motor and table, and on what the shaft stands."""
     if not _has_stiffness(case):
         return []
-    from ballscrew.faces.sheets import report_blocks
     from ballscrew.questions.axis.compute import chain_of
     from ballscrew.questions.axis.sheet import sheet
 
@@ -168,7 +228,6 @@ def _heat(case: case_file.Case) -> list[Section]:
     """The section on the heat of a case that has surroundings."""
     if case.surroundings is None:
         return []
-    from ballscrew.faces.sheets import report_blocks
     from ballscrew.questions.warm_up.compute import warmed_up
     from ballscrew.questions.warm_up.sheet import sheet
 

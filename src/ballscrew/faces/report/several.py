@@ -13,15 +13,17 @@ from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.faces.report import contents, input_tables
 from ballscrew.faces.report.contents import ALL, Done
+from ballscrew.faces.sheets import report_blocks
 from ballscrew.physics.sizing.checks import Check
 from ballscrew.questions.band import compute as band
-from ballscrew.questions.band import report as band_report
+from ballscrew.questions.band import sheet as band_sheet
 from ballscrew.questions.band.compute import BandReport
 from ballscrew.questions.band.options import BandOptions
+from ballscrew.questions.band.tornado import tornado
 from ballscrew.questions.check.compute import Checked, checked
 from ballscrew.questions.compare_designs import figure as figures
-from ballscrew.questions.run import report as run_report
 from ballscrew.questions.run.compute import Run, run
+from ballscrew.questions.run.sheet import meaning
 from ballscrew.questions.shared import check_lines
 from ballscrew.questions.shared.chart_svg import named, svg_of
 from ballscrew.questions.shared.report_blocks import (
@@ -86,7 +88,7 @@ def content(cases: Sequence[Case], done: Done | None = None, samples: int | None
 
 
 def _answer(one: Design) -> Paragraph:
-    said = band_report.answer(one.run, one.band).text
+    said = contents.answer(one.run, one.band).text
     return Paragraph(f"{one.name}: {said} Checks: {one.checked.verdict}.", strong=True)
 
 
@@ -114,8 +116,7 @@ def _table(designs: Sequence[Design]) -> Table:
         ("load and speed", *(descriptions.operating_point(one.case) for one in designs))
     ]  # fmt: skip
     for name in BAND_OUTPUTS:
-        quantity = known_outputs(designs[0].case.screw.nut)[name].quantity
-        rows.append((run_report.meaning(name, quantity), *(_cell(one, name, designs[0]) for one in designs)))
+        rows.append((meaning(name), *(_cell(one, name, designs[0]) for one in designs)))
     texts = tuple(range(len(designs) + 1))
     note = "In brackets the band, then the change of the value against the first design."
     return Table(
@@ -126,7 +127,7 @@ def _table(designs: Sequence[Design]) -> Table:
 def _cell(one: Design, name: str, first: Design) -> str:
     quantity = known_outputs(one.case.screw.nut)[name].quantity
     value, start = (float(getattr(each.run.friction, name)) for each in (one, first))
-    ends = one.band.band[name].both if band_report.has_band(one.band) else (math.nan, math.nan)
+    ends = one.band.band[name].both if band_sheet.has_band(one.band) else (math.nan, math.nan)
     share = name.endswith("efficiency")
     said = banded_share(value, *ends) if share else banded(value, *ends, quantity)
     words = said.value + (f" ({said.interval})" if said.interval else "")
@@ -155,13 +156,13 @@ def _picture(designs: Sequence[Design]) -> list[Block]:
 
 
 def _of_one(one: Design) -> list[Block]:
-    bands = one.band.band.outputs if band_report.has_band(one.band) else {}
+    swings = band_sheet.swings(one.band, tornado(one.case, one.band))
     return [
-        Columns.of(run_report.results(one.run, bands)),
-        *run_report.parts(one.run),
-        *band_report.swings(one.case, one.band),
-        *band_report.vendor_blocks(one.case),
-        *run_report.beware(one.run),
+        contents.results(one.run, one.band),
+        *contents.parts(one.run),
+        *([report_blocks.picture(swings, descriptions.title(one.case), f"swings-{one.name}")] if swings else []),
+        *contents.vendor_rows(one.case),
+        *contents.beware(one.run),
     ]
 
 

@@ -14,7 +14,6 @@ from matplotlib.patches import Patch
 
 from ballscrew.basis import units
 from ballscrew.basis.output.sheet import Axis, Band, Bar, Bars, Chart, Colour, Curve, Level, Lines, Map, Sheet, Vertical
-from ballscrew.basis.quantities import Quantity
 from ballscrew.questions.shared import charts
 from ballscrew.questions.shared.report_blocks import sentence
 
@@ -40,7 +39,7 @@ _TITLE_CHARACTERS, _LABEL_SIZE, _SHADE, _CONTOURS, _HATCH = 100, 8.0, 0.15, 12, 
 #: Inches: the height of a chart in a picture and on a page of a report, and how wide a page is.
 _CHART, _PAGE_CHART, _PAGE_WIDTH = 2.7, 2.1, 7.1
 #: More bars than these have a row of their own, with inches for each and for what is above and below.
-_FEW_BARS, _BAR_HEIGHT, _FRAME = 16, 0.24, 1.3
+_FEW_BARS, _BAR_HEIGHT, _FRAME = 12, 0.24, 1.3
 #: Points: the pad of a title, and each line of a legend below it.
 _TITLE_PAD, _LEGEND_LINE, _LEGEND_COLUMNS = 6.0, 15.0, 4
 Drawn: TypeAlias = Chart | Map | Bars
@@ -93,10 +92,12 @@ def _heights(rows: Sequence[Sequence[Drawn]], chart: float) -> list[float]:
 
 
 def _draw(figure: Figure, rows: Sequence[Sequence[Drawn]], heights: Sequence[float]) -> None:
-    grid = figure.add_gridspec(max(len(rows), 1), 2, height_ratios=heights or None)
-    for number, row in enumerate(rows):
+    if not rows:
+        return
+    parts = figure.subfigures(len(rows), 1, height_ratios=heights, squeeze=False)  # long names move their own row only
+    for part, row in zip(parts.flat, rows, strict=True):
         for column, block in enumerate(row):
-            panel = figure.add_subplot(grid[number, column] if len(row) > 1 else grid[number, :])
+            panel = part.add_subplot(1, len(row), column + 1)
             match block:
                 case Chart():
                     _chart(panel, block)
@@ -173,8 +174,11 @@ def _curve(panel: Axes, curve: Curve, x: Axis, y: Axis) -> None:
 
 def _bars(panel: Axes, block: Bars) -> None:
     for place, bar in enumerate(block.bars):
-        _bar(panel, place, bar, block.quantity)
-    panel.axvline(0, color=charts.GREY, linewidth=0.8)
+        _bar(panel, place, bar, block)
+    panel.axvline(float(units.from_si(block.origin, block.quantity)), color=charts.GREY, linewidth=0.8)
+    if block.origin:  # bars do not begin at zero: no axis begins at one
+        panel.use_sticky_edges = False
+        panel.margins(x=0.05)
     for mark in block.marks:
         at = float(units.from_si(mark.x, block.quantity))
         panel.axvline(at, color=_COLOURS[mark.colour], linestyle=":", linewidth=1.0)
@@ -200,9 +204,11 @@ def _legend(block: Bars) -> dict[str, Colour]:
     return {name: colour for bar in block.bars for name, value, colour in bar.parts if name and value}
 
 
-def _bar(panel: Axes, place: int, bar: Bar, quantity: Quantity) -> None:
-    """Its parts from zero, negative ones to the left."""
-    ends = {True: 0.0, False: 0.0}
+def _bar(panel: Axes, place: int, bar: Bar, block: Bars) -> None:
+    """Its parts from the origin, negative ones to the left."""
+    quantity = block.quantity
+    origin = float(units.from_si(block.origin if bar.start is None else bar.start, quantity))
+    ends = {True: origin, False: origin}
     for _, value, colour in bar.parts:
         width, hatch = float(units.from_si(value, quantity)), _HATCH if bar.hatched else None
         if math.isfinite(width):
@@ -211,7 +217,7 @@ def _bar(panel: Axes, place: int, bar: Bar, quantity: Quantity) -> None:
             )
             ends[width < 0] += width
     if bar.band is not None and all(map(math.isfinite, bar.band)):
-        end = sum(ends.values())
+        end = sum(ends.values()) - origin
         low, high = (float(units.from_si(value, quantity)) for value in bar.band)
         error = [[max(end - low, 0.0)], [max(high - end, 0.0)]]  # percentiles may leave the value out
         panel.errorbar(end, place, xerr=error, color=charts.INK, elinewidth=1.0, capsize=2)

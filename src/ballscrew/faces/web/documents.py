@@ -16,7 +16,7 @@ from ballscrew.questions.axis import document as axis_documents
 from ballscrew.questions.axis.compute import ChainReport
 from ballscrew.questions.band import compute as bands
 from ballscrew.questions.band import document as band_documents
-from ballscrew.questions.band import text as band_text
+from ballscrew.questions.band.sheet import input_counts
 from ballscrew.questions.check import compute as checks
 from ballscrew.questions.check import document as check_documents
 from ballscrew.questions.optimise import document as optimise_documents
@@ -107,7 +107,7 @@ def drawing(found: runs.Run) -> dict[str, Any]:
 
 def band(case: case_file.Case, found: bands.BandReport) -> dict[str, Any]:
     """The document of a band, and its sentences as texts; the counts of its inputs as a message."""
-    counts = band_text.input_counts(found)
+    counts = input_counts(found)
     return {
         **band_documents.document(runs.run(case), found),
         "words": {

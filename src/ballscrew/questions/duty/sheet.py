@@ -333,7 +333,8 @@ def _bars(title: str, quantity: Quantity, parts: Mapping[str, float]) -> Bars:
     """Parts from the largest down; parts that are rounding are left out."""
     least = _LEAST * max(map(abs, parts.values()), default=0.0)
     shown = sorted(((n, v) for n, v in parts.items() if abs(v) > least), key=lambda part: -abs(part[1]))
-    return Bars(title, quantity, [Bar(name, [("", value, _COLOURS[cause_of(name)])]) for name, value in shown])
+    bars = [Bar(name, [("", value, _COLOURS[cause_of(name)])]) for name, value in shown]
+    return Bars(title, quantity, bars, detail=True)
 
 
 def _states(report: DutyReport) -> Columns:

@@ -7,7 +7,7 @@ from ballscrew.basis.output.wrapping import aligned
 from ballscrew.basis.quantities import Quantity
 from ballscrew.cases.case_files.descriptions import nut_text, operating_point
 from ballscrew.engine.evaluation.outputs import known_outputs
-from ballscrew.questions.band.text import input_counts
+from ballscrew.questions.band.sheet import input_counts
 from ballscrew.questions.reproduce.preloaded_nut import (
     CASE,
     CASE_FILE,

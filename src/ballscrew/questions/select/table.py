@@ -1,50 +1,55 @@
-"""A selection as a table: a row for each candidate, numbers in the units of their headings."""
+"""A selection as a table: a row for each candidate."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
-from ballscrew.questions.check.table import of_checks
+from ballscrew.basis.output.sheet import Cells, Columns, columns_of
+from ballscrew.questions.check import sheet as check_sheet
 from ballscrew.questions.duty.compute import NUMBERS
 from ballscrew.questions.select.answer import BRAKE
 from ballscrew.questions.select.compute import Ranked
 from ballscrew.questions.select.document import verdict
 from ballscrew.questions.select.objectives import OBJECTIVES
-from ballscrew.questions.shared.row_tables import RowTable, of_cells, put
 
 
-def of_selection(ranked: Sequence[Ranked]) -> RowTable:
+def of_selection(ranked: Sequence[Ranked]) -> Columns:
     """Rank, row, nut, preload and oil, the objectives, and all that ``ballscrew check --to`` writes of a screw.
 
     Of a need with a motion with the torques of motor and brake. Cells of what was not computed are empty.
     """
-    complete = [each.candidate.checked for each in ranked if each.candidate.complete]
-    table = of_checks(complete)
-    kept = [place for place, heading in enumerate(table.headings) if heading not in ("name", "nut", "verdict")]
-    of_check = iter(table.rows)
-    rows: list[dict[str, object]] = []
-    for each in ranked:
-        found = each.candidate
-        cells: dict[str, object] = {
-            "rank": each.rank, "name": found.name, "nut": found.variant.nut, "preload as given": found.variant.preload,
-            "oil": found.variant.oil_name, "holds": int(found.holds), "pareto": int(each.pareto),
-            "largest utilisation": _finite(found.worst), "verdict": verdict(found),
-        }  # fmt: skip
-        for name, objective in OBJECTIVES.items():
-            put(cells, objective.quantity, found.objectives[name])
-        if found.duty is not None:
-            for name, torque in found.duty.motor_torque.items():
-                put(cells, NUMBERS[name], torque, f"motor {name}")
-            for name in BRAKE:
-                put(cells, NUMBERS["torque_peak"], getattr(found.duty.brake, name), f"brake {name}")
-        for check in found.checks:
-            cells[f"{check.name.replace('_', ' ')} utilisation"] = _finite(check.utilisation)
-        if found.complete:
-            row = next(of_check)
-            cells |= {table.headings[place]: row[place] for place in kept}
-        rows.append(cells)
-    return of_cells(rows)
+    return columns_of("screws", [_cells(each) for each in ranked])
+
+
+def _cells(ranked: Ranked) -> Cells:
+    candidate = ranked.candidate
+    plain: dict[str, Any] = {
+        "rank": ranked.rank,
+        "name": candidate.name,
+        "nut": candidate.variant.nut,
+        "preload as given": candidate.variant.preload,
+        "oil": candidate.variant.oil_name,
+        "holds": int(candidate.holds),
+        "pareto": int(ranked.pareto),
+        "largest utilisation": _finite(candidate.worst),
+        "verdict": verdict(candidate),
+    }
+    values: dict[str, tuple[Any, Any]] = {heading: (value, None) for heading, value in plain.items()}
+    values |= {
+        objective.quantity.name: (candidate.objectives[name], objective.quantity)
+        for name, objective in OBJECTIVES.items()
+    }
+    if candidate.duty is not None:
+        for name, torque in candidate.duty.motor_torque.items():
+            values[f"motor {name}"] = (torque, NUMBERS[name])
+        for name in BRAKE:
+            values[f"brake {name}"] = (getattr(candidate.duty.brake, name), NUMBERS["torque_peak"])
+    for check in candidate.checks:
+        values[f"{check.name.replace('_', ' ')} utilisation"] = (_finite(check.utilisation), None)
+    of_check = check_sheet.cells(candidate.checked) if candidate.complete else {}
+    return {**values, **{heading: cell for heading, cell in of_check.items() if heading not in values}}
 
 
 def _finite(share: float | None) -> float | None:

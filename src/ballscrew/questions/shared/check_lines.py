@@ -9,7 +9,6 @@ from typing import Any
 from ballscrew.basis import units
 from ballscrew.basis.output.plain_numbers import plain
 from ballscrew.basis.output.sheet import Cell, Number, Share, Table
-from ballscrew.basis.output.wrapping import beside
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.basis.records import Message, in_file
 from ballscrew.cases.case_files.case import Case
@@ -59,21 +58,6 @@ def check_table(checks: Sequence[Check], give: Mapping[str, str] | None = None) 
     return Table("checks", "Checks", ("", "value", "limit", "used", "verdict"), rows, detail=True)
 
 
-def check_lines(checks: Sequence[Check], give: Mapping[str, str] | None = None) -> list[str]:
-    """A line for each check: value, limit, share used, verdict; ``give`` names what to give for inputs it lacks."""
-    said = _GIVE if give is None else give
-    lines = [f"{'Checks':<26}{'value':>13} {'limit':>13} {'used':>7}  verdict"]
-    for check in checks:
-        used = used_of(check)
-        explanation = check.text
-        if check.missing in said:
-            explanation = explanation.replace(check.missing, said[check.missing])
-        cells = f"{shown(check, check.value):>13} {shown(check, check.limit):>13} {used:>7}"
-        prefix = f"  {check.name.replace('_', ' '):<24}{cells}  "
-        lines.append(beside(prefix, ": ".join(filter(None, [verdict_of(check), explanation]))))
-    return lines
-
-
 def verdict_of(check: Check) -> str:
     """The verdict on a check, by formulas of which source; of one that is not judged the source of its value alone."""
     said = {True: "passes", False: "FAILS", None: ""}[check.holds]
@@ -93,9 +77,3 @@ def source_document(check: Check) -> dict[str, Any]:
         return {}
     said = QUALIFICATIONS[check.source]
     return {"source": check.source, "source_message": None if said is None else said.document()}
-
-
-def used_of(check: Check) -> str:
-    """The share of a limit that is used; a dash where there is no limit, or nothing is left of it."""
-    used = check.utilisation
-    return "–" if used is None or not math.isfinite(used) else f"{used:.1%}"
