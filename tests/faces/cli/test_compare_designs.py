@@ -41,7 +41,7 @@ def test_all_at_the_load_and_speed_of_the_first(tmp_path):
     alone = json.loads(output("run", f"{PROJECT}#thin oil", "--set", at, "--json"))
     assert_same(designs[1]["results"]["screw_torque"], alone["results"]["screw_torque"])
     text = output("compare", PROJECT, "--to", tmp_path / "designs.svg")
-    assert "changes are against thick oil" in text
+    assert "Changes are against thick oil" in text
     assert "thin oil" in (tmp_path / "designs.svg").read_text(encoding="utf-8")
 
 

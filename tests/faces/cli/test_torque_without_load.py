@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 from pathlib import Path
 
 import pytest
@@ -50,13 +51,13 @@ def test_rules_are_held_against_the_balls(found):
 
 def test_the_table_has_the_base_that_its_changes_are_relative_to(ballscrew):
     text = ballscrew("compare", AXIS).stdout
-    own, base, first = text[text.index("\nthis case") + 1 :].splitlines()[:3]
-    assert "case" not in own.split()[2:]
-    assert base.startswith("this case, without seals, as all below")
-    torque, mark = base.split()[7:9]
-    assert mark == "case"
-    value, change = first.split()[3:5]
-    assert float(change.rstrip("%")) == pytest.approx(100 * (float(value) / float(torque) - 1), abs=0.1)
+    lines = text[text.index("\n  this case") + 1 :].splitlines()[:3]
+    own, base, first = (re.split(r"\s{2,}", line.strip()) for line in lines)
+    assert "case" not in own[1:]
+    assert base[0] == "this case, without seals, as all below"
+    assert base[2] == "case"
+    value, torque = (float(cells[1].removesuffix(" N m")) for cells in (first, base))
+    assert float(first[2].rstrip("%")) == pytest.approx(100 * (value / torque - 1), abs=0.1)
     document = json.loads(ballscrew("compare", AXIS, "--json").stdout)
     assert document["drag_torque"] == json.loads(ballscrew("run", AXIS, "--json").stdout)["results"]["preload_drag"]
     assert document["of_balls"]["losses"] == {"seals": 0.3}

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from ballscrew.basis.output.plain_numbers import plain
+from ballscrew.basis.output.sheet import Number, Share, words
 from ballscrew.basis.quantities import quantities_of
-from ballscrew.basis.units import shown, to_digits
+from ballscrew.basis.units import to_digits
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.shared.report_blocks import Paragraph, Picture, Report, Section, as_data
-from ballscrew.questions.shared.report_numbers import banded, banded_share
 
 KNOWN = quantities_of(FrictionResult)
 TORQUE = KNOWN["screw_torque"]
@@ -37,26 +37,25 @@ def test_numbers_of_programs_are_written_out(written, read):
 
 
 @pytest.mark.parametrize(
-    ("value", "low", "high", "words"),
+    ("value", "low", "high", "written"),
     [
-        (1.014, 0.62137, 1.56, ("1.014 N m", "0.6213 to 1.56 N m")),
-        (0.43781, 0.270001, 0.610001, ("0.4378 N m", "0.27 to 0.6101 N m")),
-        (12.1494, 12.1411, 12.1589, ("12.15 N m", "12.14 to 12.16 N m")),
-        (1234.6, -900.04, 17004.0, ("1235 N m", "-900.1 to 17010 N m")),
-        (2.0, 2.0, 2.0, ("2 N m", "")),
-        (2.0, math.nan, math.nan, ("2 N m", "")),
-        (math.nan, 1.0, 2.0, ("–", "")),
+        (1.014, 0.62137, 1.56, "1.014 N m (0.6213 to 1.56)"),
+        (0.43781, 0.270001, 0.610001, "0.4378 N m (0.27 to 0.6101)"),
+        (12.1494, 12.1411, 12.1589, "12.15 N m (12.14 to 12.16)"),
+        (1234.6, -900.04, 17004.0, "1235 N m (-900.1 to 17010)"),
+        (2.0, 2.0, 2.0, "2 N m"),
+        (2.0, math.nan, math.nan, "2 N m"),
+        (math.nan, 1.0, 2.0, "–"),
     ],
 )
-def test_a_number_is_written_as_without_its_band_whose_ends_are_rounded_outward(value, low, high, words):
-    assert banded(value, low, high, TORQUE) == words
-    if math.isfinite(value):
-        assert words[0] == plain(shown(value, TORQUE))
+def test_a_number_is_written_as_without_its_band_whose_ends_are_rounded_outward(value, low, high, written):
+    assert words(Number(value, TORQUE, band=(low, high))) == written
+    assert written.startswith(words(Number(value, TORQUE)))
 
 
 def test_shares_are_written_so_in_per_cent():
-    assert banded_share(0.91666, 0.87721, 0.94721) == ("91.67 %", "87.72 to 94.73 %")
-    assert banded_share(0.91666, math.nan, math.nan) == ("91.67 %", "")
+    assert words(Share(0.91666, band=(0.87721, 0.94721))) == "91.7% (87.7% to 94.8%)"
+    assert words(Share(0.91666, band=(math.nan, math.nan))) == "91.7%"
 
 
 @pytest.mark.parametrize("digits", [1, 2, 4, 7])

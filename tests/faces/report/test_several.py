@@ -6,6 +6,7 @@ import pypdf
 import pytest
 from tests.faces.report.test_report import _EXPONENT, _NO_NUMBERS, LEAST_FILLED, SAMPLES, case_of, least_filled, text_of
 
+from ballscrew.basis.output.sheet import Number, words
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.faces.report import several
 from ballscrew.faces.report.pdf import pdf_bytes
@@ -14,7 +15,6 @@ from ballscrew.questions.band import compute as band
 from ballscrew.questions.check.compute import checked
 from ballscrew.questions.run.compute import run
 from ballscrew.questions.shared.report_blocks import as_data
-from ballscrew.questions.shared.report_numbers import banded
 
 NAMES = ("catalogue_screw", "feed_drive", "rig")
 _TORQUE = quantities_of(FrictionResult)["screw_torque"]
@@ -39,9 +39,8 @@ def test_each_column_is_what_the_design_has_by_itself(content):
         case = case_of(name)
         value = float(run(case).friction.screw_torque)
         both = band.band(case, band.BandOptions(samples=SAMPLES)).band["screw_torque"].both
-        said = banded(value, *both, _TORQUE)
         change = "" if place == 1 else f", {value / first - 1:+.0%}"
-        assert torque[place] == f"{said.value} ({said.interval}){change}"
+        assert torque[place] == f"{words(Number(value, _TORQUE, band=both))}{change}"
         assert verdicts[place].lower() == checked("", case).verdict.lower()
     buckling = next(row for row in table_of(content, "Checks").rows if row[0] == "buckling")
     assert buckling[1].startswith("7.5%: 7 kN against ")
@@ -52,10 +51,10 @@ def test_its_pages_are_few_and_none_is_nearly_blank(content):
     reader = pypdf.PdfReader(io.BytesIO(pdf_bytes(content)))
     assert 3 <= len(reader.pages) <= content.pages == 8
     assert least_filled(reader) >= LEAST_FILLED
-    words = text_of(reader)
-    assert not _NO_NUMBERS.search(words)
-    assert not _EXPONENT.findall(words)
-    assert "designs A, B, C" in words
+    text = text_of(reader)
+    assert not _NO_NUMBERS.search(text)
+    assert not _EXPONENT.findall(text)
+    assert "designs A, B, C" in text
 
 
 def test_equal_designs_give_equal_reports(content):

@@ -4,11 +4,13 @@ import pytest
 
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.cases.case_files import case_file
+from ballscrew.faces.sheets import terminal
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.questions.compare import document, text
+from ballscrew.questions.compare import document
 from ballscrew.questions.compare.answer import ByRules, Compared, ComparedLaw, ComparedModel
 from ballscrew.questions.compare.compute import comparison
 from ballscrew.questions.compare.response import Compare
+from ballscrew.questions.compare.sheet import sheet
 from ballscrew.questions.shared import declared
 from support.answers import undescribed, without_unit
 from support.commands import ROOT
@@ -22,11 +24,10 @@ def compared():
     return case, comparison(case)
 
 
-def test_every_number_of_a_model_is_on_every_face(compared, capsys):
+def test_every_number_of_a_model_is_on_every_face(compared):
     case, found = compared
     answer = document.document(case, found)
-    text.print_comparison(case, found)
-    words = capsys.readouterr().out
+    words = terminal.text(sheet(case, found))
     schema = declared.schema(Compared).model_json_schema()["$defs"]
     for name, quantity in quantities_of(ComparedModel).items():
         assert quantity.info == quantities_of(FrictionResult)[name].info
@@ -36,7 +37,7 @@ def test_every_number_of_a_model_is_on_every_face(compared, capsys):
             assert schema[model]["properties"][name].get("x-si-unit", "1") == quantity.unit
         assert answer["units"].get(name, "1") == quantity.unit
     for row in (*answer["models"], *answer["laws"]):
-        assert f"{row['screw_torque']:.3f}" in words
+        assert f"{row['screw_torque']:.4g}" in words
 
 
 def test_every_number_has_a_unit(compared):

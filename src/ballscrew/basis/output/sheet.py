@@ -39,6 +39,8 @@ class Share:
     value: float
     bar: bool = True
     band: tuple[float, float] | None = None
+    #: A change, with its sign.
+    is_change: bool = False
 
 
 #: A text, a number, a share, or nothing that is known.
@@ -78,11 +80,13 @@ class Table:
     notes: Sequence[str] = ()
     #: Left out where room is short, on pages of a report.
     detail: bool = False
+    #: Numbers have no unit, it stands in the title.
+    is_compact: bool = False
 
     def text_columns(self) -> list[int]:
         """Places of the columns that have texts in them."""
         cells = {index: [row[index] for row in self.rows] for index in range(len(self.columns))}
-        return [i for i, column in cells.items() if i == 0 or any(isinstance(c, str) and c for c in column)]
+        return [i for i, column in cells.items() if i == 0 or not any(isinstance(c, Number | Share) for c in column)]
 
     def bars(self) -> list[float | None]:
         """The share of each row that is drawn as a bar."""
@@ -258,14 +262,19 @@ class Sheet:
         return (block for block in self.blocks if isinstance(block, kinds))
 
 
-def words(cell: Cell) -> str:
+def words(cell: Cell, *, with_unit: bool = True) -> str:
     """A cell as people write it: numbers in display units, ends of a band rounded outward, a dash for nothing."""
     match cell:
+        case Number(value, quantity, digits) if not with_unit:
+            return plain(units.rounded(value + 0.0, quantity, digits)) if math.isfinite(value) else "–"
         case None:
             return "–"
         case Number(value, quantity, digits, band, toward):
-            ends = _band_in_words(band, lambda end, to: plain(units.rounded(end, quantity, digits, to)))
+            has_band = band is not None and math.isfinite(value)
+            ends = _band_in_words(band, lambda end, to: plain(units.rounded(end, quantity, digits, to))) * has_band
             return f"{_in_words(value, quantity, digits, toward)}{ends}"
+        case Share(value, is_change=True):
+            return f"{value:+.1%}" if math.isfinite(value) and round(value, 3) else words(Share(value))
         case Share(value, _, band):
             return f"{value:.1%}{_band_in_words(band, _percent)}" if math.isfinite(value) else "–"
         case _:
@@ -305,7 +314,7 @@ def _data(part: Any) -> Any:
         return {"value": _data(part.value), **shown, **band}
     if isinstance(part, Share):
         band = {} if part.band is None else {"band": [_data(end) for end in part.band]}
-        return {"share": _data(part.value), "bar": part.bar, **band}
+        return {"share": _data(part.value), "bar": part.bar, "is_change": part.is_change, **band}
     if dataclasses.is_dataclass(part):
         return {field.name: _data(getattr(part, field.name)) for field in dataclasses.fields(part)}
     if isinstance(part, float):

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import functools
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from ballscrew.faces.cli.common_options import (
     AllowCode,
     AsJson,
+    AsSheet,
     CalibrationName,
     ModelName,
     SelfHeatingOption,
     Settings,
+    print_answer,
 )
 
 
@@ -26,9 +29,12 @@ def compare(
     calibration: CalibrationName = None,
     settings: Settings = None,
     as_json: AsJson = False,
+    as_sheet: AsSheet = False,
     to: Annotated[
         Path | None,
-        typer.Option("--to", "-o", metavar="FILE", help="Also draw a picture of the spread: .png, .svg or .pdf."),
+        typer.Option(
+            "--to", "-o", metavar="FILE", help="Also write a table (.csv, .xlsx) or a picture (.png, .svg, .pdf)."
+        ),
     ] = None,
     self_heating: SelfHeatingOption = False,
     own: Annotated[
@@ -47,73 +53,40 @@ def compare(
     --self-heating all at the oil and preload in which the model of the case ends.
     """
     from ballscrew.basis.errors import Fault, InputError
-    from ballscrew.basis.output import json_text
-    from ballscrew.basis.output.wrapping import wrapped
     from ballscrew.cases.case_files import case_file
+    from ballscrew.faces.sheets import to_file
     from ballscrew.questions.compare import document as documents
-    from ballscrew.questions.compare import text
     from ballscrew.questions.compare.compute import comparison
-    from ballscrew.questions.compare_designs.compute import is_one_case
-    from ballscrew.questions.shared import chart_files as files
+    from ballscrew.questions.compare.sheet import sheet
+    from ballscrew.questions.compare_designs import document as documents_of_designs
+    from ballscrew.questions.compare_designs.compute import is_one_case, side_by_side
+    from ballscrew.questions.compare_designs.sheet import sheet as sheet_of_designs
     from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
-    if to is not None:
-        files.check_picture(to)
-    if not is_one_case(cases):
-        _designs(cases, settings or [], model, calibration, as_json, to, self_heating, own, allow_code)
-        return
-    if own:
-        raise InputError(Fault("--own", "is for several designs", "", "name several case files, or a project"))
-    loaded = case_file.load(cases[0], settings or [], model, calibration=calibration, allow_code=allow_code)
-    heating = None
-    if self_heating:
-        from ballscrew.questions.warm_up import self_heating as studies
+    changes: dict[str, Any] = {"model": model, "calibration": calibration, "allow_code": allow_code}
+    to_file.check([] if to is None else [to])
+    if is_one_case(cases):
+        if own:
+            raise InputError(Fault("--own", "is for several designs", "", "name several case files, or a project"))
+        loaded = case_file.load(cases[0], settings or [], **changes)
+        heating = None
+        if self_heating:
+            from ballscrew.questions.warm_up import self_heating as studies
 
-        heating = studies.self_heating(loaded)
-        loaded = heating.warm
-    compared = comparison(loaded)
-    if as_json:
-        typer.echo(json_text.as_json(with_self_heating(documents.document(loaded, compared), heating)))
+            heating = studies.self_heating(loaded)
+            loaded = heating.warm
+        compared = comparison(loaded)
+        seen = sheet(loaded, compared, () if heating is None else heating.records)
+        document = functools.partial(with_self_heating, documents.document(loaded, compared), heating)
+        counted = f"{len(compared.rows)} models and laws"
     else:
-        if heating is not None:
-            typer.echo("\n".join(wrapped(record.text) for record in heating.records))
-        text.print_comparison(loaded, compared)
+        if self_heating:
+            raise InputError(Fault("--self-heating", "is for one case", "", "compare one design alone"))
+        designs = side_by_side(cases, own=own, settings=settings or [], **changes)
+        seen = sheet_of_designs(designs)
+        document = functools.partial(documents_of_designs.document, designs)
+        counted = f"{len(designs.designs)} designs"
+    print_answer(seen, document, as_json=as_json, as_sheet=as_sheet)
     if to is not None:
-        from ballscrew.questions.compare import figure as figures  # matplotlib is slow to import
-
-        files.draw(lambda: figures.picture(loaded, compared), to)
-        typer.echo(f"{to}: {len(compared.rows)} models and laws", err=as_json)
-
-
-def _designs(
-    paths: list[Path],
-    settings: list[str],
-    model: str | None,
-    calibration: str | None,
-    as_json: bool,
-    to: Path | None,
-    self_heating: bool,
-    own: bool,
-    allow_code: bool,
-) -> None:
-    """Several designs side by side."""
-    from ballscrew.basis.errors import Fault, InputError
-    from ballscrew.basis.output import json_text
-    from ballscrew.questions.compare_designs import document as documents
-    from ballscrew.questions.compare_designs import text
-    from ballscrew.questions.compare_designs.compute import side_by_side
-
-    if self_heating:
-        raise InputError(Fault("--self-heating", "is for one case", "", "compare one design alone"))
-    found = side_by_side(paths, own=own, settings=settings, model=model, calibration=calibration, allow_code=allow_code)
-    typer.echo(json_text.as_json(documents.document(found)) if as_json else text.text(found))
-    if to is not None:
-        from ballscrew.questions.compare_designs.figure import DesignBar, picture
-        from ballscrew.questions.shared import chart_files as files  # matplotlib is slow to import
-
-        bars = [
-            DesignBar(one.name, {name: float(part) for name, part in one.run.friction.contributions.items()}, 0.0, 0.0)
-            for one in found.designs
-        ]
-        files.draw(lambda: picture(bars), to)
-        typer.echo(f"{to}: {len(bars)} designs", err=as_json)
+        to_file.write(to, seen)
+        typer.echo(f"{to}: {counted}", err=as_json or as_sheet)

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from ballscrew.basis.output.sheet import Number, Share, words
 from ballscrew.basis.version import __version__
 from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.case_files.case import Case
@@ -21,23 +22,20 @@ from ballscrew.questions.band.compute import BandReport
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.band.tornado import tornado
 from ballscrew.questions.check.compute import Checked, checked
-from ballscrew.questions.compare_designs import figure as figures
+from ballscrew.questions.compare_designs.sheet import bars as bars_of_designs
 from ballscrew.questions.run.compute import Run, run
 from ballscrew.questions.run.sheet import meaning
 from ballscrew.questions.shared import check_lines
-from ballscrew.questions.shared.chart_svg import named, svg_of
 from ballscrew.questions.shared.report_blocks import (
     Block,
     Columns,
     Links,
     Paragraph,
-    Picture,
     Report,
     Section,
     Table,
     sentence,
 )
-from ballscrew.questions.shared.report_numbers import banded, banded_share
 
 #: Pages at most of what is side by side, and of each design.
 _PAGES, _PAGES_OF_EACH = 2, 2
@@ -129,30 +127,25 @@ def _cell(one: Design, name: str, first: Design) -> str:
     value, start = (float(getattr(each.run.friction, name)) for each in (one, first))
     ends = one.band.band[name].both if band_sheet.has_band(one.band) else (math.nan, math.nan)
     share = name.endswith("efficiency")
-    said = banded_share(value, *ends) if share else banded(value, *ends, quantity)
-    words = said.value + (f" ({said.interval})" if said.interval else "")
+    text = words(Share(value, band=ends) if share else Number(value, quantity, band=ends))
     # a ratio of torques of either sign says nothing
     if one is first or not (value > 0 < start and math.isfinite(value) and math.isfinite(start)):
-        return words
-    return f"{words}, {100 * (value - start):+.1f} points" if share else f"{words}, {value / start - 1:+.0%}"
+        return text
+    return f"{text}, {100 * (value - start):+.1f} points" if share else f"{text}, {value / start - 1:+.0%}"
 
 
 def _picture(designs: Sequence[Design]) -> list[Block]:
-    bars = [
-        figures.DesignBar(
-            one.name,
-            {name: float(part) for name, part in one.run.friction.contributions.items()},
-            *one.band.band["screw_torque"].both,
-        )
-        for one in designs
-    ]
-    if not any(math.isfinite(part) and part for bar in bars for part in bar.parts.values()):
+    parts = {one.name: one.run.friction.contributions for one in designs}
+    bands = {one.name: one.band.band["screw_torque"].both for one in designs}
+    bars = bars_of_designs(parts, bands)
+    if not any(bar.parts for bar in bars.bars):
         return []
-    words = "Friction torque of " + ", ".join(
-        f"{bar.name} {sum(bar.parts.values()):.3g} N m ({bar.low:.3g} to {bar.high:.3g})" for bar in bars
+    torques = ", ".join(
+        f"{bar.name} {sum(part for _, part, _ in bar.parts):.3g} N m ({bands[bar.name][0]:.3g} to "
+        f"{bands[bar.name][1]:.3g})"
+        for bar in bars.bars
     )
-    caption = "Friction torque by its parts at the values of each case; the line with ends is its band."
-    return [Picture(named(svg_of(lambda: figures.picture(bars), "designs"), words), f"{words}.", caption)]
+    return [report_blocks.picture([bars], f"{torques}; by its parts, the line with ends is its band", "designs")]
 
 
 def _of_one(one: Design) -> list[Block]:

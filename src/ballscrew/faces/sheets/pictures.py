@@ -15,19 +15,9 @@ from matplotlib.patches import Patch
 from ballscrew.basis import units
 from ballscrew.basis.output.sheet import Axis, Band, Bar, Bars, Chart, Colour, Curve, Level, Lines, Map, Sheet, Vertical
 from ballscrew.questions.shared import charts
+from ballscrew.questions.shared.chart_colours import SHADES
 from ballscrew.questions.shared.report_blocks import sentence
 
-_COLOURS: Mapping[Colour, str] = {
-    "ink": charts.INK,
-    "grey": charts.GREY,
-    "blue": charts.BLUE,
-    "orange": charts.ORANGE,
-    "green": charts.GREEN,
-    "purple": charts.PURPLE,
-    "sky": charts.SKY,
-    "red": charts.RED,
-    "yellow": charts.YELLOW,
-}
 _STYLES: Mapping[str, Mapping[str, Any]] = {
     "line": {"linewidth": 1.2},
     "dashed": {"linestyle": "--", "linewidth": 1.2},
@@ -117,11 +107,11 @@ def _chart(panel: Axes, chart: Chart) -> None:
                 _curve(panel, mark, chart.x, chart.y)
             case Band():
                 x, low, high = (_shown(v, a) for v, a in ((mark.x, chart.x), (mark.low, chart.y), (mark.high, chart.y)))
-                colour, name = _COLOURS[mark.colour], mark.name or None
+                colour, name = SHADES[mark.colour], mark.name or None
                 shade = 1.0 if mark.solid else _SHADE
                 panel.fill_between(x, low, high, color=colour, alpha=shade, linewidth=0, label=name)
             case Level() | Vertical():
-                _mark(panel, mark, chart, color=_COLOURS[mark.colour], label=mark.name or None)
+                _mark(panel, mark, chart, color=SHADES[mark.colour], label=mark.name or None)
     _axes(panel, chart)
     if second is not None and chart.second is not None:
         styles = {mark.style for mark in chart.marks if isinstance(mark, Curve) and mark.second}
@@ -165,7 +155,7 @@ def _shown(values: Any, axis: Axis) -> Any:
 
 def _curve(panel: Axes, curve: Curve, x: Axis, y: Axis) -> None:
     points = _shown(curve.x, x), _shown(curve.y, y)
-    colour, label = _COLOURS[curve.colour], curve.name or None
+    colour, label = SHADES[curve.colour], curve.name or None
     if curve.style == "area":
         panel.fill_between(*points, color=colour, alpha=0.5, label=label)
     else:
@@ -181,7 +171,7 @@ def _bars(panel: Axes, block: Bars) -> None:
         panel.margins(x=0.05)
     for mark in block.marks:
         at = float(units.from_si(mark.x, block.quantity))
-        panel.axvline(at, color=_COLOURS[mark.colour], linestyle=":", linewidth=1.0)
+        panel.axvline(at, color=SHADES[mark.colour], linestyle=":", linewidth=1.0)
         panel.text(at, 0.0, f" {mark.name}", transform=panel.get_xaxis_transform(), va="bottom", fontsize=_LABEL_SIZE)
     panel.set_yticks(range(len(block.bars)), [bar.name for bar in block.bars])
     for tick, bar in zip(panel.get_yticklabels(), block.bars, strict=True):
@@ -195,7 +185,7 @@ def _bars(panel: Axes, block: Bars) -> None:
     lines = -(-len(legend) // _LEGEND_COLUMNS)
     panel.set_title(block.title, pad=_TITLE_PAD + lines * _LEGEND_LINE)
     if legend:
-        handles = [Patch(color=_COLOURS[colour], label=name) for name, colour in legend.items()]
+        handles = [Patch(color=SHADES[colour], label=name) for name, colour in legend.items()]
         panel.legend(handles=handles, loc="lower left", bbox_to_anchor=(0, 1), ncols=_LEGEND_COLUMNS, fontsize="small")
 
 
@@ -213,7 +203,7 @@ def _bar(panel: Axes, place: int, bar: Bar, block: Bars) -> None:
         width, hatch = float(units.from_si(value, quantity)), _HATCH if bar.hatched else None
         if math.isfinite(width):
             panel.barh(
-                place, width, left=ends[width < 0], color=_COLOURS[colour], hatch=hatch, edgecolor="white", linewidth=0
+                place, width, left=ends[width < 0], color=SHADES[colour], hatch=hatch, edgecolor="white", linewidth=0
             )
             ends[width < 0] += width
     if bar.band is not None and all(map(math.isfinite, bar.band)):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+import operator
 from collections.abc import Iterator
 
 from ballscrew.basis.output.sheet import Line, Lines, Sheet, Table, words
@@ -26,13 +28,17 @@ def _line(line: Line) -> str:
 
 def _table(table: Table, bar: str) -> Iterator[str]:
     texts, last = table.text_columns(), len(table.columns) - 1
-    rows = [[table.title, *table.columns[1:]], *([f"  {row[0]}", *map(words, row[1:])] for row in table.rows)]
+    cells = [[f"  {row[0]}", *(words(cell, with_unit=not table.is_compact) for cell in row[1:])] for row in table.rows]
+    is_heading = [last > 0 and not any(row[1:]) for row in cells]  # it runs over all columns
+    rows = [[table.title, *table.columns[1:]], *itertools.compress(cells, map(operator.not_, is_heading))]
     if last > 0 and last in texts:  # words go on below themselves
         ends = [row.pop() for row in rows]
     else:
         ends = ["", *(bar * round(_BAR * max(0.0, min(share or 0.0, 1.0))) for share in table.bars())]
     prefixes = aligned(rows, texts)
     width = max(map(len, prefixes)) + 2
-    for prefix, end in zip(prefixes, ends, strict=True):
-        yield beside(prefix.ljust(width), end).rstrip()
+    lines = [beside(prefix.ljust(width), end).rstrip() for prefix, end in zip(prefixes, ends, strict=False)]
+    yield lines.pop(0)
+    for row, heads in zip(cells, is_heading, strict=True):
+        yield row[0] if heads else lines.pop(0)
     yield from (wrapped(f"  {note}") for note in table.notes)

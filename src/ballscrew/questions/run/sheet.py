@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ballscrew.basis import units
 from ballscrew.basis.output.sheet import Cell, Cells, Line, Lines, Number, Share, Sheet, Table, columns_of
@@ -15,7 +15,6 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.makers_rules import BY_RULE
 from ballscrew.cases.case_files.nut_tables import seal_torque_source
 from ballscrew.cases.screw_tables.nut_kinds import NUT_FIELDS, kind_of
-from ballscrew.engine.uncertainty.bands import OutputBand
 from ballscrew.physics.components.contact import RaceState
 from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
 from ballscrew.physics.sizing.rigidity import RECALLED_ACCURACY_FACTORS, AxialRigidity
@@ -25,6 +24,9 @@ from ballscrew.questions.run.answer import results
 from ballscrew.questions.run.compute import Run
 from ballscrew.questions.run.makers import beside_rules, contradiction
 from ballscrew.questions.run.nut_state import NutState
+
+if TYPE_CHECKING:  # loads xarray
+    from ballscrew.engine.uncertainty.bands import OutputBand
 
 #: The first results, in this order; a nut has no contact load and entrainment speed of all its balls.
 SHOWN = (

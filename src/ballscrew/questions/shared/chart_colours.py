@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from ballscrew.basis.output.sheet import Colour
+
 #: Colours of Okabe and Ito, told apart with any colour vision.
 BLUE, ORANGE, GREEN, PURPLE, SKY, RED, YELLOW = (
     "#0072B2",
@@ -17,16 +19,29 @@ BLUE, ORANGE, GREEN, PURPLE, SKY, RED, YELLOW = (
 #: From light to dark, for curves of one growing parameter; told apart in print, too.
 GROWING = ("#7FB8DA", "#3C8DBC", "#8A6FB0", "#B0457B", "#5B1A3A")
 INK, GREY, SHADE, LIGHT_SHADE = "#222222", "#666666", "#D9D9D9", "#F2F2F2"
-#: The same colour for a mechanism in all figures.
-MECHANISM_COLOURS: Mapping[str, str] = {
-    "hydrodynamic_rolling": SKY,
-    "elastic_hysteresis": GREEN,
-    "curvature": ORANGE,
-    "spin": RED,
-    "helix": BLUE,
-    "ball_to_ball": PURPLE,
-    "chain_braking": YELLOW,
+#: The shades of the colours of a sheet.
+SHADES: Mapping[Colour, str] = {
+    "ink": INK,
+    "grey": GREY,
+    "blue": BLUE,
+    "orange": ORANGE,
+    "green": GREEN,
+    "purple": PURPLE,
+    "sky": SKY,
+    "red": RED,
+    "yellow": YELLOW,
 }
+#: The same colour for a mechanism in all figures.
+_OF_MECHANISMS: Mapping[str, Colour] = {
+    "hydrodynamic_rolling": "sky",
+    "elastic_hysteresis": "green",
+    "curvature": "orange",
+    "spin": "red",
+    "helix": "blue",
+    "ball_to_ball": "purple",
+    "chain_braking": "yellow",
+}
+MECHANISM_COLOURS: Mapping[str, str] = {name: SHADES[colour] for name, colour in _OF_MECHANISMS.items()}
 #: The same for a cause of the torque of a motor, as :data:`ballscrew.questions.duty.compute.CAUSES` names them.
 CAUSE_COLOURS: Mapping[str, str] = {
     "acceleration": BLUE,
@@ -35,3 +50,8 @@ CAUSE_COLOURS: Mapping[str, str] = {
     "friction of the balls": RED,
     "other friction": PURPLE,
 }
+
+
+def colour_of(mechanism: str) -> Colour:
+    """The colour of a mechanism; grey for losses beside those of the balls."""
+    return _OF_MECHANISMS.get(mechanism, "grey")
