@@ -7,12 +7,16 @@ import numpy as np
 import pytest
 
 from ballscrew.basis.errors import InputError
+from ballscrew.basis.output.sheet import Chart
+from ballscrew.basis.output.wrapping import WIDTH
 from ballscrew.cases.case_files import case_file
+from ballscrew.faces.sheets import report_blocks, terminal
 from ballscrew.physics.moving_balls.friction_states import work_share
-from ballscrew.questions.reversal import compute, document, figure, text
+from ballscrew.questions.reversal import compute, document
 from ballscrew.questions.reversal.answer import ReversalResults
 from ballscrew.questions.reversal.options import ReversalOptions
-from ballscrew.questions.shared import charts, declared
+from ballscrew.questions.reversal.sheet import sheet
+from ballscrew.questions.shared import declared
 from support.answers import undescribed, without_unit
 from support.commands import ROOT
 from support.reversals import STEADY, closed_form
@@ -57,7 +61,7 @@ def test_from_rest():
     rested = compute.of(CASE, closed_form(from_rest=True), ReversalOptions(from_rest=True))
     place = by_share(rested.places_by_mechanism["helix"])[0.9]
     assert math.degrees(place.screw_angle) == pytest.approx(0.9 * 5, rel=1e-3)
-    assert text.title(rested).startswith("Friction from rest")
+    assert sheet(rested).title.startswith("Friction from rest")
     assert rested.verdicts[0].text.startswith("from rest 90%")
 
 
@@ -65,7 +69,7 @@ def test_a_travel_that_is_too_short():
     short = compute.of(CASE, closed_form(travel=1e-4), ReversalOptions())
     assert math.isnan(by_share(short.places)[0.98].screw_angle)
     assert short.verdicts[0].text == "after a reversal less than 90% of the friction is back within 100 µm"
-    assert "–" in text.text(short)
+    assert "–" in terminal.text(sheet(short))
     found = document.document(short)
     assert found["verdicts"][0]["value"] is None or math.isnan(found["verdicts"][0]["value"])
 
@@ -93,8 +97,8 @@ def test_both_stiffnesses_are_told(report):
 
 def test_the_hypothesis_is_said(report):
     assert report.warnings[0].id == "reversal.hypothesis"
-    assert "EMPS" in text.text(report)
-    assert "EMPS" in text.caption(report)
+    assert "EMPS" in terminal.text(sheet(report))
+    assert "EMPS" in str(report_blocks.blocks(sheet(report), "reversal"))
     held = dataclasses.replace(closed_form(), displacement=(np.zeros(501),))
     alone = compute.of(CASE, held, ReversalOptions())
     assert "reversal.hypothesis" not in [one.id for one in alone.warnings]
@@ -147,26 +151,22 @@ def test_every_part_is_described():
 
 
 def test_the_text(report):
-    lines = text.text(report).splitlines()
+    lines = terminal.text(sheet(report)).splitlines()
     assert lines[0] == "Friction after a reversal: 0 N, 100 rpm, double nut, preload 4326 N, model reference"
-    of_helix = next(line for line in lines if line.startswith("helix slip"))
+    of_helix = next(line for line in lines if line.startswith("  helix slip"))
     assert of_helix.split()[-7:] == ["0.1", "N", "m", "9", "deg", "250", "µm"]
-    assert next(line for line in lines if line.startswith("rolling")).endswith("at once")
-    assert max(map(len, lines)) <= 120
+    assert next(line for line in lines if line.startswith("  rolling")).endswith("at once")
+    assert max(map(len, lines)) <= WIDTH
 
 
-def test_the_picture(report):
+def test_the_charts(report):
     """The curve and its parts are drawn as they are, and the models with what follows at once."""
-    with charts.house_style():
-        left, right = figure.picture(report).axes
-    shown = {line.get_label(): line for line in left.get_lines()}
-    assert {"all friction", "helix slip", "rolling resistance", "ball to ball and return"} <= shown.keys()
-    assert np.degrees(report.reversal.screw_angle[1:]) == pytest.approx(shown["all friction"].get_xdata(), rel=1e-12)
-    assert list(shown["all friction"].get_ydata()) == list(report.reversal.screw_torque[1:])
-    models = {line.get_label(): line.get_ydata() for line in right.get_lines()}
-    assert models["3 Maxwell-slip elements"] == pytest.approx(models["computed"], abs=1e-5)
-    assert models["Dahl, first 0.02°"][-1] == pytest.approx(sum(STEADY.values()), rel=1e-9)
-    assert left.get_xscale() == right.get_xscale() == "log"
+    parts, models = ({mark.name: mark for mark in chart.marks} for chart in sheet(report).of_kind(Chart))
+    assert {"all friction", "helix slip", "rolling resistance", "ball to ball and return"} <= parts.keys()
+    assert list(parts["all friction"].x) == list(report.reversal.screw_angle[1:])
+    assert list(parts["all friction"].y) == list(report.reversal.screw_torque[1:])
+    assert models["3 Maxwell-slip elements"].y == pytest.approx(models["computed"].y, abs=1e-5)
+    assert models["Dahl, first 0.02°"].y[-1] == pytest.approx(sum(STEADY.values()), rel=1e-9)
 
 
 @pytest.mark.parametrize("speed", ["100 rpm", "-100 rpm"])

@@ -8,7 +8,16 @@ from typing import Annotated, Any
 
 import typer
 
-from ballscrew.faces.cli.common_options import AllowCode, AsJson, CalibrationName, CaseFile, ModelName, Settings
+from ballscrew.faces.cli.common_options import (
+    AllowCode,
+    AsJson,
+    AsSheet,
+    CalibrationName,
+    CaseFile,
+    ModelName,
+    Settings,
+    print_answer,
+)
 from ballscrew.faces.cli.flags import flags_of
 from ballscrew.questions.reversal.options import ReversalOptions
 
@@ -22,8 +31,9 @@ def reversal(
     calibration: CalibrationName = None,
     settings: Settings = None,
     as_json: AsJson = False,
+    as_sheet: AsSheet = False,
     to: Annotated[
-        Path | None, typer.Option("--to", "-o", metavar="FILE", help="Also draw a picture: .png, .svg or .pdf.")
+        Path | None, typer.Option("--to", "-o", metavar="FILE", help="Also write a table (.csv, .xlsx) or a picture.")
     ] = None,
     allow_code: AllowCode = False,
 ) -> None:
@@ -32,23 +42,21 @@ def reversal(
     Dahl, LuGre and Maxwell-slip elements (GMS) are fitted, each with its error. That helix slip comes back over degrees
     of the screw is a hypothesis.
     """
-    from ballscrew.basis.output.json_text import as_json as json_text
     from ballscrew.cases.case_files import case_file
     from ballscrew.faces.cli.progress import progress
-    from ballscrew.questions.reversal import compute, text
+    from ballscrew.faces.sheets import to_file
+    from ballscrew.questions.reversal import compute
     from ballscrew.questions.reversal import document as documents
-    from ballscrew.questions.shared import chart_files as files
+    from ballscrew.questions.reversal.sheet import sheet
     from ballscrew.questions.shared.option_values import read
 
     options = read(ReversalOptions, written)
-    if to is not None:
-        files.check_picture(to)
+    to_file.check([] if to is None else [to])
     loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
     with progress("reversal"):
         report = compute.reversal(loaded, options)
-    typer.echo(json_text(documents.document(report)) if as_json else text.text(report))
+    seen = sheet(report)
+    print_answer(seen, lambda: documents.document(report), as_json=as_json, as_sheet=as_sheet)
     if to is not None:
-        from ballscrew.questions.reversal import figure as figures  # matplotlib is slow to import
-
-        files.draw(lambda: figures.picture(report), to)
-        typer.echo(f"{to}: {len(report.reversal.screw_angle)} angles", err=as_json)
+        to_file.write(to, seen)
+        typer.echo(f"{to}: {len(report.reversal.screw_angle)} angles", err=as_json or as_sheet)
