@@ -178,13 +178,35 @@ def test_a_fit_is_not_lost_for_want_of_a_next_test(fit, log):
 
 def test_numbers_that_are_not_identified_are_written_without_an_error(fit, log):
     path = log(columns(400, speeds=(10, 600)))
-    done = fit(path, "--free", f"{FRICTION},{OFFSET}", "-o", "fitted.toml")
+    done = fit(path, "--free", f"{FRICTION},{OFFSET}", "-o", "fitted.toml", "--keep-going")
     assert done.returncode == 0, done.stderr
     text = (done.place / "fitted.toml").read_text(encoding="utf-8")
     calibration = tomllib.loads(text)["calibration"]
     assert set(calibration["not_identified"]) == {f"friction.{FRICTION}", OFFSET}
     assert calibration["numbers"] == []
     assert "±" not in text
+
+
+@pytest.mark.parametrize(
+    ("data", "free", "reason"),
+    [
+        (changed(torque=1000 * columns()["torque"]), FRICTION, "implausible: boundary friction coefficient "),
+        (columns(400, speeds=(10, 600)), f"{FRICTION},{OFFSET}", "the log does not determine: boundary friction "),
+    ],
+)
+def test_a_fit_that_is_warned_against_is_shown_and_only_written_where_that_is_asked_for(data, free, reason, fit, log):
+    path = log(data)
+    asked = ("--free", free, "-o", "fitted.toml", "--picture", "fit.svg")
+    done = fit(path, *asked)
+    assert done.returncode == 2
+    (line,) = done.stderr.strip().splitlines()
+    assert line.startswith(f"--to: is not written: {reason}")
+    assert line.endswith("or write it all the same by --keep-going")
+    assert "beware" in done.stdout
+    assert list(done.place.iterdir()) == []
+    asked_for = fit(path, *asked, "--keep-going")
+    assert asked_for.returncode == 0, asked_for.stderr
+    assert {file.name for file in done.place.iterdir()} == {"fitted.toml", "fit.svg"}
 
 
 def test_json_stays_alone_on_its_stream(fit, log):
@@ -402,7 +424,9 @@ def test_several_faults_are_told_at_once(fit, log):
 
 
 def test_a_nut_of_elastic_bodies_is_fitted(fit, log, tmp_path):
-    process = fit(log(columns(20)), "--to", tmp_path / "fitted.toml", case=EXAMPLES / "catalogue_screw.toml")
+    process = fit(
+        log(columns(20)), "--to", tmp_path / "fitted.toml", "--keep-going", case=EXAMPLES / "catalogue_screw.toml"
+    )
     assert process.returncode == 0, process.stderr
     assert "[bodies]" in (tmp_path / "fitted.toml").read_text(encoding="utf-8")
 
@@ -488,7 +512,7 @@ def test_a_fit_of_a_sensor_that_is_off_says_so_first_and_so_do_predictions_with_
     table[table["speed [rpm]"] > 0].to_csv(tmp_path / "log.csv", index=False)
     made = tmp_path / "fitted.toml"
     asked = ["fit", str(tmp_path / "log.csv"), *RIG[2:], "--free", f"{FRICTION},constant_torque", "--kind", "drive"]
-    said = ballscrew(*asked, "-o", str(made)).stdout
+    said = ballscrew(*asked, "-o", str(made), "--keep-going").stdout
     assert said.startswith("implausible: constant torque -0.0")
     assert "N m" in said.partition(" is outside")[0].replace("·", " ")
     found = json.loads(ballscrew(*asked, "--json").stdout)

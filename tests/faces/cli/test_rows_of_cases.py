@@ -315,6 +315,23 @@ def test_fit(ballscrew, rig):
     assert calibrated.model.friction.boundary_friction_coefficient == pytest.approx(found[1]["value"], rel=1e-9)
 
 
+def test_a_fit_that_is_warned_against_is_the_only_one_that_is_not_written(ballscrew, rig):
+    command = ("fit", "--case", "case.toml", "--rows", "rigs.csv", "--to", "fits", "--json")
+    path = rig / "logs" / "a.csv"
+    data = columns()
+    path.write_text(text_of({**data, "torque": 1000 * data["torque"]}), encoding="utf-8")
+    process = ballscrew(*command)
+    assert process.returncode == 2
+    assert [each["name"] for each in json.loads(process.stdout)] == ["X 1", "Y/2"]
+    count, line = process.stderr.splitlines()
+    assert count == "fits: 1 screws"
+    assert line.startswith("--to: is not written: implausible: boundary friction coefficient ")
+    assert "X_1.toml" in line
+    assert [path.name for path in (rig / "fits").iterdir()] == ["Y_2.toml"]
+    assert ballscrew(*command, "--keep-going").returncode == 0
+    assert sorted(path.name for path in (rig / "fits").iterdir()) == ["X_1.toml", "Y_2.toml"]
+
+
 def test_faulty_logs(ballscrew, rig):
     command = ("fit", "--case", "case.toml", "--rows", "rigs.csv", "--to", "fits.csv")
     (rig / "logs" / "a.csv").unlink()

@@ -31,7 +31,7 @@ from ballscrew.cases.case_files.makers_rules import by_rules
 from ballscrew.cases.case_files.named_calibration import vendor_rows_like
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
 from ballscrew.faces.cli import report as command
-from ballscrew.faces.report import contents
+from ballscrew.faces.report import contents, input_tables
 from ballscrew.faces.report import curve_figures as figures
 from ballscrew.faces.report.curves import curves
 from ballscrew.faces.report.files import report_bytes
@@ -243,6 +243,29 @@ def test_every_input_is_there_with_its_origin(content):
     assert ("ends of the screw", "fixed-supported", "case") in tables["Installation"]
     assert {"Lubricant", "Operating point", "Nut", "Limits of the checks"} <= set(tables)
     assert len([title for title in tables if "what is not marked is that of reference" in title]) == 1
+
+
+def test_what_a_case_has_as_an_estimate_is_marked_as_one_until_it_is_changed():
+    path = ROOT / "examples" / "catalogue_screw.toml"
+    tables = case_file.read(path)
+    places = {"installation": "unsupported_length", "nut": "preload", "lubricant": "grade", "operation": "axial_load"}
+    tables["estimates"] = {section: {name: tables[section][name]} for section, name in places.items()}
+    tables["operation"]["axial_load"] = "4.5 kN"
+    found = input_tables.tables(case_file.build(tables, folder=path.parent))
+    marked = {(table.title, row[0]) for table in found for row in table.rows if row[-1] == input_tables.ESTIMATE}
+    assert marked == {
+        ("Installation", "length of the shaft between its bearings"),
+        ("Nut", "axial preload without external load"),
+        ("Lubricant", "grade"),
+    }
+    assert "estimate: estimated when the case was made" in input_tables.sources_in_words(case_file.load(path), found)
+
+
+@pytest.mark.parametrize("wrong", ["all", {"installation": "1 m"}])
+def test_a_table_of_estimates_that_is_none_is_refused(wrong):
+    tables = {**case_file.read(ROOT / "examples" / "catalogue_screw.toml"), "estimates": wrong}
+    with pytest.raises(InputError, match="estimates: must be a table of sections"):
+        case_file.build(tables, folder=ROOT / "examples")
 
 
 def test_what_a_case_changes_is_marked_as_its_own():

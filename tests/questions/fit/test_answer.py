@@ -11,7 +11,7 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.questions.fit import compute, document, table
 from ballscrew.questions.fit.answer import FitResults, FittedNumber
 from ballscrew.questions.fit.log import read_options, steady_log
-from ballscrew.questions.fit.text import trade_off
+from ballscrew.questions.fit.text import print_fit, trade_off
 from ballscrew.questions.shared import declared
 from support.answers import undescribed, without_unit
 from support.fit_logs import EXAMPLES, FRICTION, OFFSET, PAPER, columns, text_of
@@ -81,3 +81,60 @@ def test_no_trade_off_is_not_taken_for_a_log_that_determines_each_number(tmp_pat
     untold = dataclasses.replace(model.estimates[FRICTION], identified=False, std=None)
     said = units.filled(trade_off(dataclasses.replace(model, estimates={FRICTION: untold})))
     assert said == "Trade-offs: none; the log does not determine: boundary friction coefficient"
+
+
+def fit_of(tmp_path, data, free, **changes):
+    path = tmp_path / "log.csv"
+    path.write_text(text_of(data), encoding="utf-8")
+    case = case_file.build(case_file.override(tomllib.loads(PAPER), changes.pop("settings", [])), None, EXAMPLES)
+    options = read_options(case, {"free": free, **changes})
+    return case, compute.fit(case, steady_log(case, path, options), options)
+
+
+def sentences(case, report, capsys):
+    """All that is printed of a fit, below its tables and in them."""
+    print_fit(case, report)
+    return " ".join(capsys.readouterr().out.split())
+
+
+def test_four_rows_have_no_error_and_no_sentence_that_speaks_of_one(tmp_path, capsys):
+    case, report = fit_of(tmp_path, columns(4), [FRICTION, OFFSET])
+    assert report.model.has_few_rows
+    printed = sentences(case, report, capsys)
+    assert "no estimate has an error" in printed
+    for contradiction in ("determines only", "standard error)", "in the errors:", "% of the error of", "known to less"):
+        assert contradiction not in printed, contradiction
+    assert "spread assumed for the boundary friction coefficient (not identified)" in printed
+
+
+def test_a_number_that_stands_on_its_prior_is_not_called_known(tmp_path, capsys):
+    settings = ['model.pure_rolling_offset="0.34 ± 0.02"']
+    data = columns(200, speeds=(10, 600))
+    case, report = fit_of(tmp_path, data, [FRICTION, OFFSET], settings=settings)
+    assert not report.model.estimates[OFFSET].identified
+    printed = sentences(case, report, capsys)
+    assert "pure_rolling_offset is not identified, it stands on its prior" in printed
+    assert "pure_rolling_offset is known" not in printed
+
+
+def test_a_number_that_is_known_by_its_prior_too_is_not_said_to_be_determined_by_the_log(tmp_path):
+    """A log that alone leaves more than half of the number open, and a prior with which it is known."""
+    _, report = fit_of(tmp_path, columns(60), [FRICTION])
+    known = dataclasses.replace(report.model.identifiability, identified={FRICTION: False})
+    model = dataclasses.replace(report.model, identifiability=known)
+    expected = "the log determines boundary friction coefficient only together with what was known before"
+    assert units.filled(trade_off(model)) == f"Trade-offs: none; {expected}"
+
+
+def test_a_trade_off_of_a_number_that_is_not_identified_has_no_standard_error(tmp_path):
+    _, report = fit_of(tmp_path, columns(120), [FRICTION, "constant_torque"])
+    identifiability, constant = report.model.identifiability, report.model.estimates["constant_torque"]
+    least = dataclasses.replace(identifiability.combinations[-1], powers={FRICTION: 0.9, "constant_torque": -0.4})
+    together = dataclasses.replace(identifiability, combinations=[least])
+
+    def sentence(**changes):
+        estimates = {**report.model.estimates, "constant_torque": dataclasses.replace(constant, value=0.05, **changes)}
+        return units.filled(trade_off(dataclasses.replace(report.model, identifiability=together, estimates=estimates)))
+
+    assert sentence().endswith("fits the rows nearly as well (one standard error)")
+    assert sentence(identified=False, std=None).endswith("nearly as well; not identified: constant torque")

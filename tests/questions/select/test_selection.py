@@ -13,6 +13,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
+from ballscrew.cases.case_files import case_file
 from ballscrew.faces.cli.progress import progress
 from ballscrew.questions.select import case_text
 from ballscrew.questions.select import compute as selection
@@ -718,6 +719,7 @@ def test_the_case_of_a_candidate_goes_on_unchanged(ballscrew, tmp_path):
     assert "# assumed: " in text
     tables = tomllib.loads(text)
     assert tables == first["case"]
+    assert tables["estimates"] == {"lubricant": {"grade": "ISO VG 100", "temperature": "40 degC"}}
     assert {"bearings", "guides", "installation", "limits", "surroundings", "axis", "motion"} <= tables.keys()
     duty = json.loads(ballscrew("duty", case, "--json").stdout)
     assert duty["results"]["energy_lost"] == pytest.approx(first["duty"]["energy_lost"], rel=1e-9)
@@ -727,6 +729,26 @@ def test_the_case_of_a_candidate_goes_on_unchanged(ballscrew, tmp_path):
     for command in ("axis", "run"):
         assert json.loads(ballscrew(command, case, "--json").stdout)["results"]
     assert json.loads(ballscrew("warm-up", case, "--hours", "0.1", "--json").stdout)["results"]
+
+
+def test_the_case_of_a_short_need_says_what_was_estimated(ballscrew, tmp_path):
+    """The oil, a preload and the length of the shaft of a row shipped; also numbers of the screw of one's own row."""
+    need = tmp_path / "need.toml"
+    need.write_text(
+        'mass = "200 kg"\nstroke = "900 mm"\nfeed = "10 m/min"\nacceleration = "5 m/s^2"\nends = "fixed-supported"\n',
+        encoding="utf-8",
+    )
+    shipped, own = tmp_path / "shipped.toml", tmp_path / "own.toml"
+    assert ballscrew("select", need, "--filter", "rexroth 40x40", "--to", shipped).returncode == 0
+    table = ("--rows", ROOT / "examples" / "own_screws.csv", "--filter", "loader")
+    assert ballscrew("select", need, *table, "--set", "screw.contact_angle=44 deg", "--to", own).returncode == 0
+    oil = {"lubricant.grade", "lubricant.temperature"}
+    case = case_file.load(shipped)
+    assert case.estimated == {*oil, "nut.preload", "installation.unsupported_length"}
+    of_row = {f"screw.{name}" for name in ("pitch_circle_diameter", "screw_conformity", "nut_conformity")}
+    assert case_file.load(own).estimated == {*oil, "installation.unsupported_length", *of_row}
+    changed = case_file.load(shipped, ['installation.unsupported_length="1.3 m"'])
+    assert changed.estimated == {*oil, "nut.preload"}
 
 
 def test_the_case_of_another_rank(ballscrew, tmp_path):

@@ -140,6 +140,8 @@ class Case(Displayed):
     bearings: Mapping[str, MountedBearing] = dataclasses.field(default_factory=dict[str, MountedBearing])
     #: Distributions of numbers of bearings and guides that the file gives, by section and field.
     uncertain_supports: Mapping[str, Distribution] = dataclasses.field(default_factory=dict[str, Distribution])
+    #: Places of values that were estimated when the case was made: ``installation.unsupported_length``.
+    estimated: frozenset[str] = frozenset()
 
     @property
     def nut(self) -> Nut | None:

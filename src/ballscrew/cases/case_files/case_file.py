@@ -56,8 +56,10 @@ from ballscrew.physics.sizing.installation import Installation
 _NEEDED = ("screw", "lubricant", "operation")
 #: What somebody keeps with a case; no command reads it.
 ASIDE = "aside"
+#: Values that were estimated when the case was made, by section, as the case has them.
+ESTIMATES = "estimates"
 #: The sections that a case may have.
-SECTIONS = (*_NEEDED, *NUT_TABLES, *DUTY_TABLES, *SUPPORT_TABLES, "model", "sweep", "calibration", ASIDE)
+SECTIONS = (*_NEEDED, *NUT_TABLES, *DUTY_TABLES, *SUPPORT_TABLES, "model", "sweep", "calibration", ESTIMATES, ASIDE)
 
 
 def load(
@@ -168,6 +170,7 @@ def build(
     else:  # no model counts, and no oil of the screw: any stands in
         friction_model = MODELS[DEFAULT_MODEL]
     sweep, fit = _sweep(tables.get("sweep", {}), faults), _fit(tables.get("calibration", {}), faults)
+    estimated = _estimated(tables, faults)
     nut, notes = nut_tables.nut_of(sections, *made, faults)
     mounted, bearings = _mounting(sections, folder, lubricant, faults)
     limits = nut_tables.limits(sections, faults) if "limits" in sections else USUAL_LIMITS
@@ -211,6 +214,7 @@ def build(
         speed_of_nut=is_nut_speed(tables.get("operation", {}).get("screw_speed")),
         bearings=bearings,
         uncertain_supports=support_tables.distributions(sections),
+        estimated=estimated,
     )
 
 
@@ -254,6 +258,7 @@ def _meant(name: str, content: Any) -> Message:
 
 
 _ADD = Message("add a table [{section}]")
+_WRITE_ESTIMATES = 'write [estimates.installation] and unsupported_length = "1 m"'
 #: A motion stands in the file of another command.
 _ADD_OR_MOVE = Message("add a table [{section}]; only ballscrew duty and warm-up take the motion in its place")
 
@@ -385,6 +390,21 @@ def _sweep(table: Any, faults: list[Fault]) -> Mapping[str, str]:
     remedy = 'write "100:4000:14 N" or "100, 200, 500 N"'
     faults += [Fault(f"sweep.{n}", "must be text", str(v), remedy) for n, v in table.items() if not isinstance(v, str)]
     return table
+
+
+def _estimated(tables: Mapping[str, Any], faults: list[Fault]) -> frozenset[str]:
+    """The places of values that the case still has as its table of estimates has them; others were changed since."""
+    estimates = tables.get(ESTIMATES, {})
+    if not isinstance(estimates, dict) or not all(isinstance(values, dict) for values in estimates.values()):
+        faults.append(Fault(ESTIMATES, "must be a table of sections", str(estimates), _WRITE_ESTIMATES))
+        return frozenset()
+    return frozenset(
+        f"{section}.{name}"
+        for section, values in estimates.items()
+        if isinstance(given := tables.get(section), dict)
+        for name, value in values.items()
+        if name in given and given[name] == value
+    )
 
 
 def _fit(table: Any, faults: list[Fault]) -> dict[str, Any]:

@@ -222,6 +222,10 @@ def case_file() -> type[BaseModel]:
         Field(description='axes of a sweep by field, "100:4000:14 N" (start:stop:count) or "100, 200, 500 N"'),
     ]
     fit = Annotated[dict[str, Any], Field(description="what ballscrew fit left beside the numbers that it found")]
+    estimates = Annotated[
+        dict[str, dict[str, Any]],
+        Field(description="values that ballscrew select estimated, by section: estimates as long as the case has them"),
+    ]
     aside = Annotated[dict[str, Any], Field(description="what somebody keeps with a case; no command reads it")]
     return create_model(
         "BallscrewCase",
@@ -231,6 +235,7 @@ def case_file() -> type[BaseModel]:
         model=(parts["model"], Field(default=None)),
         sweep=(axes, Field(default=None)),
         calibration=(fit, Field(default=None)),
+        estimates=(estimates, Field(default=None)),
         aside=(aside, Field(default=None)),
     )
 

@@ -289,6 +289,12 @@ def assumed(row: CatalogueRow) -> dict[str, str]:
     return found
 
 
+def assumed_fields(row: CatalogueRow) -> frozenset[str]:
+    """The fields of the screw that stand for what the row leaves out."""
+    names = {*assumed(row)} - {"loaded_turns"}
+    return frozenset(names | {"screw_conformity", "nut_conformity"} if "conformity" in names else names)
+
+
 def case_text(row: CatalogueRow, estimates: Sequence[Estimate] = ()) -> str:
     """A complete case file of a row: a usual oil, a tenth of the dynamic load rating, 600 rpm.
 

@@ -13,7 +13,6 @@ from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.evidence.calibration.fit_result import (
     AS_GIVEN,
     CALIBRATED,
-    MINIMUM_DEGREES_OF_FREEDOM,
     Estimate,
     FitResult,
 )
@@ -32,6 +31,9 @@ _CONFOUNDED = Message(
     "{names} cannot be told apart by this log: it says nothing of {product}; fix one of them, give one a prior, "
     "or measure elsewhere"
 )
+_BY_PRIOR = Message(
+    "{name} is known only together with its prior: near {value} the torques of this log hardly depend on it"
+)
 _PRODUCT, _POWER = Message("{others} · {last}"), Message("{name}^{power}")
 _ONE_DIRECTION = Message(
     "{name} is not identified: friction of one sign cannot be told from a zero error of the sensor; "
@@ -45,6 +47,9 @@ _LOAD_SIGN = Message(
     "{share} in this nut; give the loads their signs"
 )
 _PRIOR = Message("{name} is known by its prior, too: the log leaves {share} of the prior's variance")
+_PRIOR_ALONE = Message(
+    "{name} is not identified, it stands on its prior: the log leaves {share} of the prior's variance"
+)
 _LIFT_OFF = Message(
     "at {lifted} of {rows} rows the load lifts the relieved balls off (from {load} on): "
     "those rows tell nothing of the preload"
@@ -152,7 +157,10 @@ def _not_identified(found: FitResult) -> list[Record]:
         without = [name for name in without if name not in names]
         with_prior = [name for name in names if found.estimates[name].identified]
         inputs = both(Named(name, name) for name in names)
-        if len(names) == 1:
+        if len(names) == 1 and with_prior:
+            message = _BY_PRIOR.of(name=Named(names[0], names[0]), value=_value(found.estimates[names[0]]))
+            records.append(_warning("confounded", names[0], message))
+        elif len(names) == 1:
             message = _FLAT.of(name=Named(names[0], names[0]), value=_value(found.estimates[names[0]]))
             records.append(_warning("not_identified", names[0], message))
         elif with_prior:
@@ -165,7 +173,10 @@ def _not_identified(found: FitResult) -> list[Record]:
         without.remove(CONSTANT_TORQUE.name)
         message = _ONE_DIRECTION.of(name=Named(CONSTANT_TORQUE.name, CONSTANT_TORQUE.name))
         records.append(_warning("one_direction", CONSTANT_TORQUE.name, message))
-    return records + [_warning("imprecise", name, _IMPRECISE.of(name=Named(name, name))) for name in without]
+    # those of few rows, and those that stand on their prior, have records of their own
+    without = [name for name in without if found.estimates[name].prior_share <= PRIOR_SHARE]
+    imprecise = [] if found.has_few_rows else without
+    return records + [_warning("imprecise", name, _IMPRECISE.of(name=Named(name, name))) for name in imprecise]
 
 
 def _of_bounds(found: FitResult) -> list[Record]:
@@ -192,7 +203,10 @@ def _of_bounds(found: FitResult) -> list[Record]:
 def _of_priors(found: FitResult) -> list[Record]:
     return [
         _warning(
-            "prior", e.name, _PRIOR.of(name=Named(e.name, e.name), share=units.percent(e.prior_share)),
+            "prior", e.name,
+            (_PRIOR if e.identified else _PRIOR_ALONE).of(
+                name=Named(e.name, e.name), share=units.percent(e.prior_share)
+            ),
             e.prior_share, PRIOR_SHARE,
         )
         for e in found.estimates.values()
@@ -240,8 +254,7 @@ def _of_scatter(found: FitResult) -> list[Record]:
 def _of_number(found: FitResult) -> list[Record]:
     """Too few rows, or rows that are not independent."""
     records: list[Record] = []
-    freedom = min(estimate.degrees_of_freedom for estimate in found.estimates.values())
-    if freedom < MINIMUM_DEGREES_OF_FREEDOM:
+    if found.has_few_rows:
         text = "too few operating points for so many numbers: no estimate has an error; measure at more, or free fewer"
         records.append(_warning("too_few", "rows", text, float(len(found.rows.log))))
     if autocorrelation_lag(found.solution.influence):

@@ -216,6 +216,11 @@ class FitResult(Displayed):
         return [record.text for record in self.warning_records]
 
     @property
+    def has_few_rows(self) -> bool:
+        """True where the rows are too few for any estimate to have an error."""
+        return min(e.degrees_of_freedom for e in self.estimates.values()) < MINIMUM_DEGREES_OF_FREEDOM
+
+    @property
     def residual_rms(self) -> float:
         """Root mean square of the residuals of the rows fitted, N m, outliers left out."""
         return self.rows.rms(self.rows.residuals, ~self.rows.held_out)

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from ballscrew.basis.atomic_files import check_writable
-from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.faces.cli.common_options import cases_of_rows, say_of_rows
+from ballscrew.faces.cli.fit_torques import not_written
 
 if TYPE_CHECKING:
     from ballscrew.cases.case_files.case import Case
@@ -56,9 +57,15 @@ def fit_rows(
     with progress("logs") as done:
         read = fit_rows.logs(cases.found, rows, options, keep_going=keep_going, done=done)
 
+    left_out: list[Fault] = []
+
     def save(of_row: RowCase, report: FitReport) -> None:
-        if paths:
-            path = paths[of_row.row.name]
+        if not paths:
+            return
+        path = paths[of_row.row.name]
+        if report.objection and not keep_going:
+            left_out.append(not_written(str(path), report))
+        else:
             fitted_case.save(path, of_row.tables, case.parent, of_row.case, report.model)
 
     with progress("fits") as done:
@@ -75,7 +82,8 @@ def fit_rows(
     if table is not None:
         row_tables.write(table, of_fits(reports))
     if to is not None:
-        typer.echo(f"{to}: {len(reports)} screws", err=True)
+        typer.echo(f"{to}: {len(reports) - len(left_out)} screws", err=True)
+    raise_if_any(left_out)
     say_of_rows([*cases.notes, *read.notes, *fitted.notes], fitted.interrupted)
 
 

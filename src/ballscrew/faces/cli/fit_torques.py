@@ -11,6 +11,7 @@ import typer
 
 from ballscrew.basis.atomic_files import check_writable
 from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.case import Case
 from ballscrew.faces.cli.common_options import say_engine
 from ballscrew.faces.cli.progress import progress
@@ -51,6 +52,9 @@ def fit_torques(
 
             steady, assumed = warm_log(case, steady, options.kind)
         report = dataclasses.replace(compute.fit(case, steady, options), assumed=assumed)
+    if shown.to is not None and report.objection and not options.keep_going:
+        _show(case, report, shown)
+        raise InputError(not_written(str(shown.to), report))
     if shown.to is not None:
         from ballscrew.cases.case_files import fitted_case
 
@@ -65,6 +69,12 @@ def fit_torques(
 
         files.draw(lambda: figures.picture(case, report), shown.picture, "--picture")
         typer.echo(f"{shown.picture}: {len(report.model.rows.log)} rows", err=shown.as_json)
+
+
+def not_written(to: str, report: FitReport) -> Fault:
+    """The fault of a fit that should not be written as a calibrated case."""
+    problem = Message("is not written: {reason}", {"reason": report.objection})
+    return Fault("--to", problem, to, "see the warnings of the fit, or write it all the same by --keep-going")
 
 
 def _show(case: Case, report: FitReport, shown: Shown) -> None:

@@ -26,8 +26,10 @@ from ballscrew.questions.shared.report_blocks import value as value_of
 
 #: Where a value is from, in a word; :data:`FROM_IN_WORDS` says what is meant.
 CASE, ROW, USUAL, GRADE, DEFAULT, CALIBRATION = "case", "catalogue", "usual", "grade", "default", "calibration"
+ESTIMATE = "estimate"
 FROM_IN_WORDS: Mapping[str, str] = {
     CASE: "the case gives it",
+    ESTIMATE: "estimated when the case was made, by the table of estimates in it: to be checked",
     ROW: "listed in the row of the catalogue, or computed from it",
     USUAL: "the catalogue does not list it: a usual value stands for it",
     GRADE: "of that oil at that temperature",
@@ -67,16 +69,22 @@ def sources_in_words(case: Case, found: list[Table]) -> str:
 Rows = list[tuple[str, str, str]]
 
 
-def _part(case: Case, part: Any, known: Mapping[str, Quantity], source: Callable[[str], str], prefix: str = "") -> Rows:
+def _source(case: Case, place: str, source: str) -> str:
+    """The source of a value at a place in the case, which may say that it is an estimate."""
+    return ESTIMATE if source == CASE and place in case.estimated else source
+
+
+def _part(case: Case, part: Any, known: Mapping[str, Quantity], source: Callable[[str], str], section: str) -> Rows:
     """The fields of a part, with their distribution where the case gives one."""
     rows: Rows = []
     for name, quantity in known.items():
         value = getattr(part, name)
         if value is not None:
-            given = case.uncertain.get(f"{prefix}{name}")
+            given = case.uncertain.get(name)
             words = value_of(value, quantity) if given is None else describe_distribution(given, quantity)
-            exact = " ± 0" if f"{prefix}{name}" in case.exact else ""
-            rows.append((quantity.info.meaning, words + exact, CASE if given is not None else source(name)))
+            exact = " ± 0" if name in case.exact else ""
+            word = CASE if given is not None else source(name)
+            rows.append((quantity.info.meaning, words + exact, _source(case, f"{section}.{name}", word)))
     return rows
 
 
@@ -86,22 +94,21 @@ def _defaults(kind: Any) -> Mapping[str, Any]:
 
 def _screw(case: Case) -> Rows:
     usual, of_row = _defaults(BallScrew), None if case.row is None else case.row.screw()
-    unlisted = {} if case.row is None else catalogue.assumed(case.row)
-    assumed = {name for name in unlisted if name != "loaded_turns"}
-    assumed |= {"screw_conformity", "nut_conformity"} if "conformity" in assumed else set()
+    assumed = frozenset[str]() if case.row is None else catalogue.assumed_fields(case.row)
 
     def source(name: str) -> str:
         value = getattr(case.screw, name)
-        if name in usual and value == usual[name] and (of_row is None or name not in unlisted):
+        if name in usual and value == usual[name] and (of_row is None or name not in assumed):
             return DEFAULT
         if of_row is not None and value == getattr(of_row, name):
             return USUAL if name in assumed else ROW
         return CASE
 
-    rows = _part(case, case.screw, fields_of(BallScrew), source)
+    rows = _part(case, case.screw, fields_of(BallScrew), source, "screw")
     for name, value in case.listed.items():
         listed = case.row is not None and getattr(case.row, name) == value
-        rows.append((LISTED[name].info.meaning, value_of(value, LISTED[name]), ROW if listed else CASE))
+        word = ROW if listed else _source(case, f"screw.{name}", CASE)
+        rows.append((LISTED[name].info.meaning, value_of(value, LISTED[name]), word))
     return [*rows, *_materials(case.screw)]
 
 
@@ -128,7 +135,8 @@ def _lubricant(case: Case) -> Rows:
     of_grade: OilState | None = None
     if case.oil:
         of_grade = nominal_oil(oil)
-        rows.append(("grade" if "grade" in case.oil else "oil", units.filled(described(case.oil)), CASE))
+        name = "grade" if "grade" in case.oil else "oil"
+        rows.append((name, units.filled(described(case.oil)), _source(case, f"lubricant.{name}", CASE)))
         rows += [
             (q.info.meaning, value_of(case.oil[n], q), CASE) for n, q in fields_of(DataSheet).items() if n in case.oil
         ]
@@ -136,7 +144,7 @@ def _lubricant(case: Case) -> Rows:
             given = case.uncertain.get("temperature")
             shown = value_of(case.oil["temperature"], TEMPERATURE)
             words = shown if given is None else describe_distribution(given, TEMPERATURE)
-            rows.append((TEMPERATURE.info.meaning, words, CASE))
+            rows.append((TEMPERATURE.info.meaning, words, _source(case, "lubricant.temperature", CASE)))
 
     def source(name: str) -> str:
         value = getattr(oil, name)
@@ -144,11 +152,11 @@ def _lubricant(case: Case) -> Rows:
             return DEFAULT
         return GRADE if of_grade is not None and value == getattr(of_grade, name, None) else CASE
 
-    return [*rows, *_part(case, oil, fields_of(Lubricant), source)]
+    return [*rows, *_part(case, oil, fields_of(Lubricant), source, "lubricant")]
 
 
 def _operation(case: Case) -> Rows:
-    return _part(case, case.operation, fields_of(OperatingState), lambda _: CASE)
+    return _part(case, case.operation, fields_of(OperatingState), lambda _: CASE, "operation")
 
 
 def _nut(case: Case) -> Rows:
@@ -164,11 +172,13 @@ def _nut(case: Case) -> Rows:
     )
     usual = _defaults(type(nut))
     own = {name: quantity for name, quantity in fields_of(nut).items() if getattr(nut, name) is not None}
-    rows += _part(case, nut, own, lambda n: DEFAULT if getattr(nut, n) == usual.get(n) else CASE)
+    rows += _part(case, nut, own, lambda n: DEFAULT if getattr(nut, n) == usual.get(n) else CASE, "nut")
     given = nut.bodies
     if given is not None:
         bodies = given.sized(case.screw)
-        rows += _part(case, bodies, fields_of(bodies), lambda n: DEFAULT if getattr(given, n) is None else CASE)
+        rows += _part(
+            case, bodies, fields_of(bodies), lambda n: DEFAULT if getattr(given, n) is None else CASE, "bodies"
+        )
     for section, part in nut.parts.items():
         if section not in ("nut", "bodies"):
             own = _defaults(type(part))
@@ -176,7 +186,7 @@ def _nut(case: Case) -> Rows:
             def source(name: str, part: Any = part, own: Mapping[str, Any] = own) -> str:
                 return DEFAULT if getattr(part, name) == own.get(name) else CASE
 
-            rows += _part(case, part, fields_of(part), source)
+            rows += _part(case, part, fields_of(part), source, section)
     return rows
 
 
@@ -186,7 +196,11 @@ def _installation(case: Case) -> Rows:
         return []
     usual = _defaults(type(mounted))
     ends = next(name for name, known in ENDS.items() if known is mounted.ends)
-    rows = _part(case, mounted, fields_of(mounted), lambda n: DEFAULT if getattr(mounted, n) == usual.get(n) else CASE)
+
+    def source(name: str) -> str:
+        return DEFAULT if getattr(mounted, name) == usual.get(name) else CASE
+
+    rows = _part(case, mounted, fields_of(mounted), source, "installation")
     return [("ends of the screw", ends, CASE), *rows]
 
 
@@ -196,7 +210,7 @@ def _limits(case: Case) -> Rows:
         for name, quantity in fields_of(Limits).items()
         if getattr(case.limits, name) != getattr(_USUAL_LIMITS, name)
     }
-    return _part(case, case.limits, changed, lambda _: CASE)
+    return _part(case, case.limits, changed, lambda _: CASE, "limits")
 
 
 def _moved(case: Case) -> dict[str, Rows]:
@@ -215,7 +229,7 @@ def _moved(case: Case) -> dict[str, Rows]:
                 return DEFAULT if getattr(part, name) == usual.get(name) else CASE
 
             given = {name: quantity for name, quantity in fields_of(part).items() if getattr(part, name) is not None}
-            found[title] = _part(case, part, given, source)
+            found[title] = _part(case, part, given, source, title.lower())
     return found
 
 
@@ -242,7 +256,7 @@ def laws(case: Case) -> Table:
         ]
         source = CALIBRATION if slot in by_calibration and slot in changed else CASE if slot in changed else ""
         rows.append((slot.replace("_", " "), ": ".join(filter(None, [name, ", ".join(numbers)])), source))
-    rows += _part(case, model, fields_of(model), lambda n: CASE if n in changed else "")
+    rows += _part(case, model, fields_of(model), lambda n: CASE if n in changed else "", "model")
     said = [(what, words + (f" (from: {source})" if source else "")) for what, words, source in rows]
     return Table(
         f"Laws and numbers of the model; what is not marked is that of {model.name}", _OF_LAWS, said, (0, 1), 1

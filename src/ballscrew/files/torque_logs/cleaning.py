@@ -228,7 +228,7 @@ def data_warnings(log: LogRows) -> list[FilledText]:
     """Warnings about effects that a log cannot identify."""
     found: list[FilledText] = []
     if len(log) < FEW_ROWS:
-        found.append(filled_text("{rows} rows are few: expect wide intervals", rows=Measured(len(log))))
+        found.append(filled_text("{rows} rows are few: expect wide intervals, or none", rows=Measured(len(log))))
     if _one_setting(np.abs(log.axial_load)):
         found.append(filled_text("one axial load only: what depends on the load cannot be told"))
     if _one_setting(np.abs(log.screw_speed)):

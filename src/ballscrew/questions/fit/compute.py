@@ -10,9 +10,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.errors import Fault, InputError, both
 from ballscrew.basis.quantities import Quantity
-from ballscrew.basis.records import Message
+from ballscrew.basis.records import Message, Named
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.nut_tables import dynamic_rating
 from ballscrew.engine.evaluation.plan import Configuration
@@ -32,6 +32,10 @@ from ballscrew.questions.shared.options import options_of
 #: Options of the command line by the fields in which the fit finds faults.
 _FLAGS: Mapping[str, str] = {f"fit.{name}": option.flag for name, option in options_of(FitOptions).items()}
 _LIMITS = "fit.limits."
+#: Warnings that the log and the model do not belong together.
+_MISFITS = frozenset({"fit.not_converged", "fit.scatter", "fit.outliers", "fit.baseline_better"})
+_IMPLAUSIBLE = Message("implausible: {name} {value}")
+_NOT_IDENTIFIED = Message("the log does not determine: {names}")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -44,6 +48,22 @@ class FitReport:
     log: TorqueLog
     #: What the temperatures assume where rows have those of their own heat.
     assumed: Sequence[str] = ()
+
+    @property
+    def objection(self) -> str:
+        """The gravest reason not to go on with the fitted numbers; empty where there is none.
+
+        Numbers that no screw has, a log that does not belong to the model, or numbers that the log does not determine.
+        """
+        for record in self.model.verdict_records:
+            if record.holds is False:
+                values = record.message.values
+                return units.filled(_IMPLAUSIBLE.of(name=values["name"], value=values["value"]))
+        for record in self.model.warning_records:
+            if record.id in _MISFITS:
+                return record.text
+        names = [Named(name) for name, estimate in self.model.estimates.items() if not estimate.identified]
+        return units.filled(_NOT_IDENTIFIED.of(names=both(names))) if names else ""
 
 
 def fit(case: Case, log: TorqueLog, options: FitOptions, done: Callable[[int, int], None] | None = None) -> FitReport:

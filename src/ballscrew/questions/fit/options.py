@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Mapping, Sequence
 from typing import Annotated
 
-from ballscrew.questions.shared.log_options import Columns, Inertia, KeepGoing, TorqueConstant, TorqueKind
+from ballscrew.questions.shared.log_options import Columns, Inertia, TorqueConstant, TorqueKind
 from ballscrew.questions.shared.options import Option, Range
 
 #: The number that is fitted by default.
@@ -47,7 +47,9 @@ class FitOptions:
         ),
     ] = None  # fmt: skip
     seed: Annotated[int, Option("Seed of the choice of held-out operating points.", metavar="N")] = 0
-    keep_going: KeepGoing = False
+    keep_going: Annotated[
+        bool, Option("Leave faulty rows out, and say how many; write a fit that is warned against.")
+    ] = False
     self_heating: Annotated[
         bool, Option("Take the oil as warm as friction makes it in the [surroundings] of the case.")
     ] = False

@@ -29,6 +29,8 @@ _TORQUE = quantities_of(FrictionResult)["screw_torque"]
 _LEAST_TRADED, _TRADED = 0.05, 0.1
 #: A part of a squared error that is worth a word.
 _LEAST_PART = 0.01
+_ERROR_LEFT = Message("{percent}% of the error of the {name}")
+_SPREAD_LEFT = Message("{percent}% of the spread assumed for the {name} (not identified)")
 _FIFTHS = ("lowest", "lower", "middle", "higher", "highest")
 
 
@@ -89,6 +91,8 @@ def _estimates(model: CalibratedModel) -> Table:
 def _of_temperature(model: CalibratedModel) -> list[str]:
     """The error of the oil temperature that the intervals have in them, and what part of each it makes."""
     error = model.temperature_error.half_width
+    if not any(e.identified for e in (*model.estimates.values(), *model.sensor.values())):
+        return []
     if not error:
         return ["in the errors: none of the oil temperature, which is taken to be exact"]
     shown = [e for e in (*model.estimates.values(), *model.sensor.values()) if not _is_wandering(e.name)]
@@ -121,7 +125,7 @@ def _number(estimate: Estimate, value: float, digits: int = 4) -> str:
 
 
 def trade_off(model: CalibratedModel) -> Message:
-    """What the log tells least of, as one sentence: numbers that make up for each other."""
+    """What the log determines least, as one sentence: numbers that make up for each other."""
     least = model.identifiability.combinations[-1]
     values = {name: estimate.value for name, estimate in model.estimates.items()}
     scales = dict(zip(values, model.uncertainty.scale, strict=False))
@@ -129,21 +133,44 @@ def trade_off(model: CalibratedModel) -> Message:
     shares = {n: power * scales[n] / abs(values[n] or scales[n]) for n, power in least.powers.items()}
     largest = max(map(abs, shares.values()), default=0.0)
     kept = {name: share for name, share in shares.items() if abs(share) >= _LEAST_TRADED * largest}
-    if unknown := [name for name, estimate in model.estimates.items() if len(kept) < 2 and not estimate.identified]:
-        return Message("Trade-offs: none; the log does not determine: {names}").of(names=both(map(Named, unknown)))
     if len(kept) < 2:
-        return Message("Trade-offs: none; the log determines each number by itself")
+        return _no_trade_off(model)
     (first, change), *others = sorted(kept.items(), key=lambda item: -abs(item[1]))
     sign = 1.0 if change > 0 else -1.0
     error = least.relative_error if least.identified else _TRADED / abs(change)
     one, *more = [_changed(name, sign * share * error) for name, share in [(first, change), *others]]
-    message = Message("Trade-off: {one} with {others} fits the rows nearly as well (one standard error)")
+    unidentified = [name for name in kept if not model.estimates[name].identified]
     if not least.identified:
-        message = Message(
-            "Trade-off: {one} with {others} makes no difference in this log, which determines only their combined "
-            "effect"
-        )
+        message = Message("Trade-off: {one} with {others} makes no difference in this log")
+        if _combined_effect_is_known(model):
+            message = Message(
+                "Trade-off: {one} with {others} makes no difference in this log, which determines only their combined "
+                "effect"
+            )
+    elif unidentified:
+        message = Message("Trade-off: {one} with {others} fits the rows nearly as well; not identified: {names}")
+        return message.of(one=one, others=both(more), names=both(map(Named, unidentified)))
+    else:
+        message = Message("Trade-off: {one} with {others} fits the rows nearly as well (one standard error)")
     return message.of(one=one, others=both(more))
+
+
+def _no_trade_off(model: CalibratedModel) -> Message:
+    """The sentence on a log in which no number makes up for another."""
+    estimates = model.estimates
+    if unidentified := [name for name, estimate in estimates.items() if not estimate.identified]:
+        message = Message("Trade-offs: none; the log does not determine: {names}")
+        return message.of(names=both(map(Named, unidentified)))
+    if with_prior := [name for name in estimates if not model.identifiability.identified[name]]:
+        message = Message("Trade-offs: none; the log determines {names} only together with what was known before")
+        return message.of(names=both(map(Named, with_prior)))
+    return Message("Trade-offs: none; the log determines each number by itself")
+
+
+def _combined_effect_is_known(model: CalibratedModel) -> bool:
+    """Test whether the log determines all combinations but the least known, and has rows enough for errors."""
+    others = model.identifiability.combinations[:-1]
+    return not model.has_few_rows and all(combination.identified for combination in others)
 
 
 def _changed(name: str, share: float) -> Message:
@@ -179,7 +206,9 @@ def describe_next_test(test: NextTest, model: CalibratedModel) -> list[Message]:
     if model.rows.log.forward.any() and model.rows.log.backward.any():
         message = Message("next test: {where}; {readings} readings, half of them in each direction")
     errors = [
-        Message("{percent}% of the error of the {name}", {"percent": _percent(share), "name": Named(name)})
+        (_ERROR_LEFT if model.estimates[name].identified else _SPREAD_LEFT).of(
+            percent=_percent(share), name=Named(name)
+        )
         for name, share in test.remaining_error.items()
     ]
     left = Message("it would leave {percent}% of the uncertainty of all together (a random test {random}%), {errors}")

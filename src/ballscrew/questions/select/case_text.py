@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from ballscrew.basis import units
 from ballscrew.basis.atomic_files import atomic_write
 from ballscrew.basis.quantities import fields_of
-from ballscrew.cases.case_files.case_file import ASIDE
+from ballscrew.cases.case_files.case_file import ASIDE, ESTIMATES
 from ballscrew.cases.case_files.named_calibration import NO_CALIBRATION, with_calibration
 from ballscrew.cases.case_files.named_files import moved
 from ballscrew.cases.schema.case_schema import sections
+from ballscrew.cases.screw_tables.catalogue import assumed_fields
 from ballscrew.physics.components.operating_state import OperatingState
-from ballscrew.questions.select.candidates import Candidate, case_tables
+from ballscrew.questions.select.candidates import Candidate, assumes_preload, case_tables
 from ballscrew.questions.select.compute import Ranked, Selection
 from ballscrew.questions.select.need import Need
 
@@ -30,6 +32,9 @@ def tables(found: Candidate, need: Need, model: str | None = None) -> dict[str, 
         made["operation"] = steady
     if model is not None:
         made["model"] = {**made.get("model", {}), "name": model}
+    estimates = _estimates(found, need, made)
+    if estimates:
+        made[ESTIMATES] = estimates
     if found.case.calibration is not None:
         return {**with_calibration(made, found.case.calibration.name)}
     return {**with_calibration(made, NO_CALIBRATION)} if "calibration" in made.get("model", {}) else made
@@ -57,8 +62,29 @@ def text(found: Selection, chosen: Ranked, said: str, *, folder: Path = Path()) 
         f"written by ballscrew select; checks: {said}",
         *(f"assumed: {note}" for note in _assumed(candidate, need)),
     ]
+    if ESTIMATES in made:
+        head.append("[estimates] repeats the values that were estimated: change one above, and it is yours")
     comments = "".join(f"# {' '.join(line.split())}\n" for line in head)
     return f"{comments}\n{tomlkit.dumps(ordered)}"
+
+
+def _estimates(candidate: Candidate, need: Need, made: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+    """The values of a case that were estimated, by section: those of its need still hold if the case has them."""
+    variant = candidate.variant
+    places = [*need.assumed_oil]
+    if assumes_preload(need, variant):
+        places.append("nut.preload")
+    if need.length_is_stroke:
+        places.append("installation.unsupported_length")
+    if variant.file is not None:  # the numbers of the row stand in the case
+        given = need.tables.get("screw", {})
+        places += [f"screw.{name}" for name in sorted(assumed_fields(variant.row)) if name not in given]
+    estimates = {section: dict(values) for section, values in made.get(ESTIMATES, {}).items()}
+    for place in places:
+        section, _, name = place.partition(".")
+        if name in made.get(section, {}):
+            estimates.setdefault(section, {})[name] = made[section][name]
+    return estimates
 
 
 def _assumed(candidate: Candidate, need: Need) -> list[str]:

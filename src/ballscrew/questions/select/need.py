@@ -55,7 +55,7 @@ _SECTIONS = {"duty": "motion", "optimize": "optimise", "optimisation": "optimise
 #: Names that could mean the speed under the load, or one that no load goes with.
 _ANY_SPEED = ("max_speed", "maximum_speed", "largest_speed", "max_feed", "rapid", "rapid_feed", "rapid_traverse")
 #: Sections of a file of a need that a case file has not, or has beside its sections.
-_OTHERS = ("need", "optimise", "sweep", "calibration", "price_index", "aside")
+_OTHERS = ("need", "optimise", "sweep", "calibration", "estimates", "price_index", "aside")
 #: Kind of the faults of names that are not known: what they meant may then be missing.
 _UNKNOWN = "unknown"
 _BACK_DRIVING = {
@@ -100,6 +100,8 @@ class Need:
     name: str = "need"
     #: Whether the stroke stands for the unsupported length in the tables.
     length_is_stroke: bool = False
+    #: Places of what was assumed of the oil: ``lubricant.grade``.
+    assumed_oil: Sequence[str] = ()
 
     @property
     def moves(self) -> bool:
@@ -264,7 +266,8 @@ def _need(tables: dict[str, Any], folder: Path, name: str, faults: list[Fault], 
     prices = _prices(prices, faults)
     nut = _section(tables, "nut", faults)
     nuts, preloads = (_texts(f"nut.{key}", nut.pop(key, []), faults) for key in ("type", "preload"))
-    oils = _oils(tables, notes, faults)
+    assumed_oil: list[str] = []
+    oils = _oils(tables, notes, assumed_oil, faults)
     if nut:
         tables["nut"] = nut
     else:
@@ -297,7 +300,8 @@ def _need(tables: dict[str, Any], folder: Path, name: str, faults: list[Fault], 
     if objectives is None and prices:
         names = (*names, "price_index")
     return Need(
-        tables, required, nuts, preloads, oils, names, rows, prices, optimise, folder, tuple(notes), name, by_stroke
+        tables, required, nuts, preloads, oils, names, rows, prices, optimise, folder, tuple(notes), name, by_stroke,
+        tuple(assumed_oil),
     )  # fmt: skip
 
 
@@ -349,8 +353,8 @@ def _spelt(grade: str) -> str:
     return re.sub(r"[^a-z0-9]", "", grade.lower()).removeprefix("iso")
 
 
-def _oils(tables: dict[str, Any], notes: list[str], faults: list[Fault]) -> list[dict[str, Any]]:
-    """The tables of the oils: one for each grade and each oil that is named."""
+def _oils(tables: dict[str, Any], notes: list[str], assumed: list[str], faults: list[Fault]) -> list[dict[str, Any]]:
+    """The tables of the oils: one for each grade and each oil that is named; ``assumed`` gets places that it fills."""
     table = _section(tables, "lubricant", faults)
     short = _texts("lubricant.oils", table.pop("oils", []), faults)
     named = [_one_oil(name) for name in short]
@@ -362,9 +366,11 @@ def _oils(tables: dict[str, Any], notes: list[str], faults: list[Fault]) -> list
             named += [{key: name} if key == "grade" or "oil_file" in table else _one_oil(name) for name in found]
     if not named and not any(key in table for key in _OIL):
         named = [{"grade": GRADE}]
+        assumed.append("lubricant.grade")
         notes.append(filled_text("oil {grade}: none was given", grade=GRADE))
     if "temperature" not in table and "viscosity" not in table:
         table["temperature"] = TEMPERATURE
+        assumed.append("lubricant.temperature")
         notes.append(filled_text("oil at {temperature}: no temperature was given", temperature=TEMPERATURE))
     tables.pop("lubricant", None)
     return [{**table, **oil} for oil in named] or [table]
