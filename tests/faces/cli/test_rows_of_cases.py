@@ -345,7 +345,7 @@ def test_faulty_logs(ballscrew, rig):
     assert (row["name"], row["log"]) == ("Y/2", "b.csv")
     low, value, high = (float(row[f"boundary friction coefficient{end}"]) for end in (" low", "", " high"))
     assert low < value < high
-    assert process.stdout.splitlines()[1].split()[:2] == ["Y/2", "b.csv"]
+    assert process.stdout.splitlines()[3].split()[:2] == ["Y/2", "b.csv"]
 
 
 def test_two_rows_with_the_same_file(ballscrew, rig):

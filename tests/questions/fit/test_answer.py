@@ -7,11 +7,13 @@ import pytest
 
 from ballscrew.basis import units
 from ballscrew.basis.output.json_text import plain
+from ballscrew.basis.output.sheet import Columns
 from ballscrew.cases.case_files import case_file
-from ballscrew.questions.fit import compute, document, table
+from ballscrew.faces.sheets import files, terminal
+from ballscrew.questions.fit import compute, document
 from ballscrew.questions.fit.answer import FitResults, FittedNumber
 from ballscrew.questions.fit.log import read_options, steady_log
-from ballscrew.questions.fit.text import print_fit, trade_off
+from ballscrew.questions.fit.sheet import of_rows, sheet, trade_off
 from ballscrew.questions.shared import declared
 from support.answers import undescribed, without_unit
 from support.fit_logs import EXAMPLES, FRICTION, OFFSET, PAPER, columns, text_of
@@ -31,7 +33,8 @@ def fitted(request, tmp_path_factory):
 
 def test_every_number_is_on_every_face(fitted):
     case, report = fitted
-    answer, cells = plain(document.document(case, report)), table.of_fits({"log": report})
+    answer = plain(document.document(case, report))
+    cells = files.rows_of(next(of_rows({"log": report}).of_kind(Columns)))
     row = dict(zip(cells.headings, cells.rows[0], strict=True))
     model = declared.schema(FitResults).model_json_schema()
     numbers = {name: part for name, part in declared.parts_of(FitResults).items() if part.quantity is not None}
@@ -91,28 +94,27 @@ def fit_of(tmp_path, data, free, **changes):
     return case, compute.fit(case, steady_log(case, path, options), options)
 
 
-def sentences(case, report, capsys):
+def sentences(case, report):
     """All that is printed of a fit, below its tables and in them."""
-    print_fit(case, report)
-    return " ".join(capsys.readouterr().out.split())
+    return " ".join(terminal.text(sheet(case, report)).split())
 
 
-def test_four_rows_have_no_error_and_no_sentence_that_speaks_of_one(tmp_path, capsys):
+def test_four_rows_have_no_error_and_no_sentence_that_speaks_of_one(tmp_path):
     case, report = fit_of(tmp_path, columns(4), [FRICTION, OFFSET])
     assert report.model.has_few_rows
-    printed = sentences(case, report, capsys)
+    printed = sentences(case, report)
     assert "no estimate has an error" in printed
     for contradiction in ("determines only", "standard error)", "in the errors:", "% of the error of", "known to less"):
         assert contradiction not in printed, contradiction
     assert "spread assumed for the boundary friction coefficient (not identified)" in printed
 
 
-def test_a_number_that_stands_on_its_prior_is_not_called_known(tmp_path, capsys):
+def test_a_number_that_stands_on_its_prior_is_not_called_known(tmp_path):
     settings = ['model.pure_rolling_offset="0.34 ± 0.02"']
     data = columns(200, speeds=(10, 600))
     case, report = fit_of(tmp_path, data, [FRICTION, OFFSET], settings=settings)
     assert not report.model.estimates[OFFSET].identified
-    printed = sentences(case, report, capsys)
+    printed = sentences(case, report)
     assert "pure_rolling_offset is not identified, it stands on its prior" in printed
     assert "pure_rolling_offset is known" not in printed
 

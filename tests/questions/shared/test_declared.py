@@ -13,7 +13,6 @@ from typing_extensions import TypeAliasType
 from ballscrew.basis.quantities import Force, Info, Length, Quantity, Torque, Unit
 from ballscrew.questions.shared import declared
 from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, Answer, Column
-from ballscrew.questions.shared.row_tables import put_columns
 
 
 class Point(NamedTuple):
@@ -126,9 +125,10 @@ def test_an_answer_has_the_attributes_of_a_value():
 
 
 def test_parts_with_a_heading_are_columns():
-    cells = {}
-    put_columns(cells, Measured(1.5, 0.25, True, 3, np.zeros(0)), "nut_torque", Quantity("x", "N m", Info("", "")))
-    assert cells == {"nut torque [N mm]": 1500.0, "nut torque error [N m]": 0.25, "nut torque told": 1}
+    newton_metres = Quantity("x", "N m", Info("", ""))
+    cells = declared.cells(Measured(1.5, 0.25, True, 3, np.zeros(0)), "nut_torque", newton_metres)
+    values = {heading: (value, getattr(quantity, "shown_in", None)) for heading, (value, quantity) in cells.items()}
+    assert values == {"nut torque": (1.5, "N mm"), "nut torque error": (0.25, "N m"), "nut torque told": (1, None)}
 
 
 def test_a_table_of_quantities():

@@ -173,7 +173,7 @@ class Map:
     value: Axis
     places: tuple[Array, Array]
     values: Array
-    marks: Sequence[Level | Vertical] = ()
+    marks: Sequence[Curve | Level | Vertical] = ()
     #: Left out where room is short, on pages of a report.
     detail: bool = False
 

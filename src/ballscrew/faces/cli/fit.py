@@ -14,6 +14,7 @@ import typer
 from ballscrew.faces.cli.common_options import (
     AllowCode,
     AsJson,
+    AsSheet,
     CalibrationName,
     ModelName,
     Row,
@@ -57,6 +58,7 @@ def fit(
         ),
     ] = None,
     as_json: AsJson = False,
+    as_sheet: AsSheet = False,
     to: Annotated[
         Path | None,
         typer.Option(
@@ -96,7 +98,7 @@ def fit(
 
         fit_rows(
             case, rows, row, written, settings=settings or [], model=model, calibration=calibration,
-            allow_code=allow_code, as_json=as_json, to=to,
+            allow_code=allow_code, as_json=as_json, as_sheet=as_sheet, to=to,
         )  # fmt: skip
         return
     assert log is not None
@@ -112,11 +114,11 @@ def fit(
     if moving or test is not None or is_moving(log, written["columns"] or []):
         from ballscrew.faces.cli.fit_moving import fit_moving
 
-        fit_moving(loaded, log, test, written, as_json=as_json, to=to, picture=picture)
+        fit_moving(loaded, log, test, written, as_json=as_json, as_sheet=as_sheet, to=to, picture=picture)
     else:
         from ballscrew.faces.cli.fit_torques import Shown, fit_torques
 
-        shown = Shown(as_json=as_json, to=to, picture=picture, verbose=verbose)
+        shown = Shown(as_json=as_json, as_sheet=as_sheet, to=to, picture=picture, verbose=verbose)
         fit_torques(case, tables, loaded, log, written, shown)
 
 

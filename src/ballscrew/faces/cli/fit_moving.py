@@ -10,6 +10,7 @@ import typer
 
 from ballscrew.basis.errors import Fault, raise_if_any
 from ballscrew.cases.case_files.case import Case
+from ballscrew.faces.cli.common_options import print_answer
 from ballscrew.questions.fit.options import FitOptions
 from ballscrew.questions.fit_motion.log import moving_log
 from ballscrew.questions.fit_motion.options import FitMotionOptions
@@ -24,6 +25,7 @@ def fit_moving(
     written: Mapping[str, Any],
     *,
     as_json: bool,
+    as_sheet: bool,
     to: Path | None,
     picture: Path | None,
 ) -> None:
@@ -33,21 +35,17 @@ def fit_moving(
     read_log = moving_log(case, log, options)
     other = None if test is None else moving_log(case, test, options, usual_gain=read_log.gain)
     # solvers are slow to import: only for a log that can be read
-    from ballscrew.basis.output.json_text import as_json as json_text
-    from ballscrew.questions.fit_motion import compute, text
+    from ballscrew.faces.sheets import to_file
+    from ballscrew.questions.fit_motion import compute
     from ballscrew.questions.fit_motion import document as documents
+    from ballscrew.questions.fit_motion.sheet import sheet
 
-    found = compute.fit(case, read_log, other, options)
-    if as_json:
-        typer.echo(json_text(documents.document(case, found)))
-    else:
-        text.print_motion_fit(case, found)
+    motion = compute.fit(case, read_log, other, options)
+    seen = sheet(case, motion)
+    print_answer(seen, lambda: documents.document(case, motion), as_json=as_json, as_sheet=as_sheet)
     if picture is not None:
-        from ballscrew.questions.fit_motion import figure as figures  # matplotlib is slow to import
-        from ballscrew.questions.shared import chart_files as files
-
-        files.draw(lambda: figures.picture(case, found), picture, "--picture")
-        typer.echo(f"{picture}: {found.equation.used.size} rows", err=as_json)
+        to_file.write(picture, seen, option="--picture")
+        typer.echo(f"{picture}: {motion.equation.used.size} rows", err=as_json or as_sheet)
 
 
 def _check_unused(written: Mapping[str, Any], to: Path | None) -> None:

@@ -10,7 +10,7 @@ import typer
 
 from ballscrew.basis.atomic_files import check_writable
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
-from ballscrew.faces.cli.common_options import cases_of_rows, say_of_rows
+from ballscrew.faces.cli.common_options import cases_of_rows, print_answer, say_of_rows
 from ballscrew.faces.cli.fit_torques import not_written
 
 if TYPE_CHECKING:
@@ -31,18 +31,17 @@ def fit_rows(
     calibration: str | None,
     allow_code: bool,
     as_json: bool,
+    as_sheet: bool,
     to: Path | None,
 ) -> None:
     """Fit each row to its log; a folder ``to`` gets the calibrated case of each as soon as it is done."""
-    from ballscrew.basis.output import json_text
     from ballscrew.cases.case_files import fitted_case
     from ballscrew.faces.cli.progress import progress
+    from ballscrew.faces.sheets import files
     from ballscrew.questions.fit import document as documents
     from ballscrew.questions.fit import rows as fit_rows
-    from ballscrew.questions.fit import rows_text as text
     from ballscrew.questions.fit.log import read_options
-    from ballscrew.questions.fit.table import of_fits
-    from ballscrew.questions.shared import row_tables
+    from ballscrew.questions.fit.sheet import of_rows
 
     keep_going: bool = written["keep_going"]
 
@@ -72,15 +71,16 @@ def fit_rows(
         fitted = fit_rows.fits(cases.found, read.found, options, keep_going=keep_going, each=save, done=done)
     by_place = {each.place: each for each in cases.found.values()}
     reports = {by_place[place].row.name: report for place, report in fitted.found.items()}
-    if as_json:
-        listed = [
+    seen = of_rows(reports)
+
+    def listed() -> list[dict[str, Any]]:
+        return [
             {"name": name, **documents.document(cases.found[name].case, report)} for name, report in reports.items()
         ]
-        typer.echo(json_text.as_json(listed))
-    else:
-        typer.echo(text.list_text(reports))
+
+    print_answer(seen, listed, as_json=as_json, as_sheet=as_sheet)
     if table is not None:
-        row_tables.write(table, of_fits(reports))
+        files.write(table, seen)
     if to is not None:
         typer.echo(f"{to}: {len(reports) - len(left_out)} screws", err=True)
     raise_if_any(left_out)

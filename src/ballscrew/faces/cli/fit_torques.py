@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,7 +14,7 @@ from ballscrew.basis.atomic_files import check_writable
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.case import Case
-from ballscrew.faces.cli.common_options import say_engine
+from ballscrew.faces.cli.common_options import print_answer, say_engine
 from ballscrew.faces.cli.progress import progress
 from ballscrew.questions.fit.log import read_options, steady_log
 
@@ -26,6 +27,7 @@ class Shown:
     """How a fit is shown, and the files that are written of it."""
 
     as_json: bool
+    as_sheet: bool
     to: Path | None
     picture: Path | None
     verbose: bool
@@ -44,7 +46,10 @@ def fit_torques(
     with progress("fit") as done:
         steady = steady_log(case, log, options, done)
         # solvers are slow to import: only for a log that can be fitted to
+        from ballscrew.faces.sheets import to_file
         from ballscrew.questions.fit import compute
+        from ballscrew.questions.fit import document as documents
+        from ballscrew.questions.fit.sheet import sheet
 
         assumed: Sequence[str] = ()
         if options.self_heating:
@@ -52,42 +57,30 @@ def fit_torques(
 
             steady, assumed = warm_log(case, steady, options.kind)
         report = dataclasses.replace(compute.fit(case, steady, options), assumed=assumed)
-    if shown.to is not None and report.objection and not options.keep_going:
-        _show(case, report, shown)
-        raise InputError(not_written(str(shown.to), report))
-    if shown.to is not None:
+    if shown.to is not None and (report.objection == "" or options.keep_going):
         from ballscrew.cases.case_files import fitted_case
 
         # before anything is printed: whoever reads the output may stop after its first lines
         fitted_case.save(shown.to, tables, path.parent, case, report.model)
-    _show(case, report, shown)
+    seen = sheet(case, report)
+    if shown.verbose:
+        say_engine(report.model.response.evaluation.attributes)
+    document = functools.partial(documents.document, case, report)
+    print_answer(seen, document, as_json=shown.as_json, as_sheet=shown.as_sheet)
+    if shown.to is not None and report.objection and not options.keep_going:
+        raise InputError(not_written(str(shown.to), report))
+    is_data = shown.as_json or shown.as_sheet
     if shown.to is not None:
-        typer.echo(f"{shown.to}: the calibrated model", err=shown.as_json)
+        typer.echo(f"{shown.to}: the calibrated model", err=is_data)
     if shown.picture is not None:
-        from ballscrew.questions.fit import figure as figures  # matplotlib is slow to import
-        from ballscrew.questions.shared import chart_files as files
-
-        files.draw(lambda: figures.picture(case, report), shown.picture, "--picture")
-        typer.echo(f"{shown.picture}: {len(report.model.rows.log)} rows", err=shown.as_json)
+        to_file.write(shown.picture, seen, option="--picture")
+        typer.echo(f"{shown.picture}: {len(report.model.rows.log)} rows", err=is_data)
 
 
 def not_written(to: str, report: FitReport) -> Fault:
     """The fault of a fit that should not be written as a calibrated case."""
     problem = Message("is not written: {reason}", {"reason": report.objection})
     return Fault("--to", problem, to, "see the warnings of the fit, or write it all the same by --keep-going")
-
-
-def _show(case: Case, report: FitReport, shown: Shown) -> None:
-    from ballscrew.basis.output.json_text import as_json as json_text
-    from ballscrew.questions.fit import document as documents
-    from ballscrew.questions.fit import text
-
-    if shown.verbose:
-        say_engine(report.model.response.evaluation.attributes)
-    if shown.as_json:
-        typer.echo(json_text(documents.document(case, report)))
-    else:
-        text.print_fit(case, report)
 
 
 def _check_to(to: Path, case: Path) -> None:

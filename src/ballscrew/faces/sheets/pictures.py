@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import textwrap
 from collections.abc import Mapping, Sequence
@@ -125,7 +126,10 @@ def _map(panel: Axes, block: Map) -> None:
     x, y = _shown(block.places[0], block.x), _shown(block.places[1], block.y)
     colours = panel.contourf(x, y, _shown(block.values, block.value), levels=_CONTOURS, cmap="inferno")
     for mark in block.marks:
-        _mark(panel, mark, block, color="white")
+        if isinstance(mark, Curve):
+            _curve(panel, dataclasses.replace(mark, name=""), block.x, block.y)
+        else:
+            _mark(panel, mark, block, color="white")
     panel.grid(visible=False)
     bar = panel.figure.colorbar(colours, cax=panel.inset_axes((1.03, 0.0, 0.05, 1.0)))
     bar.set_label(_label(block.value))

@@ -21,7 +21,7 @@ from ballscrew.questions.condition import document as condition_documents
 from ballscrew.questions.condition import points as condition_points
 from ballscrew.questions.fit import document as fit_documents
 from ballscrew.questions.fit import points as fit_points
-from ballscrew.questions.fit import text as fit_text
+from ballscrew.questions.fit import sheet as fit_sheet
 from ballscrew.questions.fit.compute import FitReport
 from ballscrew.questions.hand_over import document as hand_over_documents
 from ballscrew.questions.hand_over import text as hand_over_text
@@ -33,13 +33,13 @@ from ballscrew.questions.service.sheet import causes, names
 
 def fit(case: Case, tables: Mapping[str, Any], report: FitReport) -> dict[str, Any]:
     """The document of a fit, what it says in words, the rows to draw, and the case with the fitted numbers."""
-    test = [] if report.next_test is None else fit_text.describe_next_test(report.next_test, report.model)
-    trade_off = fit_text.trade_off(report.model)
+    test = [] if report.next_test is None else fit_sheet.describe_next_test(report.next_test, report.model)
+    trade_off = fit_sheet.trade_off(report.model)
     calibrated = fitted_case.text_of(tables, case, report.model)
     return {
         **fit_documents.document(case, report),
         "words": {
-            "title": fit_text.log_and_model(case, report),
+            "title": fit_sheet.log_and_model(case, report),
             "trade_off": units.filled(trade_off),
             "next_test": texts(test),
         },

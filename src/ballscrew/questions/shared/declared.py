@@ -20,6 +20,7 @@ from typing import Annotated, Any, Literal, NamedTuple, TypeVar, Union, get_args
 import numpy as np
 
 from ballscrew.basis.field_docs import comments_of
+from ballscrew.basis.output.sheet import Cells
 from ballscrew.basis.quantities import Info, Quantity, Unit, info_of, unit_of
 
 T = TypeVar("T")
@@ -176,6 +177,21 @@ def table_of(quantities: Mapping[str, Quantity], *, of: Any = float, at_times: C
 
     fields = [(name, annotated(one)) for name, one in quantities.items()]
     return dataclasses.make_dataclass("Numbers", fields, frozen=True, eq=False)
+
+
+def cells(answer: Any, name: str = "", quantity: Quantity | None = None) -> Cells:
+    """The parts of an answer that are declared as columns of files, by their headings after the ``name``.
+
+    Numbers without a unit of their own are of the ``quantity``.
+    """
+    values: dict[str, tuple[Any, Quantity | None]] = {}
+    for part in parts_of(type(answer)).values():
+        if part.column is not None:
+            value = getattr(answer, part.name)
+            known = None if isinstance(value, bool) else part.quantity or quantity
+            heading = f"{name} {part.column.heading}".strip().replace("_", " ")
+            values[heading] = (int(value) if known is None else value, known)
+    return values
 
 
 def from_attributes(cls: type[T], value: object, **others: Any) -> T:
