@@ -47,7 +47,18 @@ from ballscrew.questions.band import compute as band
 from ballscrew.questions.check.compute import checked
 from ballscrew.questions.duty.compute import NUMBERS, duty
 from ballscrew.questions.run.compute import run
-from ballscrew.questions.shared.report_blocks import Bar, Columns, Links, Paragraph, Picture, Table, value
+from ballscrew.questions.shared.report_blocks import (
+    Bar,
+    Bullets,
+    Columns,
+    Links,
+    Paragraph,
+    Picture,
+    Report,
+    Section,
+    Table,
+    value,
+)
 from ballscrew.questions.warm_up.compute import warmed_up
 from ballscrew.questions.warm_up.verdicts import verdicts
 
@@ -226,6 +237,38 @@ def test_it_says_how_far_off_it_may_be_and_why(pdf, page):
         assert "ball force share of load: 0.003 to 0.01875" in words
         assert "crew conformity 0.54 ± 0.01 (judgement: the root diameters of HIWIN2016 imply" in words
         assert "rolling olaru" in " ".join(words.split())
+
+
+def pieces(lines):
+    """A report that begins with so many lines; all below them stays together in pieces, named by a word of each."""
+    side = [
+        [Table(f"{name}-title", ("", "value"), [(f"{name}-row-{row}", "1") for row in range(8)]) for name in names]
+        for names in (("left-a", "left-b"), ("right-a", "right-b"))
+    ]
+    blocks = {
+        "Opening": [Paragraph("opening-strong " * 60, strong=True), Paragraph("opening-words"), Columns(*side)],
+        "Cautions": [Paragraph("cautions-words"), Bullets([f"cautions-entry-{entry}" for entry in range(6)])],
+        "Sources": [Links([(f"sources-entry-{entry}", "") for entry in range(12)])],
+    }
+    filler = [Paragraph(f"line {line}") for line in range(lines)]
+    sections = [Section("Filler", filler), *(Section(title, blocks) for title, blocks in blocks.items())]
+    together = [
+        [f"{name}-title", f"{name}-row-0", f"{name}-row-7"] for name in ("left-a", "left-b", "right-a", "right-b")
+    ]
+    together += [["Opening", "opening-strong", "opening-words", "left-a-row-7"]]
+    together += [["Cautions", "cautions-words", "cautions-entry-0", "cautions-entry-5"]]
+    together += [["Sources", "sources-entry-0", "sources-entry-2"]]
+    return Report("Pieces", ("of a report",), sections, "nobody", pages=9), together
+
+
+@pytest.mark.parametrize("lines", range(20, 50, 3))
+def test_no_page_ends_within_a_table_a_list_or_behind_a_heading(lines):
+    report, together = pieces(lines)
+    pages = [sheet.extract_text() for sheet in pypdf.PdfReader(io.BytesIO(pdf_bytes(report))).pages]
+    for words in together:
+        found = [{number for number, text in enumerate(pages) if word in text} for word in words]
+        assert len(found[0]) == 1
+        assert all(each == found[0] for each in found), (words, found)
 
 
 def test_every_input_is_there_with_its_origin(content):

@@ -82,7 +82,8 @@ def test_fit(post, folders, tmp_path):
     case = {**tables_of("rig.toml"), "model": {"name": "corrected"}}
     path = on_disk(folder, "rig log.csv", text)
     options = ["--free", "boundary_friction_coefficient,constant_torque", "--bounds", "constant_torque=0:1 N m"]
-    expected = document("fit", path, "--case", written(case, tmp_path), *options, "--json", "--to", to)
+    to_file = ["--to", to, "--keep-going"]  # the numbers of this model are implausible
+    expected = document("fit", path, "--case", written(case, tmp_path), *options, "--json", *to_file)
     body = {"case": case, "free": ["boundary_friction_coefficient", "constant_torque"],
             "bounds": {"constant_torque": "0:1 N m"}}  # fmt: skip
     found = post("fit", {**body, "log": sent("C:\\logs/rig log.csv", text)})
