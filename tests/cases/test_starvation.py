@@ -241,6 +241,41 @@ def test_a_sweep_has_both_torques_where_it_is_starved_the_most_in_its_attributes
     assert found["flooded_torque"].equals(found["screw_torque"])
 
 
+COLD_TO_WARM = ("temperature=-10, 0, 40 degC",)
+
+
+def paired(case, vary, outputs, to=None, **options):
+    return sweep.with_flooded_torque(case, sweep.plan(case, vary, outputs, to, **options), to)
+
+
+def test_a_sweep_has_the_full_bath_beside_the_torque_where_some_of_its_points_are_starved():
+    case = case_with("40 degC")
+    plan = paired(case, COLD_TO_WARM, ["efficiency", "screw_torque"])
+    assert plan.outputs == ("efficiency", "screw_torque", "flooded_torque")
+    found = sweep.sweep(case, plan)
+    outputs = sweep_documents.document(case, plan, found)["outputs"]
+    for place, temperature in enumerate(("-10 degC", "0 degC", "40 degC")):
+        there = run(case_with(temperature))
+        assert outputs["screw_torque"]["values"][place] == pytest.approx(float(there.friction.screw_torque), rel=1e-9)
+        assert outputs["flooded_torque"]["values"][place] == pytest.approx(
+            float(there.friction.flooded_torque), rel=1e-9
+        )
+    assert outputs["flooded_torque"]["meaning"] == there.quantities["flooded_torque"].info.meaning
+
+
+def test_a_sweep_without_starved_points_has_one_torque_and_so_have_those_with_a_full_bath_of_their_own(tmp_path):
+    case, torque = case_with("40 degC"), ["screw_torque"]
+    assert paired(case, ("temperature=60, 80 degC",), torque).outputs == ("screw_torque",)
+    assert paired(case_with("40 degC", 0.0), COLD_TO_WARM, torque).outputs == ("screw_torque",)
+    assert paired(case, COLD_TO_WARM, ["efficiency"]).outputs == ("efficiency",)
+    assert paired(case, (*COLD_TO_WARM, "inlet.replenishment_constant=0, 3e-8"), torque).outputs == ("screw_torque",)
+    assert paired(case, COLD_TO_WARM, torque, banded=True).outputs == ("screw_torque",)
+    assert paired(case, COLD_TO_WARM, torque, tmp_path / "map.zarr").outputs == ("screw_torque",)
+    # one output over two axes is a table
+    assert paired(case, SPEEDS_AND_OILS, torque).outputs == ("screw_torque",)
+    assert paired(case, SPEEDS_AND_OILS, [*torque, "flooded_torque"]).outputs == ("screw_torque", "flooded_torque")
+
+
 def test_a_sweep_that_heats_itself_is_judged_at_the_oil_as_warm_as_it_becomes():
     case = case_with("-5 degC")  # the oil that is given, which no point of a warm hall has
     case = dataclasses.replace(case, surroundings=Surroundings(ambient=330.0))

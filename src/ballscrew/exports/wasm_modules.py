@@ -35,7 +35,6 @@ from ballscrew.physics.solvers.load_distribution import (
     BallLoads,
     ElasticNutNumbers,
     elastic_nut_numbers,
-    lift_off_load,
     preload_of_rigid_bodies,
 )
 
@@ -189,7 +188,8 @@ def outputs_of(nut: Nut, outputs: Collection[str] = OUTPUTS) -> Mapping[str, Out
     """Those of some outputs that the module of such a nut gives, and all parts of the torque, by name."""
     beside = {n: output for n, output in _BESIDE.items() if not (nut.is_row and n in BALL)}
     known = {**known_outputs(nut), **beside}
-    return {n: output for n, output in known.items() if n in outputs or n.startswith(_PARTS)}
+    left_out = {"lift_off_load"} if nut.one_by_one else ()  # a search, which no recording holds
+    return {n: o for n, o in known.items() if (n in outputs or n.startswith(_PARTS)) and n not in left_out}
 
 
 def module_of(subject: Configuration, outputs: Collection[str] = OUTPUTS, varying: Sequence[str] = ()) -> Module:
@@ -247,8 +247,8 @@ def _numbers(subject: Configuration, names: tuple[str, ...]) -> tuple[tuple[str,
     outer = np.where(np.isnan(diameter), usual.nut_outer_diameter, diameter)
     solved = elastic_nut_numbers(screw, nut, dataclasses.replace(usual, nut_outer_diameter=outer))
     load, preload = settled(points[OPERATION[0]]), preload_of_rigid_bodies(screw, nut)
-    of_nut = {"lift_off_load": lift_off_load(screw, nut), "balls": screw.carrying_balls}
-    found = {**solved._asdict(), **dict(zip(OF_POINT, (load, preload), strict=True)), **of_nut}
+    of_point = dict(zip(OF_POINT, (load, preload), strict=True))
+    found = {**solved._asdict(), **of_point, "balls": screw.carrying_balls}
     program = merged_program(tape, found)
     return every, program
 

@@ -53,6 +53,8 @@ CASES = {
     "oversize": (REXROTH, OVERSIZE, {"axial_load": -3e3, "screw_speed": 30.0}, {}, {}),
     "oversize, lifted": (REXROTH, OVERSIZE, {"axial_load": 3e4}, {}, {}),
     "elastic": (REXROTH, ELASTIC, {"axial_load": 5e3}, {}, {}),
+    "elastic, lifted": (REXROTH, ELASTIC, {"axial_load": 2e4, "preload": 2e3}, {}, {}),
+    "elastic, lifted backwards": (REXROTH, ELASTIC, {"axial_load": -2e4, "preload": 2e3}, {}, {}),
     "overloaded": (REXROTH, OVERSIZE, {"axial_load": 1e6}, {}, {}),
 }  # fmt: skip
 

@@ -300,6 +300,64 @@ def test_a_contact_angle_that_rises_puts_lift_off_further_away(nut):
     assert 1.03 < ratio[2] < 1.05
 
 
+SMALL = bs.catalogue()["rexroth-25x5x3-4-double"]
+#: 6 % of the dynamic load rating.
+BRACED = DoubleNut(preload=954.0, bodies=Bodies())
+
+
+def loads_of_small(load, nut=BRACED):
+    part = SMALL.screw(nut=nut)
+    return ball_loads(part, nut, load, bodies=nut.bodies and nut.bodies.sized(part))
+
+
+def test_balls_between_elastic_bodies_leave_one_after_the_other_up_to_the_lift_off_load():
+    """25×5, 6 % of C: at another load backwards (2400 to 2600 N) than forwards (2800 to 3000 N); rigid ones at 2738."""
+    for sign, bracket, relieved in ((-1.0, (2400.0, 2602.0), "forward"), (1.0, (2800.0, 3000.0), "backward")):
+        found = loads_of_small(sign * 100.0)
+        limit = float(found.lift_off_load)
+        assert bracket[0] < limit < bracket[1]
+        assert found.rigid_lift_off_load == pytest.approx(2738, abs=0.5)
+        below, above = (loads_of_small(sign * limit * (1 + part)) for part in (-1e-6, 1e-6))
+        assert np.count_nonzero(getattr(below, f"{relieved}_load")) >= 1
+        assert 0 < float(below.remaining_preload) < 1e-4
+        assert float(above.remaining_preload) == 0
+        assert float(above.lift_off_load) == pytest.approx(limit, rel=1e-9)
+    assert np.count_nonzero(loads_of_small(-2400.0).forward_load) < 98
+    assert np.count_nonzero(loads_of_small(2800.0).backward_load) == 98
+
+
+def test_of_an_array_each_load_has_the_lift_off_load_of_its_sign():
+    together = loads_of_small(np.array([-5e3, -1.0, 0.0, 1e3]))
+    alone = [float(loads_of_small(load).lift_off_load) for load in (-1.0, 1.0)]
+    assert together.lift_off_load == pytest.approx([alone[0], alone[0], alone[1], alone[1]], rel=1e-9)
+    assert together.at(np.array([2, 0])).lift_off_load == pytest.approx(alone[::-1], rel=1e-9)
+    assert together.at(np.array([2, 0])).rigid_lift_off_load == pytest.approx([2738, 2738], abs=0.5)
+
+
+@pytest.mark.parametrize("same_side", [True, False])
+@pytest.mark.parametrize("swelling", [True, False])
+@pytest.mark.parametrize("nut", [DoubleNut(954.0, 0.01), OffsetLeadNut(954.0), OversizeBallNut(500.0)])
+def test_nothing_is_left_at_the_lift_off_load_and_something_just_below(nut, swelling, same_side):
+    nut = dataclasses.replace(nut, bodies=Bodies(swelling=swelling, same_side=same_side))
+    for sign in (-1.0, 1.0):
+        limit = float(loads_of_small(sign, nut).lift_off_load)
+        left = loads_of_small(sign * limit * np.array([1 - 1e-5, 1 + 1e-8]), nut).remaining_preload
+        assert left[0] > 0
+        assert left[1] == 0
+
+
+def test_without_bodies_the_lift_off_load_is_that_of_rigid_ones():
+    found = loads_of_small(100.0, DoubleNut(preload=954.0))
+    assert found.lift_off_load == found.rigid_lift_off_load
+    assert float(found.lift_off_load) == pytest.approx(2737.911905075621, rel=1e-15)
+
+
+def test_nothing_lifts_off_where_nothing_is_braced():
+    for nut in (DoubleNut(0.0, bodies=Bodies()), SingleNut(bodies=Bodies())):
+        assert loads_of_small(100.0, nut).lift_off_load == 0
+    assert np.isnan(loads_of_small(100.0, DoubleNut(np.array([-1.0, 954.0]), bodies=Bodies())).lift_off_load[0])
+
+
 def test_the_work_of_the_load_is_what_the_balls_store():
     """∫F dx = Σ 2/5 Q δ over all flanks, less what the preload has stored."""
     part = screw(loaded_balls=9)

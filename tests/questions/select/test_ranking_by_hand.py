@@ -133,14 +133,14 @@ def test_the_front_is_that_of_brute_force(columns):
 def test_the_share_of_a_preload_that_a_load_takes(left, load, used):
     """Of 4 kN with lift-off of rigid bodies at 10 kN."""
     assert float(preload_used(4000.0, left, load, 10e3)) == pytest.approx(used)
-    found = kept_preload(4000.0, load, types.SimpleNamespace(remaining_preload=left, lift_off_load=10e3))
+    found = kept_preload(4000.0, load, types.SimpleNamespace(remaining_preload=left, rigid_lift_off_load=10e3))
     assert (found.value, found.limit, found.utilisation) == (left, 0.0, pytest.approx(used))
     assert found.holds is (left > 0)
     assert "rigid bodies lose it above" in found.text
 
 
 def test_a_preload_that_elastic_bodies_lose_sooner():
-    balls = types.SimpleNamespace(remaining_preload=0.0, lift_off_load=10e3)
+    balls = types.SimpleNamespace(remaining_preload=0.0, rigid_lift_off_load=10e3)
     for load, said in ((9999.0, False), (-9999.0, False), (10e3, True), (-10001.0, True)):
         found = kept_preload(4000.0, load, balls)
         assert found.utilisation > 1

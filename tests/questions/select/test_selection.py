@@ -533,7 +533,9 @@ def test_a_load_that_takes_the_preload_away_is_a_check_that_fails():
     assert mine["fails"][0]["name"] == "preload"
     assert mine["fails"][0]["utilisation"] > 1
     limit = next(one["limit"] for one in mine["verdicts"] if one["id"] == "verdict.preload_lost")
-    assert mine["rigid_lift_off_load"] == limit < 8000
+    assert limit < 8000  # of the elastic bodies that a run has; rigid ones lose the preload sooner here
+    limit, elastic = mine["rigid_lift_off_load"], limit
+    assert 0.8 * elastic < limit < elastic
     assert f"preload lost (rigid bodies: above {float(f'{limit:.4g}'):g} N)" in mine["verdict"]
     assert mine["case"]["operation"]["screw_speed"] == "15 m/min"  # as typed: the lead makes the speed of it
     assert mine["verdict"].rpartition("; ")[2] in " ".join(text(found, found.ranked).split())
@@ -562,7 +564,7 @@ def test_a_lost_preload_is_above_one_and_names_no_load_beyond_the_one_applied(sh
     found = bs.select(need, complete=True).ranked[0].candidate
     assert float(found.balls.remaining_preload) <= 0
     limit = 8000.0 / share
-    balls = dataclasses.replace(found.balls, lift_off_load=limit)
+    balls = dataclasses.replace(found.balls, lift_off=limit)
     check = kept_preload(found.preload, 8000.0, balls)
     assert check.holds is False
     assert 1 < check.utilisation == pytest.approx(max(share, 1), rel=1e-12)

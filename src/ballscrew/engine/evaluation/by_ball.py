@@ -106,7 +106,9 @@ class ByBall:
             loads = loads_of(changed.screw, as_array(points[OPERATION[0]]), compiled=self.engine == "compiled")
             known, parts = changed.inputs, changed.by_section
             of_points = [points[n] if n in OPERATION else read_input(parts[known[n][0]], n) for n in self._cut.names]
-            of_points += [getattr(loads, name) for name in OF_LOADS]
+            # the load that lifts off is a search
+            unread = {"lift_off_load": np.full(count, np.nan)} if "lift_off_load" not in results else {}
+            of_points += [unread[name] if name in unread else getattr(loads, name) for name in OF_LOADS]
             of_balls = [_balls_first(getattr(loads, name), count) for name in OF_BALLS]
             tables = self._tables(of_points, count)
             inputs = [

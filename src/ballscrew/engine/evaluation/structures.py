@@ -162,7 +162,9 @@ def _recorded_by_ball(subject: Configuration, wanted: Mapping[str, Output], name
     of_nut = dict(zip(OF_LOADS, traced[len(names) :], strict=False))
     of_balls = dict(zip(OF_BALLS, traced[-len(OF_BALLS) :], strict=True))
     with subject.recording(by_ball=True):
-        loads = BallLoads(kinds=(KindLoads(balls=1.0, **of_balls),), one_by_one=True, **of_nut)
+        lift_off = of_nut.pop("lift_off_load")
+        kinds = (KindLoads(balls=1.0, **of_balls),)
+        loads = BallLoads(kinds=kinds, one_by_one=True, lift_off=lift_off, **of_nut)
         result = subject.under(loads, points)
         return merged_program(tape, {name: output.read(result) for name, output in wanted.items()})
 

@@ -19,7 +19,7 @@ from ballscrew.evidence.calibration.fit_result import (
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
 from ballscrew.evidence.calibration.robust import autocorrelation_lag, minimum_scatter
 from ballscrew.physics.components.materials import TEMPERATURE
-from ballscrew.physics.solvers.load_distribution import ball_loads
+from ballscrew.physics.friction.loaded_balls import loads_of
 
 _OF_LOG = Message("so in the row that starves the most, by the numbers of the fit")
 _FLAT = Message("{name} is not identified: near {value} the torques of this log hardly depend on it")
@@ -216,11 +216,11 @@ def _of_priors(found: FitResult) -> list[Record]:
 
 def _of_preload(found: FitResult) -> list[Record]:
     """Rows at which the load has lifted the relieved balls off, where the preload was fitted."""
-    nut = found.screw.nut
     if not {"preload", "nut.preload", "oversize", "nut.oversize"} & set(found.response.names):
         return []
-    most = float(np.asarray(ball_loads(found.screw, nut, 0.0).lift_off_load))
-    lifted = int(np.count_nonzero(np.abs(found.rows.log.axial_load) >= most))
+    loads = np.asarray(found.rows.log.axial_load)
+    limits = np.asarray(loads_of(found.screw, np.where(loads < 0, -1.0, 1.0)).lift_off_load)
+    most, lifted = float(np.min(limits)), int(np.count_nonzero(np.abs(loads) >= limits))
     if not lifted:
         return []
     message = _LIFT_OFF.of(

@@ -55,7 +55,14 @@ def _over_speed(curves: Curves) -> Figure:
         left.stackplot(curves.speeds, stacked, colors=colours, labels=labels, alpha=0.9, linewidth=0)
         total = stacked.sum(axis=0)
         left.plot(curves.speeds, total, color=charts.INK, linewidth=1.2)
-        left.set_ylim(0, 1.5 * float(np.nanmax(total, initial=0.0)) or 1.0)
+        largest = total
+        if curves.flooded_torque is not None:
+            label = "all, in a full bath of oil"
+            left.plot(
+                curves.speeds, curves.flooded_torque, color=charts.INK, linewidth=1.2, linestyle="--", label=label
+            )
+            largest = np.fmax(total, curves.flooded_torque)
+        left.set_ylim(0, 1.5 * float(np.nanmax(largest, initial=0.0)) or 1.0)
         handles, names = left.get_legend_handles_labels()
         left.legend(handles[::-1], names[::-1], loc="upper center", ncols=2)
     _frame(left, curves.here[0], curves.speeds, _SPEED, "friction torque on the screw (N m)")

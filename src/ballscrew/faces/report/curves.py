@@ -32,6 +32,8 @@ class Curves(NamedTuple):
     speeds: Numbers
     #: Parts of the friction torque over the speed, at the load of the case.
     parts: Mapping[str, Numbers]
+    #: Friction torque in a full bath of oil over the speed, where that of the case is starved at one of the speeds.
+    flooded_torque: Numbers | None
     #: Film parameters over the speed, by what they are of.
     films: Mapping[str, Numbers]
     loads: Numbers
@@ -87,6 +89,7 @@ def curves(case: Case) -> Curves:
             here=(_people("screw_speed", speed), _people("axial_load", load)),
             speeds=_people("screw_speed", speeds),
             parts={name: _array(part, speeds) for name, part in over_speed.contributions.items()},
+            flooded_torque=_array(over_speed.flooded_torque, speeds) if over_speed.starvation else None,
             films={name: _array(film, speeds) for name, film in films.items()},
             loads=_people("axial_load", loads[1:]),
             efficiency=_array(over_load.efficiency, loads[1:]),

@@ -159,6 +159,7 @@ async def sweep(request: Request) -> Response:
         if not options.vary:
             limits.check_size(case.sweep, len(options.outputs), banded=options.band)
         plan = sweeps.plan(case, options.vary, options.outputs, None, banded=options.band)
+        plan = sweeps.with_flooded_torque(case, plan)
         limits.check_sweep(case, plan)
         return case, plan, limits.samples_of_sweep(case, plan, options.samples) if plan.banded else None
 

@@ -231,7 +231,7 @@ PRELOAD_LOST = Judgement(
     unit=_LIFT_OFF.unit,
     sentences=(
         Sentence(
-            Message("preload lost: the balls lift off the other flank; between rigid bodies they do above {load}"),
+            Message("preload lost: the balls lift off the other flank; they do above {load}"),
             places={"load": Shown("limit", _LIFT_OFF)},
         ),
     ),

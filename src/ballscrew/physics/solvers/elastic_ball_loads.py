@@ -45,6 +45,9 @@ from ballscrew.physics.solvers.swelling import (
 LARGEST_OF_A_BALL = 1e-6
 #: Imbalance of the rigid screw from which the elastic one starts.
 START = 0.1
+#: The search for the load that lifts off: steps at most, how much further the end of its bracket is moved at once, an
+#: overlap that counts as none, in units of the distance of the groove centres, and a bracket that is narrow enough.
+STEPS, BEYOND, NO_OVERLAP, ROUNDING = 60, 1.5, 1e-12, 1e-12
 
 
 class NutCase(NamedTuple):
@@ -338,6 +341,62 @@ def _parallel_compliance(case: NutCase, point: NutPoint, bars: Bars) -> Ratio:
     if not case.elastic:
         return 0 * point.load
     return bars.first_share * (1 - bars.first_share) * np.sum(1 / bars.stiffness, axis=0)
+
+
+def elastic_lift_off_load(case: NutCase, *numbers: Field) -> tuple[Field]:
+    """The size of the load of either sign at which the last ball leaves the flanks that it relieves, bodies elastic.
+
+    The overlap of the ball that is pressed the most falls with the load, in nearly a straight line: a search by secants
+    that keeps a bracket. Zero where nothing is pressed without load.
+    """
+    point = _with_preload(case, NutPoint(*(np.broadcast_to(n, np.shape(numbers[0])) for n in numbers)))
+    springs, bars, swelling = _springs(case, point), _bars(case, point), _swelling(case, point)
+    if case.halves == 2:
+        springs, _ = _braced(case, point, springs, bars, swelling)
+
+    def overlap(size: Field) -> Field:
+        loaded = point._replace(load=point.direction * size)
+        balance = _balance(case, loaded, springs, bars, swelling, loaded.load)
+        return _largest_overlap(point, balance.springs, balance.displacement)
+
+    low, rigid = 0 * point.load, _lift_off_load(case, point, springs)
+    high = np.where(rigid > 0, rigid, point.preload)
+    at_low, at_high = overlap(low), overlap(high)
+    is_braced = (at_low > 0) & (point.preload > 0)
+    for _ in range(STEPS):
+        pressed = is_braced & (at_high > 0)
+        if not pressed.any():
+            break
+        low, at_low = np.where(pressed, high, low), np.where(pressed, at_high, at_low)
+        high = np.where(pressed, BEYOND * high, high)
+        at_high = overlap(high)
+    size, last = high, 0 * low
+    for _ in range(STEPS):
+        part = at_low / np.where(at_low > at_high, at_low - at_high, 1.0)
+        size = low + part * (high - low)
+        left = overlap(size)
+        pressed = left > 0
+        # the Illinois rule: an end that stays twice counts half
+        at_low = np.where(pressed, left, np.where(last < 0, at_low / 2, at_low))
+        at_high = np.where(pressed, np.where(last > 0, at_high / 2, at_high), left)
+        low, high, last = np.where(pressed, size, low), np.where(pressed, high, size), np.where(pressed, 1.0, -1.0)
+        settled = (np.abs(left) <= NO_OVERLAP * point.centre_distance) | (high - low <= ROUNDING * high)
+        if np.all(settled | ~is_braced):
+            break
+    return (np.where(is_braced, size, 0.0),)
+
+
+def _largest_overlap(point: NutPoint, springs: BallSprings, displacement: Field) -> Length:
+    """How far the flanks that the load relieves are beyond where they just touch, at the ball that is pressed most."""
+    overlaps = [
+        np.where(
+            each.facing == -point.direction,
+            each.facing * displacement * point.lead_cosine + each.offset - springs.touch(each),
+            -np.inf,
+        )
+        for each in springs.flanks
+    ]
+    return np.maximum.reduce(overlaps).max(axis=0)
 
 
 def _lift_off_load(case: NutCase, point: NutPoint, springs: BallSprings) -> Force:

@@ -25,7 +25,7 @@ balls, and the change of K with the contact angle.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Annotated, Any, NamedTuple
 
 import numpy as np
@@ -40,8 +40,8 @@ from ballscrew.physics.components.screw import BallScrew, Raceway
 from ballscrew.physics.equations import deflection, geometry, hertz, rigidity
 from ballscrew.physics.solvers.ball_springs import Field
 from ballscrew.physics.solvers.compiled_chain import FEWEST_POINTS
-from ballscrew.physics.solvers.elastic_ball_loads import NutCase, solved
-from ballscrew.physics.solvers.rigid_ball_loads import KindLoads, RigidLoads, RigidNut, rigid_lift_off_load, rigid_loads
+from ballscrew.physics.solvers.elastic_ball_loads import NutCase, elastic_lift_off_load, solved
+from ballscrew.physics.solvers.rigid_ball_loads import KindLoads, RigidLoads, RigidNut, rigid_loads
 
 #: Imbalance, in units of load and preload, that counts as balanced.
 TOLERANCE = 1e-10
@@ -50,7 +50,28 @@ BLOCK = 65_536
 #: Balls of a nut body that are solved for one by one: several times those of the largest nuts.
 MOST_BALLS = 2000
 #: Results for the nut as a whole, in the order of the solvers.
-_OF_NUT = ("deflection", "rigidity", "remaining_preload", "lift_off_load", "residual")
+_OF_NUT = ("deflection", "rigidity", "remaining_preload", "lift_off", "residual")
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class LiftOff:
+    """Search for the load at which the balls of a nut with elastic bodies leave the flank that is relieved."""
+
+    case: NutCase
+    points: _Points
+    #: The load between rigid bodies.
+    rigid: Force
+    #: Some of the points.
+    places: Any = ...
+
+    def at(self, places: Any) -> LiftOff:
+        """The search at some of several operating points."""
+        return dataclasses.replace(self, rigid=self.rigid[places], places=places)
+
+    def __call__(self) -> Force:
+        """The load, N; NaN for a preload below zero."""
+        (found,) = _solution(elastic_lift_off_load, self.case, self.points)
+        return self.points.all_of(found)[self.places][()]
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -68,10 +89,25 @@ class BallLoads:
     deflection: Annotated[Length, Info("x", "axial displacement of the screw against the nut by the load", "um")]
     rigidity: Annotated[Stiffness, Info("R_nu", "axial rigidity of the nut at this load", "N/um")]
     remaining_preload: Annotated[Force, Info("F_b", "axial force left on the flank that the load relieves")]
-    lift_off_load: Annotated[Force, Info("F_l", "axial load that lifts the other flank off, bodies rigid")]
+    #: The load that lifts the other flank off, or the search for it.
+    lift_off: Force | LiftOff
     #: That of all balls together. What is left at one ball between elastic bodies, beyond rounding, is less than a
     #: millionth of load and preload, or else it stands here.
     residual: Annotated[Ratio, Info(r"\epsilon", "imbalance / (load + preload)")]
+
+    @lazy
+    def lift_off_load(self) -> Annotated[Force, Info("F_l", "axial load of this sign that lifts the other flank off")]:
+        """Size of the axial load at which the last ball leaves the flank that the load relieves.
+
+        It is of the sign of the load (of a positive one without load): elastic bodies lose the preload at another load
+        forwards than backwards. It is searched for when it is first read.
+        """
+        return self.lift_off() if isinstance(self.lift_off, LiftOff) else self.lift_off
+
+    @property
+    def rigid_lift_off_load(self) -> Force:
+        """The same between rigid bodies, where it does not depend on the sign of the load."""
+        return self.lift_off.rigid if isinstance(self.lift_off, LiftOff) else self.lift_off
 
     @lazy
     def forward_load(
@@ -106,7 +142,9 @@ class BallLoads:
         """The loads at some of several operating points, by their places; of balls that are given one by one."""
         assert self.one_by_one, "balls that are alike are no trouble to solve again"
         kinds = tuple(KindLoads(*(part[places] for part in kind)) for kind in self.kinds)
-        return BallLoads(kinds=kinds, one_by_one=True, **{name: getattr(self, name)[places] for name in _OF_NUT})
+        of_nut = {name: getattr(self, name) for name in _OF_NUT}
+        some = {name: one.at(places) if isinstance(one, LiftOff) else one[places] for name, one in of_nut.items()}
+        return BallLoads(kinds=kinds, one_by_one=True, **some)
 
     def _by_ball(self, name: str) -> Any:
         parts = [getattr(kind, name) for kind in self.kinds]
@@ -174,17 +212,6 @@ def _rigid_nut(screw: BallScrew, nut: Nut, axial_load: Force) -> RigidNut:
     )
 
 
-def lift_off_load(screw: BallScrew, nut: Nut) -> Force:
-    """The load that lifts the balls of a preloaded nut between rigid bodies off their other flanks; elementwise.
-
-    Zero for a nut whose balls nothing braces.
-    """
-    oversize = isinstance(nut, OversizeBallNut)
-    if not (oversize or nut.halves == 2):
-        return 0.0
-    return rigid_lift_off_load(_rigid_nut(screw, nut, 0.0), oversize=oversize, constant_angle=False)
-
-
 def _alike(nut: Nut, point: RigidNut, constant_angle: bool) -> BallLoads:
     """Rigid bodies, and all balls of a kind alike."""
     halves, oversize = nut.halves, isinstance(nut, OversizeBallNut)
@@ -218,11 +245,14 @@ def _one_by_one(
     raise_if_any(_faults(screw, nut.halves, deviations))
     points = _points(_numbers(screw, nut, point, bodies), compiled)
     case = _case(screw, nut, bodies, deviations, constant_angle, compiled)
-    solution = _solution(case, points)
+    solution = _solution(solved, case, points)
     by_ball = [points.all_of(np.moveaxis(part, 0, -1)) for part in solution[:4]]
-    plain = [points.all_of(part)[()] for part in solution[4:]]
+    plain = (points.all_of(part)[()] for part in solution[4:])
+    of_nut: dict[str, Any] = dict(zip(_OF_NUT, plain, strict=True))
+    if case.elastic and (case.halves == 2 or case.oversize):
+        of_nut["lift_off"] = LiftOff(case, points, of_nut["lift_off"])
     kind = KindLoads(np.ones_like(by_ball[0]), *by_ball)
-    return BallLoads(kinds=(kind,), one_by_one=True, **dict(zip(_OF_NUT, plain, strict=True)))
+    return BallLoads(kinds=(kind,), one_by_one=True, **of_nut)
 
 
 def _case(
@@ -299,8 +329,8 @@ def _points(numbers: Sequence[Any], compiled: bool) -> _Points:
     return _Points(flat, count, places, shape)
 
 
-def _solution(case: NutCase, points: _Points) -> list[Field]:
-    """The results of the solver at the points, the ball axis first; NaN for a preload below zero, which has none."""
+def _solution(solve_block: Callable[..., tuple[Field, ...]], case: NutCase, points: _Points) -> list[Field]:
+    """The results of a solver at the points, the ball axis first; NaN for a preload below zero, which has none."""
     load, preload, *_ = points.numbers
     # who asks for kernels comes block by block, with threads of its own
     size = load.size if case.compiled else max(1, BLOCK // (case.halves * case.balls))
@@ -310,7 +340,7 @@ def _solution(case: NutCase, points: _Points) -> list[Field]:
         alone = block.stop - block.start == 1 and block.start > 0  # with one before it, sums have one order
         here = slice(block.start - alone, block.stop)
         with np.errstate(all="ignore"):
-            found = solved(case, *(n if n.size == 1 else n[here] for n in points.numbers))
+            found = solve_block(case, *(n if n.size == 1 else n[here] for n in points.numbers))
         parts[block.start // size] = [part[..., 1:] for part in found] if alone else found
 
     map_blocks(solve, load.size, block_size=size)

@@ -172,7 +172,8 @@ class DesignModel:
         given: dict[str, Any] = {name: getattr(designs, name) for name in _SIZES}
         given |= {"preload": designs.preload, "axial_load": np.full_like(speed, load), "screw_speed": speed}
         if self.by_balls is not None and factors is None:
-            return self._at_balls(self.by_balls, given)
+            rigid = dataclasses.replace(self, by_balls=None)._at(designs, load, speed)
+            return self._at_balls(self.by_balls, given) | {"lift_off_load": rigid["lift_off_load"]}
         values: list[Any] = []
         subject = Configuration(self.case.model, self.case.screw, self.case.lubricant)
         for name in self.friction.inputs:
@@ -186,14 +187,15 @@ class DesignModel:
         """The outputs with elastic bodies: designs of as many balls in one call."""
         case, count = self.elastic_case, len(given["loaded_balls"])
         assert case is not None
-        found = {name: np.zeros(count, dtype=bool if name == "valid" else float) for name in _OUTPUTS}
+        outputs = [name for name in _OUTPUTS if name != "lift_off_load"]
+        found = {name: np.zeros(count, dtype=bool if name == "valid" else float) for name in outputs}
         names = tuple(name for name in (*_SIZES, "preload", *_POINT) if name != "loaded_balls")
         names = names if "preload" in self.space.names else tuple(name for name in names if name != "preload")
         for number in np.unique(given["loaded_balls"]):
             balls, here = int(number), given["loaded_balls"] == number
             if balls not in kept:
                 kept[balls] = evaluator(
-                    case.model, case.screw, case.lubricant, inputs=names, outputs=list(_OUTPUTS),
+                    case.model, case.screw, case.lubricant, inputs=names, outputs=outputs,
                     engine=self.engine, loaded_balls=balls,
                 )  # fmt: skip
             of_these = kept[balls](*(given[name][here] for name in names))

@@ -148,7 +148,7 @@ class Candidate:
         Elastic bodies may lose it at a smaller load.
         """
         lost = self.preload > 0 and float(self.balls.remaining_preload) <= 0
-        return float(self.balls.lift_off_load) if lost else None
+        return float(self.balls.rigid_lift_off_load) if lost else None
 
     @property
     def failed(self) -> Sequence[Check]:

@@ -79,7 +79,7 @@ def kept_preload(preload: Force, largest_load: Force, balls: BallLoads) -> Check
     """Whether the largest load leaves some of the preload, with :func:`preload_used`; of a nut that has one."""
     if not preload > 0:
         return None
-    left, limit = float(balls.remaining_preload), float(balls.lift_off_load)
+    left, limit = float(balls.remaining_preload), float(balls.rigid_lift_off_load)
     holds = left > 0
     message = Message(
         "preload that the largest load leaves on the relieved half or flank: some; rigid bodies lose it above {load}",
@@ -91,13 +91,13 @@ def kept_preload(preload: Force, largest_load: Force, balls: BallLoads) -> Check
     return Check.saying(message, "preload", left, 0.0, "N", used, holds)
 
 
-def preload_used(preload: Force, left: Force, load: Force, lift_off_load: Force) -> Ratio:
+def preload_used(preload: Force, left: Force, load: Force, rigid_lift_off_load: Force) -> Ratio:
     """Share of the preload that a load takes; where it takes all of it, always above one.
 
     It is then the load over that at which the balls of a rigid nut lift off the other half or flank. Bodies may lose
     the preload below that load, too: then it is the next number above one.
     """
-    lost = np.fmax(abs(load) / np.asarray(lift_off_load), np.nextafter(1.0, 2.0))
+    lost = np.fmax(abs(load) / np.asarray(rigid_lift_off_load), np.nextafter(1.0, 2.0))
     return np.where(np.asarray(left) > 0, 1 - np.asarray(left) / preload, lost)
 
 

@@ -375,6 +375,37 @@ def _blank_unit(quantity: Quantity) -> str:
     return "" if quantity.unit == "1" else f" {quantity.shown_in}"
 
 
+def with_flooded_torque(case: Case, plan: Plan, to: Path | None = None) -> Plan:
+    """The plan with the torque in a full bath of oil beside that of the screw, where some of its points are starved.
+
+    A single output over two axes stays a table, and where the replenishment is varied the full bath is a point of its
+    own. Bands, self-heating and stores have no such column.
+    """
+    torque, flooded = "screw_torque", "flooded_torque"
+    has_own = plan.heats or plan.banded or is_store(to) or "inlet.replenishment_constant" in plan.axes
+    if has_own or plan.is_table or torque not in plan.outputs or flooded in plan.outputs:
+        return plan
+    if _swept(case, plan, plan.outputs).starved_torques is None:
+        return plan
+    outputs = tuple(column for name in plan.outputs for column in ((name, flooded) if name == torque else (name,)))
+    quantity = known_outputs(case.screw.nut)[flooded].quantity
+    return dataclasses.replace(plan, outputs=outputs, quantities={**plan.quantities, flooded: quantity})
+
+
+def _swept(case: Case, plan: Plan, names: Sequence[str], *, later: bool = False) -> Swept:
+    """The plan of the engine for outputs of these names."""
+    subject = Configuration(case.model, case.screw, case.lubricant)
+    return Swept.of(subject, tuple(names), _varied(case, plan) | unvaried(case, plan), later=later)
+
+
+def _varied(case: Case, plan: Plan) -> dict[str, Any]:
+    """The axes, of a temperature those of the numbers of the oil."""
+    varied: dict[str, Any] = {}
+    for name, values in plan.axes.items():
+        varied |= _oils(case, values) if name == "temperature" else {name: values}
+    return varied
+
+
 @overflow_as_input_error()
 def sweep(
     case: Case,
@@ -396,23 +427,20 @@ def sweep(
     """
     fixed = unvaried(case, plan)
     names = dict.fromkeys((*plan.outputs, "valid", *(f"validity_{reason}" for reason in reasons_of(case))))
-    varied: dict[str, Any] = {}
-    for name, values in plan.axes.items():
-        varied |= _oils(case, values) if name == "temperature" else {name: values}
+    varied = _varied(case, plan)
     if plan.heats:
         from ballscrew.questions.warm_up import self_heating
 
         wanted = tuple(name for name in names if name not in _heat())
         return self_heating.swept(case, wanted, {**plan.axes, **fixed}, done)
     oil = {f"lubricant_{name}": value for name, value in case.oil.items() if name not in plan.axes}
-    subject = Configuration(case.model, case.screw, case.lubricant)
     if to is not None and is_store(to):
-        swept = Swept.of(subject, tuple(names), varied | fixed)
+        swept = _swept(case, plan, tuple(names))
         return stream(swept, to, done=done, cluster=cluster, attributes=oil, verify=verify, trust=trust)
     if to is not None:  # files of all kinds have the same bits, whatever is compiled already
-        return sweeps.in_memory(
-            Swept.of(subject, tuple(names), varied | fixed, later=True), done=done, recorded=True
-        ).assign_attrs(oil)
+        return sweeps.in_memory(_swept(case, plan, tuple(names), later=True), done=done, recorded=True).assign_attrs(
+            oil
+        )
     # what is only looked at may be quicker; balls that differ count how often they are asked for
     few = math.prod(len(values) for values in plan.axes.values()) <= FEW_POINTS and not case.screw.nut.one_by_one
     dataset = sweeps.sweep(

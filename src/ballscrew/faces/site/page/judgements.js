@@ -75,7 +75,7 @@ function computedAt(engine, contents, { structure, start, inputs }) {
   }
   const found = engine.evaluate(structure, varied, places.length + 1);
   const beside = Object.fromEntries(places.map((name, place) => [name, at(found, place + 1)]));
-  const outputs = at(found, 0);
+  const outputs = { ...at(found, 0), ...engine.liftOff(structure, inputs) };
   const [model, kind] = structure.split("/");
   const other = judging.checked_as[kind];
   if (other === undefined) return { outputs, ...beside, checked: outputs };

@@ -25,6 +25,8 @@ const ROOM_OF_BALL = 16;
 /** What each ball has of the solved loads, and what the nut has, in the order of the solver. */
 const OF_BALLS = ["forward_load", "backward_load", "forward_angle", "backward_angle"];
 const OF_STATE = ["deflection", "rigidity", "remaining_preload"];
+/** The search for the load that lifts off: steps at most, and how near to it, in units of itself. */
+const LIFT_OFF = { steps: 60, tolerance: 1e-10 };
 
 /**
  * A whole number that is no less than this one, and a multiple.
@@ -223,8 +225,37 @@ function loadsOf(kernel, solver, parts, values, count) {
   [...OF_STATE, "residual"].forEach((name, k) => {
     ofNut[name] = spread(found[OF_BALLS.length + k], places, those, 1, count);
   });
-  ofNut.lift_off_load = spread(numbers.lift_off_load, places, those, 1, count);
   return { balls, ofBalls, ofNut };
+}
+
+/**
+ * The size of the load of this sign at which the last ball of a nut leaves the flank that the load relieves: a search
+ * along the deflection of the ball that is pressed the most there, which falls nearly in a straight line.
+ * @param {Kernel} kernel
+ * @param {Kernel} solver
+ * @param {ByBall} parts
+ * @param {Values} values at one point
+ */
+function liftOffLoad(kernel, solver, parts, values) {
+  const preload = kernel.evaluate(parts.numbers, values, 1).preload[0];
+  if (!(preload > 0)) return 0;
+  const isBackwards = Number(values.axial_load) < 0;
+  /** @param {number} size */
+  const pressed = (size) => {
+    const { ofBalls } = loadsOf(kernel, solver, parts, { ...values, axial_load: isBackwards ? -size : size }, 1);
+    return Math.max(...ofBalls[isBackwards ? "forward_load" : "backward_load"]) ** (2 / 3);
+  };
+  let [before, low, high] = [0, preload / 2, Number.POSITIVE_INFINITY];
+  let [pressedBefore, pressedLow] = [pressed(before), pressed(low)];
+  for (let step = 0; step < LIFT_OFF.steps; step++) {
+    const along = low + (pressedLow * (low - before)) / (pressedBefore - pressedLow);
+    const size = along > low && along < high ? along : (low + high) / 2;
+    if (Math.min(size, high) - low <= LIFT_OFF.tolerance * size) return size;
+    const left = pressed(size);
+    if (left > 0) [before, pressedBefore, low, pressedLow] = [low, pressedLow, size, left];
+    else high = size;
+  }
+  return Number.NaN;
 }
 
 /**
@@ -344,6 +375,18 @@ export class Engine {
     const kernel = this.#loaded(one.file);
     if (one.by_ball === undefined) return kernel.evaluate(one, values, count);
     return evaluateByBall(kernel, this.#loaded(this.contents.solver), one.by_ball, values, count);
+  }
+
+  /**
+   * The load that lifts the balls of a nut with elastic bodies off; other nuts have it among their outputs.
+   * @param {string} structure
+   * @param {Values} values at one point
+   * @returns {Record<string, number>}
+   */
+  liftOff(structure, values) {
+    const { file, by_ball: parts } = this.#structure(structure);
+    if (parts === undefined) return {};
+    return { lift_off_load: liftOffLoad(this.#loaded(file), this.#loaded(this.contents.solver), parts, values) };
   }
 
   /**
