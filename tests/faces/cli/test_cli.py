@@ -195,7 +195,7 @@ def test_every_example(path, tmp_path, ballscrew):
         process = ballscrew(command, path)
         assert process.returncode == 0, process.stderr
         # an example whose range is cold says so
-        assert [line for line in process.stderr.splitlines() if not line.startswith("beware  starvation: ")] == []
+        assert [line for line in process.stderr.splitlines() if not line.startswith("warning  starved: ")] == []
     text = path.read_text(encoding="utf-8")
     uncommented = re.sub(r"^# (\[model\]|[\w.]+ = )", r"\1", text, flags=re.MULTILINE)
     assert uncommented.count("=") > text.count("\n#") > 0
@@ -224,7 +224,7 @@ def test_sweep_of_the_reference_model(example, ballscrew):
     light = dict(zip(outputs, map(float, rows[1][2:]), strict=True))
     assert (light["self_locking"], light["valid"]) == (1, 0)
     assert light["rolling_share"] < 1
-    assert process.stderr.startswith("beware: 1 of 2 points")
+    assert process.stderr.startswith("warning  valid: 1 of 2 points")
 
 
 def test_a_grade_instead_of_a_viscosity(example, tmp_path, ballscrew):
@@ -269,7 +269,7 @@ def test_what_is_not_finite_is_an_empty_cell_and_what_is_not_valid_is_said(examp
     assert rows[1] == ["0.0", "", ""]
     assert float(rows[2][2]) == pytest.approx(float(paper_result(bs.FrictionModel.olaru2005()).back_driving_efficiency))
     assert process.stderr.startswith(
-        "beware: 2 of 4 points lie outside the model's validity (skid 2, elastic_regime 1)"
+        "warning  valid: 2 of 4 points lie outside the model's validity (skid 2, elastic_regime 1)"
     )
 
 

@@ -72,7 +72,7 @@ def test_the_document(fit, logs, tmp_path):
     assert "JanotGautierBrunot2019" in found["provenance"]["references"]
     assert len(found["provenance"]["sha256"]) == 64
     # readings fill the panel of the force over time, and a curve of that of the friction runs near zero
-    shown = drawn(tmp_path / "fit.svg", legends_over_curves=2)
+    shown = drawn(tmp_path / "fit.svg")
     for words in ("force at the nut [N]", "time [s]"):
         assert words in shown.text
 

@@ -302,7 +302,8 @@ def _in_words(value: float, quantity: Quantity, digits: int, toward: int) -> str
 
 def document(sheet: Sheet) -> dict[str, Any]:
     """A sheet as JSON: each block with its kind, each number with its value in SI and its unit."""
-    return {"title": sheet.title, "blocks": [{"kind": block.kind, **_data(block)} for block in sheet.blocks]}
+    blocks = [block for block in sheet.blocks if not isinstance(block, Lines) or block.lines]
+    return {"title": sheet.title, "blocks": [{"kind": block.kind, **_data(block)} for block in blocks]}
 
 
 def _data(part: Any) -> Any:
@@ -317,6 +318,8 @@ def _data(part: Any) -> Any:
         return {"share": _data(part.value), "bar": part.bar, "is_change": part.is_change, **band}
     if dataclasses.is_dataclass(part):
         return {field.name: _data(getattr(part, field.name)) for field in dataclasses.fields(part)}
+    if hasattr(part, "tolist"):  # an array of NumPy, or a number of its own
+        return _data(part.tolist())
     if isinstance(part, float):
         return part if math.isfinite(part) else None
     if isinstance(part, str | bool | int | None):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import sys
 from collections.abc import Generator, Mapping, Sequence
 from pathlib import Path
@@ -13,6 +14,7 @@ import typer
 from ballscrew.faces.cli.common_options import (
     AllowCode,
     AsJson,
+    AsSheet,
     CalibrationName,
     CaseFile,
     KeepGoing,
@@ -25,6 +27,7 @@ from ballscrew.faces.cli.common_options import (
     cases_of_rows,
     check_rows,
     log_on_stderr,
+    print_answer,
     say_engine,
     say_of_rows,
 )
@@ -65,6 +68,7 @@ def sweep(
         bool, typer.Option("--trust", help="Write into a .zarr that belongs to another user, who can change it.")
     ] = False,
     as_json: AsJson = False,
+    as_sheet: AsSheet = False,
     model: ModelName = None,
     calibration: CalibrationName = None,
     settings: Settings = None,
@@ -88,16 +92,18 @@ def sweep(
     """
     from ballscrew.cases.case_files import case_file
     from ballscrew.faces.cli.progress import progress
+    from ballscrew.faces.sheets.terminal import line_text
     from ballscrew.questions.shared.option_values import read
     from ballscrew.questions.sweep import compute as studies
+    from ballscrew.questions.sweep import sheet as sheets
     from ballscrew.questions.sweep import table as sweep_files
-    from ballscrew.questions.sweep import text
 
     check_rows(rows, row)
     options = read(SweepOptions, written)
     banded = options.is_banded
     _check_self_heating(self_heating, rows, scheduler)
-    _check_beside(banded, as_json, rows if row is None else None, self_heating)
+    options_of_one = {"--band": banded, "--json": as_json, "--sheet": as_sheet}
+    _check_beside(options_of_one, rows if row is None else None, self_heating)
     if rows is None:
         loaded = case_file.load(case, settings or [], model, calibration=calibration, allow_code=allow_code)
     else:
@@ -123,21 +129,20 @@ def sweep(
             dataset = with_band(loaded, plan, dataset, options.of_bands, done, recorded=to is not None, inner=inner)
     if verbose:
         say_engine(dataset.attrs)
-    if as_json:
-        from ballscrew.basis.output import json_text
+    if as_json or as_sheet:
         from ballscrew.questions.sweep import document as documents
 
-        typer.echo(json_text.as_json(documents.document(loaded, plan, dataset)))
+        seen = sheets.sheet(loaded, plan, dataset, to)
+        document = functools.partial(documents.document, loaded, plan, dataset)
+        print_answer(seen, document, as_json=as_json, as_sheet=as_sheet)
     elif to is None:
         sweep_files.write_csv(sys.stdout, dataset, plan)
     if to is not None:
         if not studies.is_store(to):
             sweep_files.write(dataset, plan, to)
-        typer.echo(f"{to}: {text.size(dataset, plan)}, model {loaded.model.label}", err=as_json)
-    if self_heating:
-        typer.echo(text.assumed(dataset), err=True)
-    if beware := text.warning(loaded, plan, dataset, to):
-        typer.echo(beware, err=True)
+        typer.echo(f"{to}: {sheets.size(dataset, plan)}, model {loaded.model.label}", err=as_json or as_sheet)
+    for line in [*sheets.assumed(dataset), *sheets.warnings(loaded, plan, dataset, to)]:
+        typer.echo(line_text(line), err=True)
 
 
 def _check_self_heating(asked: bool, rows: Path | None, scheduler: str | None) -> None:
@@ -159,15 +164,15 @@ def _check_self_heating(asked: bool, rows: Path | None, scheduler: str | None) -
     )
 
 
-def _check_beside(banded: bool, as_json: bool, rows: Path | None, self_heating: bool) -> None:
+def _check_beside(asked: Mapping[str, bool], rows: Path | None, self_heating: bool) -> None:
     """Raise :class:`~ballscrew.basis.errors.InputError` for a band and a document beside what does not know them."""
     from ballscrew.basis.errors import Fault, raise_if_any
 
     faults: list[Fault] = []
-    for option, asked in {"--band": banded, "--json": as_json}.items():
-        if asked and rows is not None:
+    for option, is_asked in asked.items():
+        if is_asked and rows is not None:
             faults.append(Fault(option, "is of one screw", str(rows), "choose one: --row NAME"))
-    if banded and self_heating:
+    if asked["--band"] and self_heating:
         remedy = "leave one of them out, or see ballscrew run --band --self-heating"
         faults.append(Fault("--band", "is given beside --self-heating", "", remedy))
     raise_if_any(faults)
@@ -184,9 +189,10 @@ def _of_rows(
 ) -> None:
     """The sweeps of all rows as one dataset."""
     from ballscrew.faces.cli.progress import progress
+    from ballscrew.faces.sheets.terminal import line_text
     from ballscrew.questions.sweep import rows as sweep_rows
     from ballscrew.questions.sweep import table as sweep_files
-    from ballscrew.questions.sweep import text
+    from ballscrew.questions.sweep.sheet import size, warnings
 
     planned = sweep_rows.plans(cases.found, vary, wanted, to, keep_going)
     with progress("sweep") as done:
@@ -196,13 +202,13 @@ def _of_rows(
         sweep_files.write_csv(sys.stdout, dataset, plan)
     else:
         sweep_files.write(dataset, plan, to)
-        typer.echo(f"{to}: {text.size(dataset, plan)}, {dataset.sizes[sweep_rows.SCREW]} screws")
+        typer.echo(f"{to}: {size(dataset, plan)}, {dataset.sizes[sweep_rows.SCREW]} screws")
     for place, own in swept.found.items():
         if verbose:
             say_engine(own.attrs)
         row_case, of_row = planned.found[place]
-        if beware := text.warning(row_case.case, of_row, own, to):
-            typer.echo("\n".join(f"{row_case.row.name}: {line}" for line in beware.splitlines()), err=True)
+        for line in warnings(row_case.case, of_row, own, to):
+            typer.echo(f"{row_case.row.name}: {line_text(line)}", err=True)
     say_of_rows([*cases.notes, *planned.notes, *swept.notes], swept.interrupted)
 
 

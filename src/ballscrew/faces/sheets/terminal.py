@@ -17,13 +17,15 @@ def text(sheet: Sheet, encoding: str = "utf-8") -> str:
     bar = "█" if "utf" in encoding.lower() else "#"
     lines = [wrapped(sheet.title)]
     for block in sheet.of_kind(Lines, Table):
-        shown = [_line(line) for line in block.lines] if isinstance(block, Lines) else list(_table(block, bar))
+        is_text = isinstance(block, Lines)
+        shown = [wrapped(line_text(line)) for line in block.lines] if is_text else list(_table(block, bar))
         lines += ["", *shown] if shown else []
     return "\n".join(lines)
 
 
-def _line(line: Line) -> str:
-    return wrapped(f"warning  {line.name}: {line.text}" if line.kind == "warning" else line.text)
+def line_text(line: Line) -> str:
+    """A line of a sheet; a warning has its name before it."""
+    return f"warning  {line.name}: {line.text}" if line.kind == "warning" else line.text
 
 
 def _table(table: Table, bar: str) -> Iterator[str]:
