@@ -20,7 +20,7 @@ from ballscrew.questions.duty.compute import duty as duty_of
 from ballscrew.questions.duty.sheet import sheet as duty_sheet
 from ballscrew.questions.run import document as run_documents
 from ballscrew.questions.run.compute import run
-from ballscrew.questions.run.sheet import SHOWN, results_table
+from ballscrew.questions.run.sheet import SHOWN, in_full_bath, results_table
 from ballscrew.questions.service import compute as service
 from ballscrew.questions.service import document as service_documents
 from ballscrew.questions.sweep import compute as sweep
@@ -113,9 +113,13 @@ def test_the_band_holds_both_torques_that_are_named(load):
     assert found.starvation
     assert both.low <= found.screw_torque < found.flooded_torque == report.flooded_torque <= both.high
     assert "inlet" in report.band.alternatives
-    rows = {name: words(number) for name, number in results_table(run(case), SHOWN).rows}
-    assert rows["friction torque on the screw"] == f"{found.screw_torque:.4g} N m"
-    assert rows["friction torque on the screw in a full bath of oil"] == f"{found.flooded_torque:.4g} N m"
+    rows = {name: [*map(words, numbers)] for name, *numbers in results_table(run(case), SHOWN).rows}
+    assert rows["friction torque on the screw"] == [f"{found.screw_torque:.4g} N m", f"{found.flooded_torque:.4g} N m"]
+    # beside each result that of the model in a full bath
+    operation = {name: getattr(case.operation, name) for name in ("axial_load", "screw_speed")}
+    flooded = case.model.in_full_bath(case.screw, case.lubricant, **operation)
+    for name, value in in_full_bath(run(case)).items():
+        assert value == pytest.approx(float(getattr(flooded, name)), rel=1e-9), name
 
 
 def tables_of_duty(temperature, *settings):

@@ -108,10 +108,8 @@ def _warnings(run: Run) -> list[Record]:
 
 
 def results_table(run: Run, names: Sequence[str], bands: Mapping[str, OutputBand] | None = None) -> Table:
-    """Results by name, the torque of a full bath of oil beside a starved one, and the nut without load."""
+    """Results by name, those in a full bath of oil beside starved ones, and the nut without load."""
     names = [name for name in names if name in run.quantities]
-    if run.friction.starvation:
-        names.insert(1, "flooded_torque")
     if not float(run.friction.axial_load) and "holding_torque" in names:
         names.remove("holding_torque")  # there is nothing to hold, as the verdict says
     rows: list[list[Cell]] = [
@@ -125,12 +123,38 @@ def results_table(run: Run, names: Sequence[str], bands: Mapping[str, OutputBand
         ]
         for name in names
     ]
+    if run.friction.starvation:
+        flooded = in_full_bath(run)
+        for name, row in zip(names, rows, strict=True):
+            row.append(Number(flooded[name], run.quantities[name]) if name in flooded else "")
     for label, torque in unloaded_rows(run):
         rows.append([label, Number(torque, _TORQUE)])
     for name, value in ({} if run.nut is None else run.nut.drag_coefficients).items():
         if math.isfinite(value):
             rows.append([_RESULT[name].info.meaning, Number(value, _RESULT[name])])
-    return Table("results", "Torque and efficiency", ("", "value"), rows, rules_contradict(run))
+    columns = ("", "value", *(["in a full bath of oil"] if run.friction.starvation else []))
+    rows = [[*row, *[""] * (len(columns) - len(row))] for row in rows]
+    return Table("results", "Torque and efficiency", columns, rows, rules_contradict(run))
+
+
+def in_full_bath(run: Run) -> dict[str, float]:
+    """What of the results of a starved screw depends on its friction, in a full bath of oil, by name.
+
+    By the ideal torque T_i and the friction T_f there: T_i ± T_f drives or holds, η = T_i / (T_i + T_f) and back
+    1 - T_f / T_i.
+    """
+    friction = run.friction
+    names = ("ideal_torque", "screw_torque", "flooded_torque", "drive_torque", "holding_torque", "friction_power")
+    ideal, starved, flooded, drive, holding, power = (float(getattr(friction, name)) for name in names)
+    more = flooded - starved
+    drive, holding = (torque + math.copysign(more, torque - ideal) for torque in (drive, holding))
+    values = {"screw_torque": flooded, "drive_torque": drive, "holding_torque": holding}
+    values["friction_power"] = power * flooded / starved
+    if math.isfinite(float(friction.efficiency)) and drive:
+        values["efficiency"] = ideal / drive
+    if math.isfinite(float(friction.back_driving_efficiency)):
+        values["back_driving_efficiency"] = holding / ideal
+    return values
 
 
 def unloaded_rows(run: Run) -> list[tuple[str, float]]:
