@@ -416,6 +416,7 @@ def test_citations_survive_without_docstrings(ballscrew, example):
 def test_warnings_of_libraries_reach_the_terminal_only_where_python_is_asked_for_them(asked, shown, monkeypatch):
     monkeypatch.setattr(sys, "warnoptions", asked)
     monkeypatch.setattr(program, "command_line", lambda: lambda: np.ones(1) / np.zeros(1))
+    monkeypatch.setitem(sys.modules, "dask", None)  # what a command does to its own process ends with this test
     with warnings.catch_warnings(record=True) as seen:
         warnings.simplefilter("always")
         program.main()
