@@ -15,6 +15,7 @@ from ballscrew.basis.output.json_text import plain
 from ballscrew.basis.output.sheet import Sheet
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.faces.sheets import files as sheet_files
+from ballscrew.faces.sheets import terminal, to_file
 from ballscrew.physics.equations import geometry
 from ballscrew.questions.check.compute import checked
 from ballscrew.questions.optimise import compute
@@ -22,14 +23,12 @@ from ballscrew.questions.optimise import search as searches
 from ballscrew.questions.optimise.design_model import DesignModel
 from ballscrew.questions.optimise.design_space import design_space, makeable_ratios
 from ballscrew.questions.optimise.document import document
-from ballscrew.questions.optimise.figure import picture
+from ballscrew.questions.optimise.sheet import cost, sheet
 from ballscrew.questions.optimise.table import of_optimisation
-from ballscrew.questions.optimise.text import cost, text
 from ballscrew.questions.select import requirement_checks
 from ballscrew.questions.select.need import need_of
 from ballscrew.questions.select.objectives import OBJECTIVES
 from ballscrew.questions.select.pareto import front
-from ballscrew.questions.shared import chart_files as files
 from support.commands import ROOT
 
 EXAMPLE = ROOT / "examples" / "needs" / "feed_axis.toml"
@@ -260,10 +259,10 @@ def test_a_need_that_nothing_fulfils_ends_in_words(tmp_path):
     options = {"population": 8, "generations": 2, "engine": "numpy", "settings": ["optimise.elastic_generations=1"]}
     found = bs.optimise(tables, **options)
     assert found.members == []
-    assert "no design within the bounds passes all checks" in text(found)
+    assert "no design within the bounds passes all checks" in terminal.text(sheet(found))
     assert json.loads(json.dumps(plain(document(found))))["candidates"] == []
     sheet_files.write(tmp_path / "empty.csv", Sheet("", [of_optimisation(found.members)]))
-    files.draw(lambda: picture(found), tmp_path / "empty.svg")
+    to_file.write(tmp_path / "empty.svg", sheet(found))
 
 
 @needs_pymoo

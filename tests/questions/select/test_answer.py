@@ -8,11 +8,12 @@ from ballscrew.basis.quantities import quantities_of
 from ballscrew.cases.case_files.makers_rules import by_rules
 from ballscrew.faces.sheets import files
 from ballscrew.faces.web.documents import selection
-from ballscrew.questions.select import document, table, text
+from ballscrew.questions.select import document, table
 from ballscrew.questions.select.answer import BrakeOfNeed, MotorTorque, OfMotion, OneCandidate, OneObjective
 from ballscrew.questions.select.compute import Plan, plan
 from ballscrew.questions.select.objectives import OBJECTIVES
 from ballscrew.questions.select.response import Candidate, Select
+from ballscrew.questions.select.sheet import beside_rules
 from ballscrew.questions.shared import declared
 from support.answers import undescribed, without_unit
 
@@ -66,7 +67,7 @@ def test_the_best_stands_beside_the_rules_of_makers():
     }
     found = bs.select({**need, "nut": {"type": "double", "preload": "5 %"}})
     assert found.best is not None
-    (line,) = text.beside_rules(found)
+    (line,) = beside_rules(found)
     assert line.startswith("1: drag torque without seals ")
     assert "HIWIN, its maker, " in " ".join(line.split())
     of_best = found.best.checked.run
@@ -77,7 +78,7 @@ def test_the_best_stands_beside_the_rules_of_makers():
         assert cells[f"torque without load by {one.rule.label} [N m]"] == pytest.approx(one.torque, rel=1e-9)
     single = bs.select({**need, "nut": {"type": "single"}})
     assert single.best is not None
-    assert text.beside_rules(single) == []
+    assert beside_rules(single) == []
 
 
 def test_answers_are_valid_by_their_schema(found):

@@ -15,6 +15,7 @@ import ballscrew as bs
 from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.cli.progress import progress
+from ballscrew.faces.sheets import terminal
 from ballscrew.questions.select import case_text
 from ballscrew.questions.select import compute as selection
 from ballscrew.questions.select.candidates import BY_LOADS, NEARLY, USUAL_LIFE
@@ -23,7 +24,7 @@ from ballscrew.questions.select.need import need_of
 from ballscrew.questions.select.need_motion import OF_MOTION
 from ballscrew.questions.select.pareto import front
 from ballscrew.questions.select.requirement_checks import kept_preload
-from ballscrew.questions.select.text import cost, text
+from ballscrew.questions.select.sheet import cost, sheet
 from support.commands import ROOT
 from support.pictures import drawn
 
@@ -93,7 +94,7 @@ def test_the_motor_accelerates_the_shaft_that_the_list_prints(ballscrew, tmp_pat
     assert counted - without == pytest.approx(steel * 3.6 * math.tau / 0.020, rel=1e-9)
     said = {one["id"]: one["text"] for one in mine["verdicts"]}["verdict.inertia"]
     assert said.endswith("not given: motor, coupling")
-    printed = " ".join(text(found, [only]).split())
+    printed = " ".join(terminal.text(sheet(found, [only])).split())
     assert "1: what turns has 8.081 kg cm^2 at the motor: screw (a cylinder of 32 mm" in printed
 
 
@@ -115,12 +116,12 @@ def test_the_list_names_what_each_was_compared_with():
     found = bs.select(need)
     (only,) = found.ranked
     assert verdict(only.candidate).startswith("cannot hold: diameter speed product 1.8 times an estimated limit")
-    printed = " ".join(text(found, found.ranked).split())
-    assert "compared with diameter speed product 70000 mm rpm; of standard nuts in general (THK514E" in printed
+    printed = " ".join(terminal.text(sheet(found, found.ranked)).split())
+    assert "compared with: diameter speed product 70000 mm rpm; of standard nuts in general (THK514E" in printed
     assert "it may be more: 1 candidates 1 fail by an estimated limit alone" in printed
     given = bs.select({**need, "limits": {"diameter_speed_product": "100000 mm rpm"}})
     assert verdict(given.ranked[0].candidate).startswith("cannot hold: diameter speed product 1.26 times")
-    assert "estimated" not in text(given, given.ranked)
+    assert "estimated" not in terminal.text(sheet(given, given.ranked))
 
 
 #: Checks that loads, speeds and sizes decide.
@@ -347,10 +348,11 @@ def test_a_vertical_axis_lists_its_motor_and_its_brake(ballscrew, tmp_path):
     ):
         assert float(row[heading]) == pytest.approx(number, rel=1e-9)
     lines = ballscrew("select", need, "--complete").stdout.splitlines()
-    assert "motor, largest" in lines[2]
-    assert "motor, RMS" in lines[2]
-    assert "brake holds" in lines[2]
-    assert lines[3].count("N m") == 3
+    place = next(number for number, line in enumerate(lines) if line.startswith("candidate "))
+    assert "motor, largest" in lines[place]
+    assert "motor, RMS" in lines[place]
+    assert "brake holds" in lines[place]
+    assert lines[place + 1].count("N m") == 3
 
 
 def test_the_motor_of_a_starved_cycle_is_listed_by_the_larger_torque(ballscrew, tmp_path):
@@ -375,7 +377,8 @@ def test_the_motor_of_a_starved_cycle_is_listed_by_the_larger_torque(ballscrew, 
         row = next(csv.DictReader(stream))
     assert float(row["motor torque peak [N m]"]) == pytest.approx(full["torque_peak"], rel=1e-9)
     assert float(row["motor torque rms [N m]"]) == pytest.approx(full["torque_rms"], rel=1e-9)
-    line = ballscrew("select", need, "--complete").stdout.splitlines()[3]
+    lines = ballscrew("select", need, "--complete").stdout.splitlines()
+    line = next(line for line in lines if line.startswith("  1"))
     shown = [f"{full[name]:.4g} N m" for name in ("torque_peak", "torque_rms")]
     assert [cell.strip() for cell in line.split("  ") if cell.strip() in shown] == shown
 
@@ -406,7 +409,7 @@ def test_the_larger_torque_of_a_starved_oil_ranks():
     for each in answer["candidates"]:
         assert each["starved"]
         assert "lubricant.starved" in [one["id"] for one in [*each["warnings"], *each["verdicts"]]]
-    assert "in a full bath of oil" in " ".join(text(found, found.ranked).split())
+    assert "in a full bath of oil" in " ".join(terminal.text(sheet(found, found.ranked)).split())
     warm = bs.select({**need, "speed": "100 rpm", "temperature": "60 degC"})
     assert not any(each.candidate.starved for each in warm.ranked)
     assert not document(warm)["warnings"]
@@ -503,12 +506,14 @@ def test_a_stroke_and_the_nut_are_the_unsupported_length():
 
 def test_why_none_holds_stands_at_the_top():
     tables = {"force": "2 kN", "feed": "10 m/min", "nut": "single"}
-    lines = text(found := bs.select(tables, words="hiwin-40-20k4"), found.ranked).splitlines()
+    lines = terminal.text(sheet(found := bs.select(tables, words="hiwin-40-20k4"), found.ranked)).splitlines()
     assert lines[0] == "need: 0 of 1 candidates hold"
-    assert lines[1].startswith("1 of them fail no check, but a candidate holds only once all are judged: give install")
+    assert lines[2].startswith("1 of them fail no check, but a candidate holds only once all are judged: give install")
     assert sum("only once all" in line for line in lines) == 1
-    failing = text(found := bs.select({**tables, "force": "900 kN"}, words="hiwin-40-20k4"), found.ranked)
-    assert failing.splitlines()[1] == ""
+    failing = terminal.text(
+        sheet(found := bs.select({**tables, "force": "900 kN"}, words="hiwin-40-20k4"), found.ranked)
+    )
+    assert failing.splitlines()[2].startswith("a candidate holds only once all checks are judged: give installation")
 
 
 def test_a_duty_is_judged_by_its_cycle(ballscrew, tmp_path):
@@ -538,7 +543,7 @@ def test_a_load_that_takes_the_preload_away_is_a_check_that_fails():
     assert 0.8 * elastic < limit < elastic
     assert f"preload lost (rigid bodies: above {float(f'{limit:.4g}'):g} N)" in mine["verdict"]
     assert mine["case"]["operation"]["screw_speed"] == "15 m/min"  # as typed: the lead makes the speed of it
-    assert mine["verdict"].rpartition("; ")[2] in " ".join(text(found, found.ranked).split())
+    assert mine["verdict"].rpartition("; ")[2] in " ".join(terminal.text(sheet(found, found.ranked)).split())
     lighter = document(bs.select({**tables, "force": f"{0.9 * limit} N"}))["candidates"][0]
     assert lighter["rigid_lift_off_load"] is None
     assert "preload" not in lighter["verdict"]
@@ -646,7 +651,7 @@ def test_tables_pictures_and_own_rows(ballscrew, tmp_path):
     torque = [each["objectives"]["drive_torque"] for each in document["candidates"]]
     assert [float(row["drive torque [N m]"]) for row in written] == pytest.approx(torque, rel=1e-9)
     shown = drawn(picture)
-    for words in ("power lost to friction", "(W)", "moment of inertia", "0 of 4 candidates hold"):
+    for words in ("power lost to friction", "[W]", "moment of inertia", "0 of 4 candidates hold"):
         assert words in shown.text
     words = ballscrew("select", need, "--rows", rows, "--first", "1").stdout
     assert "oil ISO VG 100: none was given" in words

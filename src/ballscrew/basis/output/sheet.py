@@ -116,6 +116,8 @@ class Curve:
     style: Literal["line", "dashed", "dotted", "dots", "circles", "area"] = "line"
     #: Drawn on the second axis.
     second: bool = False
+    #: Texts beside its first points.
+    labels: Sequence[str] = ()
 
 
 @dataclasses.dataclass(frozen=True)

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, ModelName
+from ballscrew.faces.cli.common_options import AllowCode, AsSheet, CalibrationName, ModelName, print_answer
 from ballscrew.faces.cli.flags import flags_of
 from ballscrew.faces.cli.select import Need, check_file, check_spared, objectives_of
 from ballscrew.questions.optimise.options import OptimiseOptions
@@ -28,6 +28,7 @@ def optimise(
         typer.Option("--set", metavar="SECTION.FIELD=VALUE", help="Change a value: --set optimise.nut=single."),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object with the members, SI units.")] = False,
+    as_sheet: AsSheet = False,
     to: Annotated[
         list[Path] | None,
         typer.Option(
@@ -44,12 +45,12 @@ def optimise(
     The need is that of ballscrew select; its table [optimise] has bounds and objectives. Each member is evaluated by
     the full model and all checks. Needs the extra optimise.
     """
-    from ballscrew.basis.output.json_text import as_json as json_text
     from ballscrew.faces.cli.progress import progress
+    from ballscrew.faces.sheets import to_file
     from ballscrew.questions.optimise import document as documents
-    from ballscrew.questions.optimise import text
     from ballscrew.questions.optimise.compute import optimise as optimised
     from ballscrew.questions.optimise.compute import plan
+    from ballscrew.questions.optimise.sheet import cost, sheet
     from ballscrew.questions.shared.option_values import read
 
     check_spared(to or [], need, settings=settings or [])
@@ -62,20 +63,10 @@ def optimise(
         "settings": settings or [],
         "model": model, "calibration": calibration, "allow_code": allow_code,
     }  # fmt: skip
-    with progress("designs", text.cost(plan(need, **asked))) as done:
+    with progress("designs", cost(plan(need, **asked))) as done:
         found = optimised(need, seed=options.seed, done=done, **asked)
-    typer.echo(json_text(documents.document(found)) if as_json else text.text(found))
+    seen = sheet(found)
+    print_answer(seen, lambda: documents.document(found), as_json=as_json, as_sheet=as_sheet)
     for path in to or []:
-        from ballscrew.basis.output.sheet import Sheet
-        from ballscrew.faces.sheets import files
-        from ballscrew.questions.optimise.table import of_optimisation
-        from ballscrew.questions.shared import row_tables
-
-        if path.suffix.lower() in row_tables.KINDS:
-            files.write(path, Sheet("", [of_optimisation(found.members)]))
-        else:
-            from ballscrew.questions.optimise import figure as optimisation
-            from ballscrew.questions.shared import chart_files
-
-            chart_files.draw(lambda: optimisation.picture(found), path, _TO)
+        to_file.write(path, seen, option=_TO)
         typer.echo(f"{path}: {len(found.members)} designs", err=True)

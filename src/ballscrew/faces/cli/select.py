@@ -8,12 +8,21 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ballscrew.faces.cli.common_options import AllowCode, CalibrationName, KeepGoing, ModelName, say_of_rows
+from ballscrew.faces.cli.common_options import (
+    AllowCode,
+    AsSheet,
+    CalibrationName,
+    KeepGoing,
+    ModelName,
+    print_answer,
+    say_of_rows,
+)
 from ballscrew.faces.cli.flags import flags_of
 from ballscrew.questions.select.options import ListOptions, SelectOptions
 
 if TYPE_CHECKING:
     from ballscrew.basis.errors import InputError
+    from ballscrew.basis.output.sheet import Sheet
     from ballscrew.questions.select.compute import Ranked, Selection
 
 _TO = "--to"
@@ -42,6 +51,7 @@ def select(
         typer.Option("--set", metavar="SECTION.FIELD=VALUE", help='Change a value: --set need.feed="20 m/min".'),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object with all candidates, SI units.")] = False,
+    as_sheet: AsSheet = False,
     to: Annotated[
         list[Path] | None,
         typer.Option(
@@ -61,12 +71,11 @@ def select(
     exit code is 0 where none holds, too: the list says what fails, and by how much. With --to FILE.toml the case of one
     candidate is written, with all tables of the need, for duty, axis, warm-up, run and report.
     """
-    from ballscrew.basis.output.json_text import as_json as json_text
     from ballscrew.faces.cli.progress import progress
     from ballscrew.questions.select import document as documents
-    from ballscrew.questions.select import text
     from ballscrew.questions.select.compute import plan
     from ballscrew.questions.select.compute import select as selected
+    from ballscrew.questions.select.sheet import cost, sheet
     from ballscrew.questions.shared.option_values import read
 
     options, listed = read(SelectOptions, written), read(ListOptions, written)
@@ -78,7 +87,7 @@ def select(
         raise _no_such_rank(listed.rank, planned.candidates)
     for path in to or []:  # last, as it makes folders
         check_file(path, _CASE)
-    with progress("candidates", text.cost(planned)) as done:
+    with progress("candidates", cost(planned)) as done:
         found = selected(
             need,
             rows=rows,
@@ -95,15 +104,15 @@ def select(
     kept = [
         each for each in found.ranked if (each.candidate.fits or not listed.holds) and (each.pareto or not listed.front)
     ]
-    if as_json:
-        document = documents.document(found)
-        ranks = {each.rank for each in kept}
-        document["candidates"] = [each for each in document["candidates"] if each["rank"] in ranks]
-        typer.echo(json_text(document))
-    else:
-        typer.echo(text.text(found, kept, listed.first))
+
+    def document() -> dict[str, Any]:
+        whole, ranks = documents.document(found), {each.rank for each in kept}
+        return {**whole, "candidates": [each for each in whole["candidates"] if each["rank"] in ranks]}
+
+    seen = sheet(found, kept, listed.first)
+    print_answer(seen, document, as_json=as_json, as_sheet=as_sheet)
     for path in sorted(to or [], key=_is_case):  # a case that is missing keeps no table back
-        said = _written(path, found, kept, listed.rank)
+        said = _written(path, found, kept, listed.rank, seen)
         typer.echo(f"{path}: {said}", err=True)
     say_of_rows(found.notes, found.interrupted)
 
@@ -119,30 +128,20 @@ def _check_rank(to: Sequence[Path], rank: int | None) -> None:
         raise InputError(Fault("--rank", "names no file", str(rank), "add --to axis.toml"))
 
 
-def _written(path: Path, found: Selection, kept: Sequence[Ranked], rank: int | None) -> str:
+def _written(path: Path, found: Selection, kept: Sequence[Ranked], rank: int | None, seen: Sheet) -> str:
     """Write a file of a selection, and return what is in it."""
-    from ballscrew.questions.shared import row_tables
+    if not _is_case(path):
+        from ballscrew.faces.sheets import to_file
 
-    if _is_case(path):
-        from ballscrew.questions.select import case_text
-        from ballscrew.questions.select.document import verdict
+        to_file.write(path, seen, option=_TO)
+        return f"{len(kept)} candidates"
+    from ballscrew.questions.select import case_text
+    from ballscrew.questions.select.document import verdict
 
-        chosen = _chosen(path, found, kept, rank)
-        said = verdict(chosen.candidate)
-        case_text.save(path, found, chosen, said)
-        return f"{chosen.candidate.variant.label}, rank {chosen.rank}: {said}"
-    if path.suffix.lower() in row_tables.KINDS:
-        from ballscrew.basis.output.sheet import Sheet
-        from ballscrew.faces.sheets import files
-        from ballscrew.questions.select.table import of_selection
-
-        files.write(path, Sheet("", [of_selection(kept)]))
-    else:
-        from ballscrew.questions.select import figure as selection
-        from ballscrew.questions.shared import chart_files as files
-
-        files.draw(lambda: selection.picture(found), path, _TO)
-    return f"{len(kept)} candidates"
+    chosen = _chosen(path, found, kept, rank)
+    text = verdict(chosen.candidate)
+    case_text.save(path, found, chosen, text)
+    return f"{chosen.candidate.variant.label}, rank {chosen.rank}: {text}"
 
 
 def _chosen(path: Path, found: Selection, kept: Sequence[Ranked], rank: int | None) -> Ranked:

@@ -26,7 +26,7 @@ _STYLES: Mapping[str, Mapping[str, Any]] = {
     "dots": {"linestyle": "", "marker": ".", "markersize": 4},
     "circles": {"linestyle": "", "marker": "o", "markerfacecolor": "none", "markersize": 4},
 }
-_TITLE_CHARACTERS, _LABEL_SIZE, _SHADE, _CONTOURS, _HATCH = 100, 8.0, 0.15, 12, "/////"
+_TITLE_CHARACTERS, _LABEL_CHARACTERS, _LABEL_SIZE, _SHADE, _CONTOURS, _HATCH = 100, 32, 8.0, 0.15, 12, "/////"
 #: Inches: the height of a chart in a picture and on a page of a report, and how wide a page is.
 _CHART, _PAGE_CHART, _PAGE_WIDTH = 2.7, 2.1, 7.1
 #: More bars than these have a row of their own, with inches for each and for what is above and below.
@@ -145,7 +145,8 @@ def _mark(panel: Axes, mark: Level | Vertical, block: Chart | Map, **style: Any)
 
 
 def _axes(panel: Axes, block: Chart | Map) -> None:
-    panel.set(xlabel=_label(block.x), ylabel=_label(block.y), title=block.title)
+    ylabel = textwrap.fill(_label(block.y), _LABEL_CHARACTERS)
+    panel.set(xlabel=_label(block.x), ylabel=ylabel, title=block.title)
     panel.set(xscale="log" if block.x.log else "linear", yscale="log" if block.y.log else "linear")
     if block.x.least is not None:
         panel.set_xlim(left=float(_shown(block.x.least, block.x)))
@@ -164,6 +165,10 @@ def _curve(panel: Axes, curve: Curve, x: Axis, y: Axis) -> None:
         panel.fill_between(*points, color=colour, alpha=0.5, label=label)
     else:
         panel.plot(*points, color=colour, label=label, **_STYLES[curve.style])
+    for text, x_of_text, y_of_text in zip(curve.labels, *points, strict=False):
+        if math.isfinite(x_of_text) and math.isfinite(y_of_text):
+            place = (float(x_of_text), float(y_of_text))
+            panel.annotate(text, place, xytext=(4, 3), textcoords="offset points", fontsize=_LABEL_SIZE)
 
 
 def _bars(panel: Axes, block: Bars) -> None:
