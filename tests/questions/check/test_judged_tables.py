@@ -4,11 +4,10 @@ import dataclasses
 from pathlib import Path
 
 import pytest
-from tests.support.message_templates import calls, has_words
+from tests.support.message_templates import calls
 
 from ballscrew.basis import units
 from ballscrew.cases.case_files import case_file
-from ballscrew.faces.web import languages
 from ballscrew.physics.friction.verdicts import PRELOAD_ABOVE_RATING
 from ballscrew.physics.sizing.checks import judged as number_judged
 from ballscrew.physics.sizing.judged import JUDGED, documents, judged
@@ -144,20 +143,3 @@ def test_all_records_of_a_run_have_rows():
     assert {one for one in literal if one.startswith(("verdict.", "validity.", "check.", "run."))} == {"verdict.checks"}
     assert "verdict.checks" in ROWS
     assert len(ROWS) == len(JUDGED)
-
-
-def templates(sentences):
-    for one in sentences:
-        yield one["template"]
-        for place in one["places"].values():
-            yield from templates(place.get("sentences", ()))
-            if "template" in (constant := place.get("constant", ())) and not isinstance(constant, str):
-                yield constant["template"]
-
-
-@pytest.mark.parametrize("language", [name for name in languages.texts() if name != "en"])
-def test_every_template_is_translated(language):
-    known = languages.texts()[language]
-    found = {template for row in ROWS.values() for template in templates(row["sentences"])} | {TABLES["not_checked"]}
-    assert len(found) > 40
-    assert {one for one in found if has_words(one) and f"message.{one}" not in known} == set()

@@ -126,7 +126,7 @@ function changesOf(place) {
   const { designs: all, own } = store.state;
   const { changes = {}, tables: sections = {} } = all[place] ?? {};
   const ofFields = Object.entries(changes).map(([path, value]) => {
-    const change = `${labelOf(path)}: ${value === "" ? text("form.not_given") : units.inLanguage(value)}`;
+    const change = `${labelOf(path)}: ${value === "" ? text("form.not_given") : value}`;
     const counts = own || place === 0 || !path.startsWith("operation.");
     return counts ? change : text("compare.not_counted", { change });
   });

@@ -20,7 +20,7 @@ export function show(drawing) {
 }
 
 /**
- * Put the messages of a drawing into their places, in the language and the units of the page.
+ * Put the messages of a drawing into their places, in the units of the page.
  *
  * @param {SVGSVGElement} whole
  * @param {Message[]} messages

@@ -2,7 +2,7 @@
 
 import { element } from "./dom.js";
 import { translated } from "./messages.js";
-import { helpIn, labelIn } from "./fields.js";
+import { labelIn } from "./fields.js";
 import { fieldOf } from "./schema.js";
 import { symbol } from "./symbols.js";
 import { text, textOr } from "./texts.js";
@@ -73,7 +73,7 @@ function follow(place, target) {
  */
 function show(place, path) {
   const { description = "", "x-symbol": tex, "x-hint": hint } = fieldOf(path) ?? {};
-  const help = helpIn(path, description);
+  const help = description;
   const advice = translated(hint ?? "");
   place.hidden = false;
   place.replaceChildren(

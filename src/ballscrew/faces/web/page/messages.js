@@ -1,9 +1,9 @@
-// Messages of the server: templates with their values, filled in the language and the units of the page.
+// Messages of the server: templates with their values, filled in the units of the page.
 
 import { labelIn, words } from "./fields.js";
 import { OF_CARDS, SECTIONS } from "./schema.js";
 import { filledIn, textOr } from "./texts.js";
-import { formattedIn, inLanguage, inSystem, symbol, withPowers } from "./units.js";
+import { formattedIn, inSystem, symbol, withPowers } from "./units.js";
 
 /**
  * The name of a field as the form labels it.
@@ -27,11 +27,11 @@ function nameOf(path) {
   const name = path.slice(path.lastIndexOf(".") + 1);
   const sections = [...Object.keys(SECTIONS), ...Object.keys(OF_CARDS)];
   const keys = [path, name, ...sections.map((section) => `${section}.${name}`)].map((one) => `field.${one}.label`);
-  return [`record.${path}`, ...keys, `fit.number.${name}`].reduceRight((other, key) => textOr(key, other), words(name));
+  return [...keys, `fit.number.${name}`].reduceRight((other, key) => textOr(key, other), words(name));
 }
 
 /**
- * A message in the language of the page, with its numbers in the current units.
+ * A message with its numbers in the current units.
  *
  * @param {Message} message
  * @returns {string}
@@ -73,14 +73,12 @@ function setting(path) {
 }
 
 /**
- * A record in the language of the page.
+ * A record in words.
  *
  * @param {VerdictRecord} record
  */
-export function ofRecord({ message: { template, values }, subject }) {
-  // a message about a field has its meaning as the form has it
-  const meaning = "meaning" in values ? textOr(`field.${subject}.help`, "") : "";
-  return said({ template, values: meaning ? { ...values, meaning } : values });
+export function ofRecord({ message }) {
+  return said(message);
 }
 
 /**
@@ -92,7 +90,7 @@ export function inWords({ where, given, messages: { problem, given: told, remedy
   if (!problem) return "";
   const own = textOr(`fault.${where}: ${problem.template}`, textOr(`fault.${problem.template}`, ""));
   if (own) return filled(own, problem.values);
-  const value = told ? said(told) : inLanguage(given);
+  const value = told ? said(told) : given;
   const advice = remedy ? said(remedy).trim() : "";
   return `${said(problem)}${value ? ` (${value})` : ""}${advice ? `: ${advice}` : ""}`;
 }
@@ -112,7 +110,7 @@ export function withPlace(fault) {
 }
 
 /**
- * A literal text of the schema in the language of the page.
+ * A literal text of the schema.
  *
  * @param {string} english
  */

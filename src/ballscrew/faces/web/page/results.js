@@ -4,7 +4,7 @@ import { inHeadline, isStarved } from "./bath.js";
 import { verdict } from "./checks.js";
 import { byId, element, table, update, write } from "./dom.js";
 import { ofRecord, said } from "./messages.js";
-import { text, textOr } from "./texts.js";
+import { text } from "./texts.js";
 import * as units from "./units.js";
 
 /** Results of the first table. */
@@ -76,7 +76,7 @@ function isOfContact(record) {
  * @param {{ id: string }} record
  */
 export function nameOf({ id }) {
-  return textOr(`record.${id}`, id.slice(id.indexOf(".") + 1).replaceAll(/[._]/g, " "));
+  return id.slice(id.indexOf(".") + 1).replaceAll(/[._]/g, " ");
 }
 
 /**

@@ -160,11 +160,11 @@ export function setUp(holder) {
     /** @param {"hours" | "rest"} name @param {string} option */
     const hours = (name, option) => {
       const id = `warm-${name}`;
-      const input = textField(
-        units.inLanguage(heat[name]),
-        (typed) => changeHeat({ [name]: units.ofLanguage(typed.trim()) }),
-        { inputmode: "decimal", id, "aria-describedby": `${id}-fault` },
-      );
+      const input = textField(heat[name], (typed) => changeHeat({ [name]: units.inASCII(typed.trim()) }), {
+        inputmode: "decimal",
+        id,
+        "aria-describedby": `${id}-fault`,
+      });
       return element(
         "div",
         { class: "field", "data-path": option },
