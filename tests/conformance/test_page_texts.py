@@ -46,7 +46,6 @@ ALLOWED = {
                    "replaceAll(NOT_IN_FILES": ADDRESSES, 'path.split(".")': PATHS, 'one.split(".")': PATHS},
     "dom.js": {'/[",\\n]/.test(text)': "a cell of CSV"},
     "downloads.js": {"address.replace(": ADDRESSES},
-    "drawing.js": {'words.split(" ")': "lines that are broken at blanks"},
     "fields.js": {"const BARE = ": TYPED, "BARE.exec(typed)": TYPED, 'name.replaceAll("_", " ")': NAMES,
                   'path.replaceAll(".", "-")': PATHS},
     "form.js": {'where.split(".")': PATHS},

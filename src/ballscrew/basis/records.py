@@ -202,8 +202,7 @@ class Record:
     subject: str
     #: One sentence for people, with its units.
     text: str
-    #: The text as a template with its values, to be shown in any unit and language.
-    #: The rooms that face people make the text from it in display units.
+    #: The text as a template with its values: the rooms that face people make the text from it in display units.
     message: Message
     severity: Severity = "info"
     holds: bool | None = None
@@ -219,7 +218,7 @@ class Record:
     def document(self) -> dict[str, Any]:
         """The record as it stands in JSON."""
         names = ("id", "subject", "value", "unit", "limit", "holds", "severity", "text")
-        return {**{name: getattr(self, name) for name in names}, "message": self.message.document()}
+        return {name: getattr(self, name) for name in names}
 
 
 def documents(records: Iterable[Record]) -> list[dict[str, Any]]:

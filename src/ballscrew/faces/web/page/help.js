@@ -1,7 +1,6 @@
 // Help for the field that has the focus: what its annotation says, and the page of the theory.
 
 import { element } from "./dom.js";
-import { translated } from "./messages.js";
 import { labelIn } from "./fields.js";
 import { fieldOf } from "./schema.js";
 import { symbol } from "./symbols.js";
@@ -74,7 +73,7 @@ function follow(place, target) {
 function show(place, path) {
   const { description = "", "x-symbol": tex, "x-hint": hint } = fieldOf(path) ?? {};
   const help = description;
-  const advice = translated(hint ?? "");
+  const advice = hint ?? "";
   place.hidden = false;
   place.replaceChildren(
     element("p", {}, element("strong", {}, labelIn(path)), symbol(tex), help ? `: ${help}` : ""),

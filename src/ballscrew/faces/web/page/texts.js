@@ -34,6 +34,6 @@ export function textOr(key, other, values = {}) {
  * @param {string} pattern
  * @param {(name: string) => string | number | undefined} value
  */
-export function filledIn(pattern, value) {
+function filledIn(pattern, value) {
   return pattern.replace(PLACEHOLDER, (placeholder, name) => String(value(name) ?? placeholder));
 }

@@ -243,10 +243,9 @@ export function inDisplayUnit(name, value) {
  * @param {number | null | undefined} value
  * @param {string} unit
  * @param {number} count
- * @param {number} [toward]
  */
-function withUnit(value, unit, count, toward) {
-  const text = digits(value, count, toward);
+function withUnit(value, unit, count) {
+  const text = digits(value, count);
   return unit && text !== "–" ? `${text}\u00a0${symbol(unit)}` : text; // units do not wrap
 }
 
@@ -266,12 +265,11 @@ export function formatted(name, value, count = DIGITS) {
  * @param {number | null | undefined} value
  * @param {string} metric
  * @param {string} si
- * @param {number} [toward] as of digits
  */
-export function formattedIn(value, metric, si, count = DIGITS, toward = 0) {
-  if (si === "1") return digits(value, count, toward);
+export function formattedIn(value, metric, si, count = DIGITS) {
+  if (si === "1") return digits(value, count);
   const unit = inSystem(metric);
-  return withUnit(value === null || value === undefined ? value : fromSI(value, unit, si), unit, count, toward);
+  return withUnit(value === null || value === undefined ? value : fromSI(value, unit, si), unit, count);
 }
 
 const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";
