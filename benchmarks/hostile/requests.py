@@ -41,7 +41,7 @@ CLIENTS, SLOW = 8, 20
 USUAL = 20
 #: Addresses that take logs, and the field of each.
 WITH_FILES = {"log": "log", "fit": "log", "service": "worn"}
-ADDRESSES = ("run", "sweep", "compare", "band", "toml", "drawing", "drawing/template", *WITH_FILES, "hand-over")
+ADDRESSES = ("run", "sweep", "compare", "band", "toml", "drawing", *WITH_FILES, "hand-over")
 PATHS = (
     "/", "/api", "/api/v1", "/api/v1/", "/api/v1/run", "/api/v1/run/", "/api/v1/catalogue", "/api/v1/catalogue/%2e%2e",
     "/api/v1/schema",

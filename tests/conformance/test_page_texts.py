@@ -16,7 +16,7 @@ _EXPRESSION = re.compile(r"(?:^|[=(:,\[&|!?]|return)\s*/(?![/*])\S")
 _COMMENT = re.compile(r"/\*.*?\*/|^\s*//[^\n]*$", re.DOTALL | re.MULTILINE)
 
 PATHS = "the path of a field, or a name in one"
-NAMES = "a name of the API in words, where the language has none"
+NAMES = "a name of the API in words"
 TYPED = "what people typed"
 NUMBERS = "the digits of a number"
 ADDRESSES = "an address, a fragment or a file name"
@@ -46,7 +46,6 @@ ALLOWED = {
                    "replaceAll(NOT_IN_FILES": ADDRESSES, 'path.split(".")': PATHS, 'one.split(".")': PATHS},
     "dom.js": {'/[",\\n]/.test(text)': "a cell of CSV"},
     "downloads.js": {"address.replace(": ADDRESSES},
-    "drawing.js": {'words.split(" ")': "lines that are broken at blanks"},
     "fields.js": {"const BARE = ": TYPED, "BARE.exec(typed)": TYPED, 'name.replaceAll("_", " ")': NAMES,
                   'path.replaceAll(".", "-")': PATHS},
     "form.js": {'where.split(".")': PATHS},
@@ -67,14 +66,12 @@ ALLOWED = {
                  'path.split(".")': PATHS, ".test(text.trim())": TYPED},
     "stiffness.js": {'path.split(".")': PATHS, 'path.replace(".", "-")': PATHS},
     "symbols.js": {"tex.replace(": "TeX of a symbol", ".exec(text)": "TeX of a symbol"},
-    "texts.js": {"const PLACEHOLDER = ": "places of values in a template", "pattern.replace(PLACEHOLDER": "the same",
-                 "digits.replace(": NUMBERS, "path=/; max-age": "an attribute of a cookie"},
+    "texts.js": {"const PLACEHOLDER = ": "places of values in a template", "pattern.replace(PLACEHOLDER": "the same"},
     "views.js": {'pane.split(".")': ADDRESSES, '"").split(" ")': ADDRESSES},
-    "units.js": {"const NUMBER = ": TYPED, "const COMMA = ": TYPED, "const LEADING = ": TYPED, '".": /': TYPED,
-                 '",": /': TYPED, "text.replace(COMMA": TYPED, "/[1-9]/.test(before)": TYPED,
-                 "plain.replace(LEADING": TYPED, '.replaceAll("\\u': TYPED, ".replace(/[\\uff01": TYPED,
-                 "text.replace(LEADING": TYPED, "GROUPS[other].test(number)": TYPED, "number.replace(/[.,]/g": TYPED,
-                 "number.replaceAll(mark": TYPED, "NUMBER.exec(": TYPED, "toExponential()": NUMBERS,
+    "units.js": {"const NUMBER = ": TYPED, "const COMMA = ": TYPED,
+                 "text.replace(COMMA": TYPED, "/[1-9]/.test(before)": TYPED,
+                 '.replaceAll("\\u': TYPED, ".replace(/[\\uff01": TYPED,
+                 "NUMBER.exec(": TYPED, "toExponential()": NUMBERS,
                  "written.replace(": NUMBERS, "/e(\\d+)/": NUMBERS},
 }  # fmt: skip
 

@@ -8,8 +8,6 @@ const { judgedAt, recordsOf, textOf } = await import(pathToFileURL(`${page}/judg
 const { ballAt } = await import(pathToFileURL(`${page}/ball.js`));
 const { contents, points } = JSON.parse(await readFile(`${folder}/points.json`, "utf8"));
 const engine = new Engine(contents, async (file) => WebAssembly.compile(await readFile(`${folder}/${file}`)));
-const texts = contents.texts.de;
-const german = { say: (template) => texts[template] ?? template, digits: (text) => text.replace(".", ",") };
 const written = (found) => Object.fromEntries(Object.entries(found).map(([name, value]) => [name, String(value)]));
 const found = [];
 for (const point of points) {
@@ -18,7 +16,6 @@ for (const point of points) {
   const records = recordsOf(contents, judged);
   for (const one of [...records.verdicts, ...records.warnings, ...records.checks, records.all]) {
     one.text = textOf(contents, one.message);
-    one.german = textOf(contents, one.message, german);
   }
   const { inputs, outputs } = judged.sources;
   const places = ballAt(engine, contents, { structure: point.structure, inputs, outputs });

@@ -21,7 +21,6 @@ declare global {
   type Mechanisms = Vocabulary["mechanisms"];
   type VerdictRecord = Schemas["Record"];
   type DrawingAnswer = Schemas["Drawing"];
-  type Message = Schemas["Message"];
   type ProblemDocument = Schemas["Problem"];
   type FaultLine = Schemas["FaultLine"];
   type CatalogueRow = Schemas["Row"];

@@ -103,9 +103,8 @@ class Fault:
         return template.of(field=self.field, **values)
 
     def document(self) -> dict[str, Any]:
-        """The fault as it stands in JSON: its texts, and as templates what people read in other languages."""
+        """The fault as it stands in JSON."""
         problem, given, remedy = self.parts
-        templates = {"problem": message_of(self.problem), "given": self.given, "remedy": message_of(self.remedy)}
         return {
             "where": self.field,
             "path": _one_line(_cut(self.where)),
@@ -115,10 +114,6 @@ class Fault:
             "problem": problem,
             "given": given,
             "remedy": remedy,
-            "messages": {
-                name: None if isinstance(text, str) or not text.template else text.document()
-                for name, text in templates.items()
-            },
         }
 
     def changed(self, change: Callable[[Value], Value]) -> Fault:

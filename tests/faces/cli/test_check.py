@@ -330,9 +330,9 @@ def test_every_check_says_its_source(ballscrew):
     assert {check["source"] for check in rated} <= {"read", "recalled", "estimate"}
     by_name = {check["name"]: check for check in rated}
     assert by_name["life"]["source"] == by_name["running_time"]["source"] == "recalled"
-    assert by_name["life"]["source_message"] == {"template": "by formulas as recalled", "values": {}}
+    assert by_name["life"]["source_text"] == "by formulas as recalled"
     for name in ("contact_pressure", "shaft_stress", "buckling", "critical_speed"):
-        assert (by_name[name]["source"], by_name[name]["source_message"]) == ("read", None)
+        assert (by_name[name]["source"], by_name[name]["source_text"]) == ("read", None)
 
 
 def test_a_recalled_check_that_passes_says_so(ballscrew):

@@ -99,12 +99,10 @@ def visit(browser, request):
     visits: list[Visit] = []
     contexts: list[Any] = []
 
-    def one(
-        *, width: int = 1440, height: int = 900, scheme: str = "light", language: str = "en-GB", at: str = ""
-    ) -> Visit:
+    def one(*, width: int = 1440, height: int = 900, scheme: str = "light", at: str = "") -> Visit:
         at = at or request.getfixturevalue("address")
         size = {"width": width, "height": height}
-        contexts.append(browser.new_context(viewport=size, color_scheme=scheme, locale=language))
+        contexts.append(browser.new_context(viewport=size, color_scheme=scheme, locale="en-GB"))
         page = contexts[-1].new_page()
         page.set_default_timeout(60_000)
         visits.append(Visit(page, at))

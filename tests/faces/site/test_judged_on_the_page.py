@@ -8,8 +8,7 @@ import pytest
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.report.contact_geometry import drawn_ball
 from ballscrew.faces.report.drawing_section import BALL, RADIUS, Groove
-from ballscrew.faces.site import judging, kinds
-from ballscrew.faces.web import languages
+from ballscrew.faces.site import kinds
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
 from ballscrew.physics.sizing.judged import JUDGED, judged, outputs
@@ -223,17 +222,6 @@ def test_the_cases_say_much(found):
     assert {("check.buckling", True), ("check.buckling", None), ("check.running_time", False)} <= holds
 
 
-def test_the_sentences_are_translated(page, found):
-    german = languages.texts()["de"]
-    for template in judging.templates(page.contents):
-        if f"message.{template}" in german:
-            assert page.contents["texts"]["de"][template] == german[f"message.{template}"]
-    texts = {one["id"]: one["german"] for one in found["lost preload"]["records"]["verdicts"]}
-    assert "Vorspannung" in texts["verdict.preload_lost"]
-    written = {one["id"]: one["german"] for one in found["preload above the rating"]["records"]["warnings"]}
-    assert "0,277" in written["run.preload_above_rating"]  # a share, with the decimal sign of the language
-
-
 # -- the drawing ----------------------------------------------------------------------------------
 
 
@@ -334,19 +322,6 @@ def test_what_is_given_wrongly_is_marked_and_not_taken(visit):
     field.fill("")
     field.blur()
     assert field.get_attribute("aria-invalid") == "false"
-
-
-def test_the_panel_is_german_where_its_visitor_is(visit):
-    here = visit(language="de-DE").open(f"#start={DOUBLE_OF_PAGE}&axial_load=30000").rest()
-    words = here.page.locator("#checks").inner_text()
-    assert "Prüfungen" in words
-    assert "statische Tragzahl" in words
-    assert "nicht geführt" not in words  # said once, by the word before
-    assert "10⁶ Umdrehungen" in words
-    assert "“Laufzeit”" in words  # what is to be given, by the name of its field
-    assert "Vorspannung aufgehoben" in here.page.locator("#verdicts").inner_text()
-    here.page.locator("#ball").scroll_into_view_if_needed()
-    assert "Kontaktwinkel" in here.rest(700).page.locator("#ball").inner_text()
 
 
 def test_the_ball_is_drawn(visit):

@@ -337,35 +337,6 @@ def test_the_scheme_is_chosen_and_kept(visit):
     assert here.page.locator("html").get_attribute("data-scheme") == "dark"
 
 
-def english_words():
-    """All that the page says in its own words."""
-    found = set()
-    for one in PAGE.iterdir():
-        text = one.read_text(encoding="utf-8") if one.name.endswith((".js", ".html")) else ""
-        found |= set(re.findall(r'\bsay\(\s*"([^"]+)"', text))
-        found |= set(re.findall(r'\b(?:heading|hint|words|title): "([^"]+)"', text))
-        found |= set(re.findall(r'data-(?:say|label)="([^"]+)"', text))
-        if one.name in ("headline.js", "fan.js"):
-            found |= set(re.findall(r'\["\w+", "([^"]+)"\]', text))
-    return found
-
-
-def test_the_page_is_german_where_its_visitor_is(visit):
-    here = visit(language="de-DE").open(DOUBLE)
-    here.rest()
-    german = here.page.evaluate("globalThis.ballscrewSite.contents.texts.de")
-    contents = here.page.evaluate("globalThis.ballscrewSite.contents")
-    named = [f"field.{one['path']}.{part}" for one in contents["fields"].values() for part in ("label", "help")]
-    named += [f"reason.{name}" for name in contents["reasons"]] + [f"kind.{name}" for name in contents["kinds"]]
-    named += [name.replace("contribution_", "mechanism.") for name in contents["results"] if "contribution_" in name]
-    assert [one for one in (*english_words(), *named) if one not in german] == []
-    assert here.page.locator("html").get_attribute("lang") == "de"
-    assert "," in here.page.locator("#torque").inner_text()
-    here.page.locator("#language").select_option("en")
-    assert here.page.locator("#over-speed h2").inner_text() == "Where the torque comes from, over the speed"
-    assert "." in here.page.locator("#torque").inner_text()
-
-
 def test_there_is_no_formula_in_the_page():
     allowed = {"max", "min", "PI", "abs", "floor", "ceil", "round", "log10"}
     for one in PAGE.iterdir():

@@ -15,7 +15,6 @@ from ballscrew.faces.web.request_queue import RequestQueue
 from ballscrew.faces.web.server import application
 from faces.web.test_equal_to_commands import document, written
 from support.documents import assert_same
-from support.filled_messages import as_printed
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 
@@ -87,7 +86,7 @@ def test_fit(post, folders, tmp_path):
     body = {"case": case, "free": ["boundary_friction_coefficient", "constant_torque"],
             "bounds": {"constant_torque": "0:1 N m"}}  # fmt: skip
     found = post("fit", {**body, "log": sent("C:\\logs/rig log.csv", text)})
-    extra = {name: found.pop(name) for name in ("words", "display", "picture", "calibrated")}
+    extra = {name: found.pop(name) for name in ("words", "picture", "calibrated")}
     assert_same(found, expected)
     assert tomllib.loads(extra["calibrated"]["toml"]) == extra["calibrated"]["case"] == tomllib.loads(to.read_text())
     one = found["estimates"]["boundary_friction_coefficient"]
@@ -95,10 +94,10 @@ def test_fit(post, folders, tmp_path):
     picture = extra["picture"]
     assert len({len(values) for values in picture.values() if isinstance(values, list)}) == 1
     assert picture["kinds"].count("held_out") == found["rows"]["held_out"]
-    words, display = extra["words"], extra["display"]
+    words = extra["words"]
     assert words["next_test"][0].startswith("next test: ")
-    assert words["next_test"] == [as_printed(one) for one in display["next_test"]]
-    assert words["trade_off"] == as_printed(display["trade_off"])
+    assert words["trade_off"]
+    assert words["rows"]
 
 
 def test_columns(post, folders):
@@ -147,12 +146,12 @@ def test_service(post, folders, tmp_path):
     expected = document("service", *paths, "--case", written(case, tmp_path), "--json", "--tolerance", "0.2")
     files = {name: sent(f"{name}.csv", text) for name, text in texts.items()}
     found = post("service", {"case": case, "tolerance": 0.2, **files})
-    extra = {name: found.pop(name) for name in ("words", "display", "picture")}
+    extra = {name: found.pop(name) for name in ("words", "picture")}
     assert_same(found, expected)
     assert found["results"]["verdict"] == "lost"
     assert set(extra["picture"]) == {"new", "worn"}
     assert extra["words"]["title"] == "new.csv, worn.csv"
-    assert extra["words"]["causes"] == [as_printed(one) for one in extra["display"]["causes"]]
+    assert extra["words"]["causes"]
 
 
 @pytest.mark.parametrize(("target", "name"), [("c", "c.zip"), ("linuxcnc", "ballscrew.hal")])
@@ -166,7 +165,7 @@ def test_hand_over(post, folders, tmp_path, target, name):
     case = written(body["case"], tmp_path)
     expected = document("hand-over", case, "--to", target, "--range", "axial_load=-4:4 kN", "-o", out, "--json")
     found = post("hand-over", body)
-    file, words, display = (found.pop(name) for name in ("file", "words", "display"))
+    file, words = (found.pop(name) for name in ("file", "words"))
     files = found["results"].pop("files")
     assert expected["results"].pop("files") == [str(out / one) for one in files]
     assert_same(found, expected)
@@ -181,7 +180,7 @@ def test_hand_over(post, folders, tmp_path, target, name):
         assert content == (out / files[0]).read_bytes()
     assert words["lines"][0].startswith("range")
     lines = [line.strip() for line in words["lines"] if not line.startswith("warning: ")]
-    assert lines == [as_printed(one) for one in display["lines"]]
+    assert lines == words["ranges"]
 
 
 def test_targets(client, post):

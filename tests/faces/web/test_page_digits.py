@@ -58,8 +58,8 @@ def test_the_headline_does_not_change_when_its_band_comes(visit, server):
     values = here.page.locator("#numbers dd data").all_inner_texts()
     assert values == shown
     sentence = here.text("#band-words summary")
-    assert f"friction torque {torque} N·m" in sentence
-    assert f"between {low} N·m and {high} N·m" in sentence
+    assert f"friction torque {torque} N m" in sentence
+    assert f"between {low} N m and {high} N m" in sentence
     case = server.get("vocabulary").json()["starts"]["paper"]["case"]
     band = server.post("band", {"case": case}).json()["band"]["screw_torque"]
     assert (low, high) == (to_digits(band["low"], toward=-1), to_digits(band["high"], toward=1))

@@ -1,7 +1,5 @@
 """The cards that take logs, and the hand-over: each walked through whole."""
 
-import re
-
 from ballscrew.faces.web.log_bodies import ServiceBody, examples_with_logs
 
 from .test_page_access import violations
@@ -127,34 +125,6 @@ def test_two_logs_tell_the_preload_that_is_left(visit, server):
     assert "tolerance" in here.text("#service .fault")
     assert not page.locator("#service [data-name=ratio]").is_visible()  # no number stands below a fault
     assert violations(here) == []
-
-
-def test_warnings_of_a_fit_and_causes_of_a_service_in_german(visit, server):
-    """They are messages with their numbers, and none of them is left in English."""
-    here = visit()
-    here.open(DOUBLE_NUT)
-    page = here.page
-    page.locator("#language").select_option("de")
-    page.wait_for_selector('html[lang="de"][data-ready]')
-    try:
-        given_logs(here)
-        page.locator("#service-start").click()
-        page.wait_for_selector("#service [data-name=ratio]")
-        assert here.text("#service [data-record='service.preload_left']").startswith("Vorspannung verloren: ")
-        causes = page.locator("#service [data-record='service.alternative']").all_inner_texts()
-        assert [cause.partition(" ")[0] for cause in causes] == ["Reibungszahl", "Viskosität", "Konstantes"]
-        assert all(re.search(r"erklärt es (ebenso gut|nicht) \(Abweichung \d", cause) for cause in causes)
-        here.open("#A=paper&band=0&view=measure")
-        page.locator("#fit-example").click(timeout=20_000)
-        page.wait_for_selector("#calibrate-fit:enabled")
-        page.locator("#free-1").uncheck()
-        page.locator("#calibrate-fit").click()
-        page.wait_for_selector("#calibrate-use")
-        warning = here.text("#calibration [data-record='fit.free_more']")
-        assert "Ist auch das konstante Moment frei, weichen die Zeilen um 0," in warning
-        assert not any(" the " in one for one in page.locator("#calibration [data-record]").all_inner_texts())
-    finally:
-        page.context.clear_cookies()
 
 
 def test_a_design_is_handed_over(visit, server):

@@ -60,23 +60,6 @@ def test_a_reversal_is_asked_for_and_refused(visit, server):
     assert violations(here) == []
 
 
-def test_a_reversal_in_german(visit):
-    here = visit(width=390, height=844)
-    try:
-        here.page.context.add_cookies([{"name": "ballscrew-language", "value": "de", "url": here.address}])
-        here.open("#A=paper&A.operation.screw_speed=6+rpm&band=0&view=nut.reversal")
-        here.page.locator("#reversal-start").click()
-        here.page.wait_for_selector("#reversal [data-name=all-90]")
-        answered(here, "reversal")
-        warning = here.text("#reversal [data-record='reversal.hypothesis']")
-        assert "ist eine Hypothese: er ist berechnet" in warning
-        assert "Bohrschlupf" in here.text("#reversal ul.legend")
-        assert here.page.locator("#reversal [lang=en]").count() == 0
-        assert here.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
-    finally:
-        here.page.context.clear_cookies()
-
-
 def test_a_ripple_with_a_fault(visit, server):
     here = visit()
     here.expected = ("status of 422",)
@@ -130,20 +113,3 @@ def test_a_ripple_with_a_fault(visit, server):
     assert number(here, "ripple", "missing-ball-range") == fault["peak_to_peak"]
     assert "torque" in here.text("#ripple [data-record='ripple.missing-ball']")
     assert violations(here) == []
-
-
-def test_a_ripple_in_german(visit):
-    here = visit(width=390, height=844)
-    try:
-        here.page.context.add_cookies([{"name": "ballscrew-language", "value": "de", "url": here.address}])
-        here.open("#A=hiwin-40-20k4&A.screw.loaded_balls=20&band=0&view=nut.ripple")
-        here.page.locator("#ripple-start").click()
-        here.page.wait_for_selector("#ripple [data-name=nut-range]")
-        answered(here, "ripple")
-        assert "Das Moment schwankt" in here.text("#ripple [data-record='ripple.size']")
-        assert "Kugeldurchgang" in here.text("#ripple table:has([data-name=order-0])")
-        assert "kein Katalog nennt sie" in here.text("#ripple .card-result > div > details")
-        assert here.page.locator("#ripple [lang=en]").count() == 0
-        assert here.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
-    finally:
-        here.page.context.clear_cookies()

@@ -7,7 +7,6 @@ import json
 import httpx
 
 from ballscrew.basis.output.json_text import plain
-from ballscrew.basis.records import message_of
 from ballscrew.faces.web import server as servers
 from ballscrew.faces.web.request_queue import RequestQueue
 from ballscrew.questions.select.compute import select
@@ -28,8 +27,6 @@ def test_the_answer_is_the_document_of_the_command(server):
     assert found.status_code == 200, found.text[:500]
     selection = select(NEED, words="rexroth 32x10")
     answer = found.json()
-    noted = [message_of(one).document() for one in (*selection.need.notes, *selection.notes)]
-    assert answer.pop("display") == json.loads(json.dumps({"notes": noted}))
     assert answer == json.loads(json.dumps(plain(document(selection))))
 
 

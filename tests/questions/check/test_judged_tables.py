@@ -1,14 +1,14 @@
 """The tables of verdicts and checks as another program reads them: complete, and enough for every record of them."""
 
+import ast
 import dataclasses
 from pathlib import Path
 
 import pytest
-from tests.support.message_templates import calls, has_words
 
+import ballscrew
 from ballscrew.basis import units
 from ballscrew.cases.case_files import case_file
-from ballscrew.faces.web import languages
 from ballscrew.physics.friction.verdicts import PRELOAD_ABOVE_RATING
 from ballscrew.physics.sizing.checks import judged as number_judged
 from ballscrew.physics.sizing.judged import JUDGED, documents, judged
@@ -16,6 +16,7 @@ from ballscrew.questions.check.compute import checked
 from ballscrew.questions.run.compute import run
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
+SOURCE = Path(ballscrew.__file__).parent
 TABLES = documents()
 ROWS = {row["id"]: row for name in ("verdicts", "warnings", "checks", "all_checks") for row in TABLES[name]}
 #: Beginnings of the ids of records that are of inputs alone, before anything is computed: usual ranges, what a fit said
@@ -69,8 +70,10 @@ def record(row, found, words):
     }
 
 
-def without_text(records):
-    return [{name: value for name, value in one.document().items() if name != "text"} for one in records]
+def with_messages(records):
+    """Records with their messages in the place of the texts."""
+    documents = [one.document() | {"message": one.message.document()} for one in records]
+    return [{name: value for name, value in one.items() if name != "text"} for one in documents]
 
 
 @pytest.mark.parametrize("case", [*cases()])
@@ -83,7 +86,7 @@ def test_the_verdicts_of_a_run_follow_from_the_tables(case):
         for row in TABLES["verdicts"]
         if row["id"] in results and results[row["id"]].get("said", True)
     ]
-    assert without_text(found.verdicts) == expected
+    assert with_messages(found.verdicts) == expected
     conditions = {f"validity_{reason}": mask for reason, mask in found.friction.validity.items()}
     said = {name for name, one in judged(conditions).items() if one["said"]}
     assert said == {one.id for one in found.conditions if one.id.startswith("validity.")}
@@ -136,28 +139,12 @@ def test_a_preload_above_its_rating_is_said_once():
 
 def test_all_records_of_a_run_have_rows():
     """No module of runs and checks makes a record with an id of its own: of those beneath, what inputs alone tell."""
-    written = set()
-    for source, call in calls("Record", "record"):
-        if source.name.startswith(("ballscrew.questions.run", "ballscrew.questions.check", "ballscrew.physics")):
-            written |= {getattr(one.value, "value", None) for one in call.keywords if one.arg == "id"}
-    literal = {one for one in written if isinstance(one, str) and "." in one}
+    files = [file for room in ("questions/run", "questions/check", "physics") for file in (SOURCE / room).rglob("*.py")]
+    nodes = [node for file in files for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))]
+    calls = [node for node in nodes if isinstance(node, ast.Call) and isinstance(node.func, ast.Name | ast.Attribute)]
+    made = [call for call in calls if ast.unparse(call.func).rpartition(".")[2] in ("Record", "record")]
+    ids = {getattr(one.value, "value", None) for call in made for one in call.keywords if one.arg == "id"}
+    literal = {one for one in ids if isinstance(one, str) and "." in one}
     assert {one for one in literal if one.startswith(("verdict.", "validity.", "check.", "run."))} == {"verdict.checks"}
     assert "verdict.checks" in ROWS
     assert len(ROWS) == len(JUDGED)
-
-
-def templates(sentences):
-    for one in sentences:
-        yield one["template"]
-        for place in one["places"].values():
-            yield from templates(place.get("sentences", ()))
-            if "template" in (constant := place.get("constant", ())) and not isinstance(constant, str):
-                yield constant["template"]
-
-
-@pytest.mark.parametrize("language", [name for name in languages.texts() if name != "en"])
-def test_every_template_is_translated(language):
-    known = languages.texts()[language]
-    found = {template for row in ROWS.values() for template in templates(row["sentences"])} | {TABLES["not_checked"]}
-    assert len(found) > 40
-    assert {one for one in found if has_words(one) and f"message.{one}" not in known} == set()

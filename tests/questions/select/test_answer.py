@@ -7,7 +7,6 @@ from ballscrew.basis import units
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.cases.case_files.makers_rules import by_rules
 from ballscrew.faces.sheets import files
-from ballscrew.faces.web.documents import selection
 from ballscrew.questions.select import document, table
 from ballscrew.questions.select.answer import BrakeOfNeed, MotorTorque, OfMotion, OneCandidate, OneObjective
 from ballscrew.questions.select.compute import Plan, plan
@@ -82,7 +81,7 @@ def test_the_best_stands_beside_the_rules_of_makers():
 
 
 def test_answers_are_valid_by_their_schema(found):
-    answer = selection(found)
+    answer = document.document(found)
     Select.model_validate(answer)
     assert ("duty" in answer["candidates"][0]) == found.need.moves
 

@@ -9,7 +9,6 @@ import pytest
 
 from ballscrew.basis.output.sheet import Columns, Table
 from ballscrew.cases.case_files import case_file
-from ballscrew.faces.web import documents
 from ballscrew.faces.web.vocabulary import vocabulary
 from ballscrew.questions.shared import declared
 from ballscrew.questions.warm_up import compute, document, verdicts
@@ -67,7 +66,7 @@ def test_every_number_of_the_steady_state_is_on_every_face(report):
 @pytest.mark.parametrize(("settings", "starved"), [(WARM, False), (COLD, True)], ids=["warm", "starved of oil"])
 def test_answers_are_valid_by_their_schema(settings, starved):
     report = warmed_up(load(EXAMPLE, settings, None), hours=0.5)
-    found = documents.warm_up(report, document.document(report))
+    found = document.document(report)
     declared.response(WarmUpResults, "WarmUp", beside=BesideWarmUp).model_validate(found)
     assert (found["results"]["full_bath"] is not None) == starved
 

@@ -35,9 +35,9 @@ class Text:
     message: Message
     attributes: Mapping[str, str | float]
 
-    def element(self, mark: Mapping[str, str]) -> str:
-        """The element, in English."""
-        return _line_of_text(self.at, units.filled(self.message), **self.attributes, **mark)
+    def element(self) -> str:
+        """The element."""
+        return _line_of_text(self.at, units.filled(self.message), **self.attributes)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Paragraph:
 
     @property
     def lines(self) -> list[str]:
-        """The lines, in English."""
+        """The lines."""
         return textwrap.wrap(units.filled(self.message), self.characters)
 
     @property
@@ -58,11 +58,10 @@ class Paragraph:
         """The foot of the last line."""
         return self.at[1] + LINE * (len(self.lines) - 1)
 
-    def element(self, mark: Mapping[str, str]) -> str:
-        """The lines; with a mark they are a group that says how they were broken."""
+    def element(self) -> str:
+        """The lines as elements."""
         x, y = self.at
-        lines = [_line_of_text((x, y + LINE * row), line, TEXT) for row, line in enumerate(self.lines)]
-        return group(*lines, **mark, data_characters=self.characters) if mark else "\n".join(lines)
+        return "\n".join(_line_of_text((x, y + LINE * row), line, TEXT) for row, line in enumerate(self.lines))
 
 
 Part = str | Text | Paragraph
@@ -162,24 +161,10 @@ class Document:
     parts: Sequence[Part]
 
     def text(self) -> str:
-        """The drawing with English words."""
-        return self._text(None)
-
-    def marked(self) -> tuple[str, list[Message]]:
-        """The drawing, where ``data-text`` of each element with words is the place of its message in the list."""
-        messages: list[Message] = []
-        return self._text(messages), messages
-
-    def _text(self, messages: list[Message] | None) -> str:
-        def mark(message: Message) -> dict[str, str]:
-            if messages is None:
-                return {}
-            messages.append(message)
-            return {"data_text": str(len(messages) - 1)}
-
+        """The drawing as SVG."""
         about = {"title": self.title, "desc": self.description}
-        parts = [element(tag, escaped(units.filled(said)), **mark(said)) for tag, said in about.items()]
-        parts += [part if isinstance(part, str) else part.element(mark(part.message)) for part in self.parts]
+        parts = [element(tag, escaped(units.filled(said))) for tag, said in about.items()]
+        parts += [part if isinstance(part, str) else part.element() for part in self.parts]
         return element(
             "svg",
             "\n" + "\n".join(parts) + "\n",

@@ -16,7 +16,6 @@ from ballscrew.faces.site import kinds
 from ballscrew.faces.site.banding import Banding, contents_of_bands
 from ballscrew.faces.site.judging import Judging, contents_of_judging, of_start
 from ballscrew.faces.site.modules import inputs_of_module
-from ballscrew.faces.site.texts import texts
 from ballscrew.faces.web.vocabulary import vocabulary
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.sizing.catalogue import catalogue
@@ -43,7 +42,7 @@ def contents(
     known = {name: output for subject in subjects.values() for name, output in known_outputs(subject.nut).items()}
     given = {name for module in modules.values() for name in module.document["outputs"]}
     of_oils = zip(grades, oils.functions, strict=True)
-    found = {
+    return {
         "version": __version__,
         "models": {model: _values(subjects, model) for model in dict.fromkeys(model for model, _ in modules)},
         "kinds": {
@@ -64,7 +63,6 @@ def contents(
         "usual_temperature": USUAL_TEMPERATURE,
         "starts": {name: _start(name) for name in kinds.start_tables()},
     }
-    return {**found, "texts": texts(found)}
 
 
 def _described(quantity: Quantity) -> dict[str, Any]:

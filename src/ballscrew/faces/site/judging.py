@@ -257,16 +257,6 @@ def of_start(name: str) -> dict[str, Any]:
     }
 
 
-def templates(contents: Mapping[str, Any]) -> list[str]:
-    """All templates of the tables, and of the words that stand in them, to be translated."""
-    judging, checks = contents["judging"], contents["judging"]["tables"]["checks"]
-    found = [judging["tables"]["not_checked"], *judging["rating_sources"]]
-    found += [one["words"] for one in judging["ends"].values()]
-    found += _templates([judging["tables"], judging["given_limit"], *contents["starts"].values()])
-    found += [row[part] for row in checks for part in ("title", "give")]
-    return list(dict.fromkeys(one for one in found if one))
-
-
 def _without(kind: str) -> list[str]:
     """The values that such a nut has not, though they are computed."""
     chosen = kinds.KINDS[kind]
@@ -308,7 +298,3 @@ def _dicts(value: Any) -> Iterator[Mapping[str, Any]]:
     )
     for part in parts:
         yield from _dicts(part)
-
-
-def _templates(value: Any) -> list[str]:
-    return [one["template"] for one in _dicts(value) if "template" in one]

@@ -203,7 +203,7 @@ class _Asked:
         return await self._of_run(lambda found: documents.check(found, notes))
 
     async def drawing(self) -> dict[str, Any]:
-        """The drawing as a template."""
+        """The drawing."""
         return await self._of_run(documents.drawing)
 
     async def curve(self, curve: Curve) -> dict[str, Any]:

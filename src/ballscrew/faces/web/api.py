@@ -68,9 +68,9 @@ from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.faces.web.sent_files import written
 from ballscrew.physics.sizing.catalogue import catalogue as shipped
 from ballscrew.questions.axis import compute as chains
+from ballscrew.questions.axis import document as axis_documents
 from ballscrew.questions.axis.answer import ChainResults
 from ballscrew.questions.axis.options import AxisOptions
-from ballscrew.questions.axis.response import BesideChain
 from ballscrew.questions.band import compute as bands
 from ballscrew.questions.band import response as band_answers
 from ballscrew.questions.band.options import BandOptions
@@ -248,12 +248,12 @@ async def warm_up(request: Request) -> Response:
         limits.check_warm_up(case, options.samples)
         if not options.band:
             warmed = warm_ups.warmed_up(case, options.hours, options.cool_down)
-            return as_json(documents.warm_up(warmed, warm_up_documents.document(warmed)))
+            return as_json(warm_up_documents.document(warmed))
         found = warm_up_bands.band(
             case, options.hours, options.cool_down, samples=options.samples, level=options.level,
             only_given=options.only_given, done=done,
         )  # fmt: skip
-        return as_json(documents.warm_up(found.report, warm_up_documents.with_band(found)))
+        return as_json(warm_up_documents.with_band(found))
 
     return await heavy(request, work)
 
@@ -281,7 +281,7 @@ async def select(request: Request) -> Response:
                 complete=options.complete, done=done,
                 found_one=lambda one: done.row(as_bytes(selection_documents.row_document(one))),
             )  # fmt: skip
-        return as_json(documents.selection(found))
+        return as_json(selection_documents.document(found))
 
     return await heavy(request, work)
 
@@ -314,7 +314,7 @@ async def select_plan(request: Request) -> Response:
 @router.post(
     "/axis",
     openapi_extra=openapi.body(AxisBody),
-    response_model=response(ChainResults, "Chain", beside=BesideChain),
+    response_model=response(ChainResults, "Chain", beside=answer_parts.Assumed),
     responses=openapi.problems_of(),
 )
 async def axis(request: Request) -> Response:
@@ -324,7 +324,7 @@ async def axis(request: Request) -> Response:
 
     def work(_: Deadline) -> Response:
         moves = "motion" in body.case and "axis" in body.case
-        return as_json(documents.chain(chains.chain_of(case_of(body.case, moves=moves), options.at)))
+        return as_json(axis_documents.document(chains.chain_of(case_of(body.case, moves=moves), options.at)))
 
     return await heavy(request, work)
 
@@ -409,17 +409,6 @@ async def drawing(request: Request) -> Response:
     from ballscrew.faces.report.drawing import drawing as drawn
 
     return await of_body(request, lambda found: Response(drawn(found), media_type="image/svg+xml"))
-
-
-@router.post(
-    "/drawing/template",
-    openapi_extra=openapi.body(CaseBody),
-    response_model=answer_parts.Drawing,
-    responses=openapi.problems_of(),
-)
-async def drawing_template(request: Request) -> Response:
-    """The same drawing with the messages of its texts, to be shown in any units."""
-    return await of_body(request, lambda found: as_json(documents.drawing(found)))
 
 
 @router.post("/report", openapi_extra=openapi.body(ReportBody), responses=openapi.text(*KINDS.values()))

@@ -1,4 +1,4 @@
-"""Documents of the API: those of the commands, with their sentences also as messages."""
+"""Documents of the API: those of the commands, with words beside them."""
 
 from __future__ import annotations
 
@@ -9,11 +9,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ballscrew.basis import units
-from ballscrew.basis.records import Message, message_of
+from ballscrew.basis.records import Message
 from ballscrew.cases.case_files import case_file, case_messages
 from ballscrew.cases.case_files.uncertain_inputs import path_of
-from ballscrew.questions.axis import document as axis_documents
-from ballscrew.questions.axis.compute import ChainReport
 from ballscrew.questions.band import compute as bands
 from ballscrew.questions.band import document as band_documents
 from ballscrew.questions.band.sheet import input_counts
@@ -21,17 +19,12 @@ from ballscrew.questions.check import compute as checks
 from ballscrew.questions.check import document as check_documents
 from ballscrew.questions.optimise import document as optimise_documents
 from ballscrew.questions.optimise.compute import Optimisation
-from ballscrew.questions.ripple import document as ripple_documents
-from ballscrew.questions.ripple.compute import RippleReport
 from ballscrew.questions.run import compute as runs
 from ballscrew.questions.run import document as run_documents
 from ballscrew.questions.run import makers
-from ballscrew.questions.select import document as selection_documents
-from ballscrew.questions.select.compute import Selection
 from ballscrew.questions.select.objectives import OBJECTIVES
 from ballscrew.questions.sensitivity import document as sensitivity_documents
 from ballscrew.questions.sensitivity.compute import SensitivityReport
-from ballscrew.questions.warm_up.compute import WarmUpReport
 
 #: Runs that are kept: who has asked for the numbers of a case often asks for its drawing or its checks next.
 _MOST_RUNS = 4
@@ -56,22 +49,17 @@ def run_of(case: case_file.Case, tables: Mapping[str, Any]) -> runs.Run:
 
 
 def run(found: runs.Run) -> dict[str, Any]:
-    """The document of a run, and its sentences as texts and as messages."""
+    """The document of a run, and its sentences."""
     case, document = found.case, run_documents.document(found)
-    title, assumed = case_messages.title(case), case_messages.assumed(case, found.ball_to_ball_force)
     rigidity = () if found.nut is None else found.nut.rigidity.assumed
     return {
         **document,
         "words": {
-            "title": units.filled(title),
+            "title": units.filled(case_messages.title(case)),
             "verdicts": [record["text"] for record in document["verdicts"]],
-            "assumed": texts(assumed),
-        },
-        "display": {
-            "title": title.document(),
-            "assumed": messages(assumed),
-            "rigidity": messages(rigidity),
-            "rules": messages(makers.messages(case, found.nut)),
+            "assumed": texts(case_messages.assumed(case, found.ball_to_ball_force)),
+            "rigidity": list(rigidity),
+            "rules": texts(makers.messages(case, found.nut)),
         },
     }
 
@@ -81,16 +69,6 @@ def texts(said: Sequence[Message]) -> list[str]:
     return [units.filled(one) for one in said]
 
 
-def messages(said: Sequence[Message | str]) -> list[dict[str, Any]]:
-    """Messages, or texts that keep theirs, as the page fills them."""
-    return [message_of(one).document() for one in said]
-
-
-def selection(found: Selection) -> dict[str, Any]:
-    """The document of a selection, with its notes as messages."""
-    return {**selection_documents.document(found), "display": {"notes": messages([*found.need.notes, *found.notes])}}
-
-
 def check(found: runs.Run, notes: Sequence[str] = ()) -> dict[str, Any]:
     """The document of the checks of a run; a request has no name."""
     document = check_documents.document(checks.checked("", found.case, notes, known=found))
@@ -98,23 +76,20 @@ def check(found: runs.Run, notes: Sequence[str] = ()) -> dict[str, Any]:
 
 
 def drawing(found: runs.Run) -> dict[str, Any]:
-    """The ball between its grooves, as SVG with the messages of its texts."""
-    from ballscrew.faces.report.drawing import document
+    """The ball between its grooves, as SVG."""
+    from ballscrew.faces.report.drawing import drawing as drawn
 
-    text, words = document(found).marked()
-    return {"text": text, "messages": messages(words)}
+    return {"text": drawn(found)}
 
 
 def band(case: case_file.Case, found: bands.BandReport) -> dict[str, Any]:
-    """The document of a band, and its sentences as texts; the counts of its inputs as a message."""
-    counts = input_counts(found)
+    """The document of a band, and its sentences."""
     return {
         **band_documents.document(runs.run(case), found),
         "words": {
             "sentences": [verdict.text for verdict in band_documents.verdicts(case, found)],
-            "inputs": units.filled(counts),
+            "inputs": units.filled(input_counts(found)),
         },
-        "display": {"inputs": counts.document()},
     }
 
 
@@ -143,28 +118,12 @@ def _uncertain(case: case_file.Case, report: SensitivityReport, name: str) -> di
 
 
 def optimisation(found: Optimisation) -> dict[str, Any]:
-    """The document of an optimisation, its notes as messages, and all designs of the front by the search."""
+    """The document of an optimisation, and all designs of the front by the search."""
     costs = {
         name: [OBJECTIVES[name].sign * float(one) for one in found.front.costs[:, place]]
         for place, name in enumerate(found.space.objectives)
     }
     return {
         **optimise_documents.document(found),
-        "display": {"notes": messages([*found.notes])},
         "picture": {"front": costs},
     }
-
-
-def warm_up(report: WarmUpReport, document: Mapping[str, Any]) -> dict[str, Any]:
-    """The document of warming up, and what is assumed as messages."""
-    return {**document, "display": {"assumed": messages(report.assumed)}}
-
-
-def chain(report: ChainReport) -> dict[str, Any]:
-    """The document of the chain of an axis, and what is assumed as messages."""
-    return {**axis_documents.document(report), "display": {"assumed": messages(report.assumed)}}
-
-
-def ripple(report: RippleReport) -> dict[str, Any]:
-    """The document of a ripple, and what is assumed as messages."""
-    return {**ripple_documents.document(report), "display": {"assumed": messages(report.assumed)}}

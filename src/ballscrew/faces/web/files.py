@@ -16,7 +16,7 @@ from starlette.responses import Response
 from starlette.staticfiles import NotModifiedResponse, StaticFiles
 from starlette.types import Scope
 
-from ballscrew.faces.web import languages, plotly_js
+from ballscrew.faces.web import page_texts, plotly_js
 from ballscrew.faces.web.endpoint_parts import takes_gzip
 
 #: Browsers keep files, and ask each time whether they have changed.
@@ -77,12 +77,8 @@ def add_to(app: FastAPI) -> None:
         return found
 
     async def send_page(request: Request) -> Response:
-        chosen = request.cookies.get(languages.COOKIE)
-        language = languages.language_of(chosen, request.headers.get("accept-language", ""))
-        headers = {
-            "Cache-Control": _CACHE, "Content-Language": language, "Vary": "Accept-Encoding, Accept-Language, Cookie",
-        }  # fmt: skip
-        return sent(request, *_page(language), headers, "text/html")
+        headers = {"Cache-Control": _CACHE, "Vary": "Accept-Encoding"}
+        return sent(request, *_page(), headers, "text/html")
 
     app.add_api_route("/", send_page, methods=["GET", "HEAD"], include_in_schema=False)
 
@@ -100,10 +96,10 @@ def plotly_address() -> str:
 
 
 @functools.cache
-def _page(language: str) -> tuple[bytes, bytes, str]:
-    """The page in a language as it is sent, plain and compressed, and its tag."""
+def _page() -> tuple[bytes, bytes, str]:
+    """The page as it is sent, plain and compressed, and its tag."""
     text = resources.files("ballscrew.faces.web").joinpath("page", "index.html").read_text(encoding="utf-8")
-    return _tagged(languages.filled(text.replace(_PLOTLY, plotly_address()), language))
+    return _tagged(page_texts.filled(text.replace(_PLOTLY, plotly_address())))
 
 
 @functools.cache

@@ -11,12 +11,11 @@ from pathlib import PurePosixPath
 from typing import Any
 
 from ballscrew.basis import units
-from ballscrew.basis.records import Measured, Message
 from ballscrew.cases.case_files import fitted_case
 from ballscrew.cases.case_files.case import Case
 from ballscrew.evidence.service.condition_values import Condition
 from ballscrew.exports.export import Export
-from ballscrew.faces.web.documents import messages, texts
+from ballscrew.faces.web.documents import texts
 from ballscrew.questions.condition import document as condition_documents
 from ballscrew.questions.condition import points as condition_points
 from ballscrew.questions.fit import document as fit_documents
@@ -34,42 +33,32 @@ from ballscrew.questions.service.sheet import causes, names
 def fit(case: Case, tables: Mapping[str, Any], report: FitReport) -> dict[str, Any]:
     """The document of a fit, what it says in words, the rows to draw, and the case with the fitted numbers."""
     test = [] if report.next_test is None else fit_sheet.describe_next_test(report.next_test, report.model)
-    trade_off = fit_sheet.trade_off(report.model)
     calibrated = fitted_case.text_of(tables, case, report.model)
     return {
         **fit_documents.document(case, report),
         "words": {
             "title": fit_sheet.log_and_model(case, report),
-            "trade_off": units.filled(trade_off),
+            "trade_off": units.filled(fit_sheet.trade_off(report.model)),
             "next_test": texts(test),
-        },
-        "display": {
-            "trade_off": trade_off.document(),
-            "next_test": messages(test),
-            "rows": messages(_of_rows(report)),
+            "rows": _of_rows(report),
         },
         "picture": fit_points.of_fit(report.model),
         "calibrated": {"toml": calibrated, "case": tomllib.loads(calibrated)},
     }
 
 
-def _of_rows(report: FitReport) -> list[Message | str]:
+def _of_rows(report: FitReport) -> list[str]:
     """What was left out of the log and why, what is to be said of it, and what its torque was read as."""
     rows = report.model.rows
-    left_out = [
-        Message("{reason}: {count}", {"reason": Message(reason), "count": Measured(count)})
-        for reason, count in rows.log.left_out.items()
-    ]
-    return [*left_out, *rows.log.notes, Message(rows.convention.description)]
+    left_out = [f"{reason}: {count}" for reason, count in rows.log.left_out.items()]
+    return [*left_out, *rows.log.notes, rows.convention.description]
 
 
 def service(case: Case, report: ServiceReport) -> dict[str, Any]:
     """The document of a service, what it says in words, and the curves to draw."""
-    largest = causes(report)
     return {
         **service_documents.document(case, report),
-        "words": {"title": ", ".join(names(report)), "causes": texts(largest)},
-        "display": {"causes": messages(largest)},
+        "words": {"title": ", ".join(names(report)), "causes": texts(causes(report))},
         "picture": service_points.of_service(report),
     }
 
@@ -86,11 +75,10 @@ def condition(case: Case, found: Condition) -> dict[str, Any]:
 def hand_over(case: Case, export: Export) -> dict[str, Any]:
     """The document of a hand-over, and its file: that of the target, or a zip archive of them all."""
     names = [PurePosixPath(name) for name in export.files]
-    said = [one for heading, entries in hand_over_text.blocks(export) for one in (heading, *entries)]
+    ranges = [line for heading, entries in hand_over_text.blocks(export) for line in (heading, *entries)]
     return {
         **hand_over_documents.document(export, case, names),
-        "words": {"lines": hand_over_text.lines(export)},
-        "display": {"lines": messages(said)},
+        "words": {"lines": hand_over_text.lines(export), "ranges": texts(ranges)},
         "file": _file(export),
     }
 

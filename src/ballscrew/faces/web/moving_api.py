@@ -5,7 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter, Request
 from starlette.responses import Response
 
-from ballscrew.faces.web import documents, limits, openapi
+from ballscrew.faces.web import limits, openapi
 from ballscrew.faces.web.bodies import CaseBody, ReversalBody, RippleBody, case_of, read
 from ballscrew.faces.web.endpoint_parts import as_json, heavy
 from ballscrew.faces.web.request_queue import Deadline
@@ -14,10 +14,11 @@ from ballscrew.questions.reversal import document as reversal_documents
 from ballscrew.questions.reversal.answer import ReversalResults
 from ballscrew.questions.reversal.options import ReversalOptions
 from ballscrew.questions.ripple import compute as ripples
+from ballscrew.questions.ripple import document as ripple_documents
 from ballscrew.questions.ripple.answer import RippleResults
 from ballscrew.questions.ripple.options import RippleOptions
-from ballscrew.questions.ripple.response import BesideRipple
 from ballscrew.questions.shared import option_values
+from ballscrew.questions.shared.answer_parts import Assumed
 from ballscrew.questions.shared.declared import response
 
 router = APIRouter()
@@ -45,7 +46,7 @@ async def reversal(request: Request) -> Response:
 @router.post(
     "/ripple",
     openapi_extra=openapi.body(RippleBody),
-    response_model=response(RippleResults, "Ripple", beside=BesideRipple),
+    response_model=response(RippleResults, "Ripple", beside=Assumed),
     responses=openapi.problems_of(),
 )
 async def ripple(request: Request) -> Response:
@@ -59,6 +60,6 @@ async def ripple(request: Request) -> Response:
     def work(done: Deadline) -> Response:
         case = case_of(body.case)
         limits.check_ripple(case, options)
-        return as_json(documents.ripple(ripples.ripple_of(case, options, done)))
+        return as_json(ripple_documents.document(ripples.ripple_of(case, options, done)))
 
     return await heavy(request, work)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ballscrew.questions.band.answer import BandResults
 from ballscrew.questions.run.response import Document
-from ballscrew.questions.shared.answer_parts import Closed, Message
+from ballscrew.questions.shared.answer_parts import Closed
 from ballscrew.questions.shared.declared import with_answers
 
 
@@ -15,14 +15,7 @@ class BandWords(Closed):
     inputs: str
 
 
-class BandDisplay(Closed):
-    """The same as messages; the sentences are those of the verdicts."""
-
-    inputs: Message
-
-
 class Band(Document, with_answers(band=BandResults)):
     """The answer of a run with the band beside it."""
 
     words: BandWords
-    display: BandDisplay

@@ -6,7 +6,7 @@ from pydantic import Field
 
 from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.physics.sizing.catalogue import CatalogueRow
-from ballscrew.questions.shared.answer_parts import Closed, Message, Record, Tables
+from ballscrew.questions.shared.answer_parts import Closed, Record, Tables
 from ballscrew.questions.shared.declared import table_of, with_answers
 
 _LISTED, _ALL_OF_ROW = fields_of(CatalogueRow), quantities_of(CatalogueRow)
@@ -69,8 +69,7 @@ class NutEstimate(Closed):
     high: float
     unit: str
     shown_in: str = Field(description="unit that people have for it")
-    source: str = Field(description="where it is from, in English")
-    message: Message = Field(description="the same as a template with its values")
+    source: str = Field(description="where it is from")
 
 
 class OwnNut(Closed):

@@ -36,7 +36,6 @@ def _estimate(one: Estimate) -> dict[str, Any]:
         "unit": one.quantity.unit,
         "shown_in": one.quantity.shown_in,
         "source": units.filled(one.source),
-        "message": one.source.document(),
     }
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pydantic import Field
 
 from ballscrew.questions.fit.answer import FitResults
-from ballscrew.questions.shared.answer_parts import Closed, Message, Record, Tables, field
+from ballscrew.questions.shared.answer_parts import Closed, Record, Tables, field
 from ballscrew.questions.shared.declared import schema
 
 
@@ -15,14 +15,7 @@ class FitWords(Closed):
     title: str
     trade_off: str = Field(description="numbers that make up for each other")
     next_test: list[str]
-
-
-class FitDisplay(Closed):
-    """The same as messages."""
-
-    trade_off: Message
-    next_test: list[Message]
-    rows: list[Message] = Field(description="rows left out and why, notes of the log, and what its torque was read as")
+    rows: list[str] = Field(description="rows left out and why, notes of the log, and what its torque was read as")
 
 
 class Calibrated(Closed):
@@ -43,6 +36,5 @@ class Fit(schema(FitResults)):
     provenance: Tables
     assumed: list[str] = field(optional=True)
     words: FitWords
-    display: FitDisplay
     picture: Tables
     calibrated: Calibrated

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from ballscrew.questions.shared.answer_parts import Closed, Message, Record, Tables
+from pydantic import Field
+
+from ballscrew.questions.shared.answer_parts import Closed, Record, Tables
 
 
 class Choice(Closed):
@@ -39,12 +41,7 @@ class HandOverWords(Closed):
     """What a hand-over says: ranges, worst errors, warnings."""
 
     lines: list[str]
-
-
-class HandOverDisplay(Closed):
-    """Ranges and worst errors as messages; those of the warnings stand in the warnings."""
-
-    lines: list[Message]
+    ranges: list[str] = Field(description="ranges and worst errors alone")
 
 
 class HandOver(Closed):
@@ -58,5 +55,4 @@ class HandOver(Closed):
     checks: list[Record]
     provenance: Tables
     words: HandOverWords
-    display: HandOverDisplay
     file: SentContent

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pydantic import Field
 
 from ballscrew.questions.select.answer import OneObjective
-from ballscrew.questions.shared.answer_parts import Closed, Message, Numbers, Open, Provenance, Record, Tables
+from ballscrew.questions.shared.answer_parts import Closed, Numbers, Open, Provenance, Record, Tables
 from ballscrew.questions.shared.declared import with_answers
 
 
@@ -53,12 +53,6 @@ class OptimisePicture(Closed):
     front: dict[str, list[float]] = Field(description="the objectives of all designs of the front, by the search, SI")
 
 
-class OptimiseDisplay(Closed):
-    """Notes as messages."""
-
-    notes: list[Message]
-
-
 class Optimise(with_answers(objectives=Sequence[OneObjective])):
     """Free geometries for a need: the front of the best."""
 
@@ -72,7 +66,6 @@ class Optimise(with_answers(objectives=Sequence[OneObjective])):
     warnings: list[Record]
     units: Tables
     provenance: Provenance | None
-    display: OptimiseDisplay
     picture: OptimisePicture
 
 

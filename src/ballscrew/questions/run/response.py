@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from ballscrew.questions.run.answer import RunResults, VendorRows
 from ballscrew.questions.run.nut_loads import NutLoads
-from ballscrew.questions.shared.answer_parts import Closed, Message, Provenance, Record, Tables, field
+from ballscrew.questions.shared.answer_parts import Closed, Provenance, Record, Tables, field
 from ballscrew.questions.shared.declared import with_answers
 
 LOADS = (NutLoads, field("loads of the balls of a nut, SI", optional=True))
@@ -21,15 +21,8 @@ class RunWords(Closed):
     title: str
     verdicts: list[str]
     assumed: list[str]
-
-
-class RunDisplay(Closed):
-    """The same as messages; those of the verdicts stand in the verdicts."""
-
-    title: Message
-    assumed: list[Message]
-    rigidity: list[Message] = field("what the axial rigidity rests on")
-    rules: list[Message] = field("the torque without load beside the rules of makers; none of a nut without preload")
+    rigidity: list[str] = field("what the axial rigidity rests on")
+    rules: list[str] = field("the torque without load beside the rules of makers; none of a nut without preload")
 
 
 class Document(with_answers(results=RunResults, loads=LOADS, vendor_rows=VENDOR_ROWS)):
@@ -47,4 +40,3 @@ class Run(Document):
     """Friction at one operating point."""
 
     words: RunWords
-    display: RunDisplay

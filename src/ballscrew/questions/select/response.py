@@ -9,7 +9,7 @@ from pydantic import Field
 
 from ballscrew.questions.select.answer import OfMotion, OneCandidate, OneObjective
 from ballscrew.questions.select.compute import Plan as PlanOfNeed
-from ballscrew.questions.shared.answer_parts import Closed, Message, Open, Provenance, Record, Tables
+from ballscrew.questions.shared.answer_parts import Open, Provenance, Record, Tables
 from ballscrew.questions.shared.declared import schema, with_answers
 
 Plan: Any = schema(PlanOfNeed)
@@ -25,12 +25,6 @@ class Candidate(schema(OneCandidate), schema(OfMotion, optional=True), Open):
     warnings: list[Record]
 
 
-class SelectDisplay(Closed):
-    """Notes as messages."""
-
-    notes: list[Message] = Field(description="what the need assumes, and notes of a table of one's own")
-
-
 class Select(with_answers(objectives=Sequence[OneObjective])):
     """Candidates for a need, the best first."""
 
@@ -40,7 +34,6 @@ class Select(with_answers(objectives=Sequence[OneObjective])):
     ruled_out: int = Field(description="candidates that their loads alone rule out, without the full model")
     candidates: list[Candidate]
     notes: list[str]
-    display: SelectDisplay
     warnings: list[Record] = Field(description="lubricant.starved, of the first candidate that is")
     units: Tables
     provenance: Provenance | None

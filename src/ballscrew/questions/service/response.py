@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ballscrew.questions.service.answer import ServiceResults
-from ballscrew.questions.shared.answer_parts import Closed, Message, Record, Tables
+from ballscrew.questions.shared.answer_parts import Closed, Record, Tables
 from ballscrew.questions.shared.declared import with_answers
 
 
@@ -12,12 +12,6 @@ class ServiceWords(Closed):
 
     title: str
     causes: list[str]
-
-
-class ServiceDisplay(Closed):
-    """The causes as messages; those of the verdicts stand in the verdicts."""
-
-    causes: list[Message]
 
 
 class Service(with_answers(results=ServiceResults)):
@@ -30,5 +24,4 @@ class Service(with_answers(results=ServiceResults)):
     checks: list[Record]
     provenance: Tables
     words: ServiceWords
-    display: ServiceDisplay
     picture: Tables

@@ -49,51 +49,6 @@ def with_fields(base: type[BaseModel] = Closed, /, **fields: Any) -> Any:
     return model("Fields", "", base, **fields)
 
 
-class Shown(Closed):
-    """A quantity in a text for people."""
-
-    value: Number = Field(description="SI")
-    unit: str = Field(description="SI")
-    shown_in: str = Field(description="the unit in which the command line shows it")
-    digits: int
-    toward: int = Field(description="-1 and 1: the lower and the upper end of a band, rounded down and up; 0: others")
-
-
-class SettingOfField(Closed):
-    """A field that is to be set."""
-
-    field: str = Field(description="section.field")
-
-
-class NameOfField(Closed):
-    """The name of a field, a law or a result."""
-
-    name: str = Field(description="section.field, or the last part of it")
-
-
-class UnitToWrite(Closed):
-    """A unit, as files have it."""
-
-    unit_name: str
-
-
-class Message(Closed):
-    """A sentence, or a part of one: its English template, which is the key of translations, and what stands in it."""
-
-    template: str = Field(description="``{name}`` stands for the value of that name")
-    values: dict[str, Shown | str | SettingOfField | NameOfField | UnitToWrite | Message | list[Message]] = Field(
-        description="numbers, texts, fields to set, names, units, other messages, and lists with commas between them"
-    )
-
-
-class FaultMessages(Closed):
-    """The texts of a fault as templates; null where there is none, and of a value that was given as it was written."""
-
-    problem: Message | None
-    given: Message | None
-    remedy: Message | None
-
-
 class FaultLine(Closed):
     """One fault, and the field that it names."""
 
@@ -105,7 +60,6 @@ class FaultLine(Closed):
     problem: str = Field(description="what is wrong")
     given: str = Field(description="the value, empty where there is none")
     remedy: str = Field(description="what to do")
-    messages: FaultMessages
 
 
 class Problem(Closed):
@@ -143,7 +97,6 @@ class Record(Closed):
     holds: bool | None
     severity: Literal["info", "warning", "error"]
     text: str = Field(description="a sentence for people")
-    message: Message = Field(description="the sentence as a template with its values")
 
 
 class JudgedCheck(Record):
@@ -156,16 +109,12 @@ class JudgedCheck(Record):
         "kind of source of its formulas and its limit; left out where only given and computed numbers are compared",
         optional=True,
     )
-    source_message: Message | None = field(
+    source_text: str | None = field(
         "the same in words beside the verdict; null where the source was read", optional=True
     )
 
 
 class Drawing(Closed):
-    """A drawing as SVG: ``data-text`` of an element is the place of its message, to be shown in any unit and language.
-
-    A group with ``data-characters`` is a message in lines of so many characters.
-    """
+    """A drawing as SVG."""
 
     text: str
-    messages: list[Message]

@@ -76,4 +76,4 @@ def source_document(check: Check) -> dict[str, Any]:
     if check.source is None:
         return {}
     said = QUALIFICATIONS[check.source]
-    return {"source": check.source, "source_message": None if said is None else said.document()}
+    return {"source": check.source, "source_text": None if said is None else units.filled(said)}

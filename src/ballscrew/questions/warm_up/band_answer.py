@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ballscrew.questions.shared.answer_parts import Assumed, Closed, Message, Open, Tables, field
+from ballscrew.questions.shared.answer_parts import Assumed, Open, Tables, field
 
 
 class WarmUpBands(Open):
@@ -16,14 +16,7 @@ class WarmUpBands(Open):
     inputs: Tables
 
 
-class WarmUpDisplay(Closed):
-    """What is assumed, as messages."""
-
-    assumed: list[Message]
-
-
 class BesideWarmUp(Assumed):
     """What is assumed, and the bands where they are asked for."""
 
-    display: WarmUpDisplay
     band: WarmUpBands = field(optional=True)

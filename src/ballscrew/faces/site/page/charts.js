@@ -3,7 +3,7 @@
 import { SPEED, TORQUE } from "./bands.js";
 import { colourOf, evenly, evenlyLog, rounded, spanOf } from "./plot.js";
 import { inShownUnit, inSiUnit, reasonsIn, View } from "./view.js";
-import { digitsOf, element, plainDigits, say, sayNamed, signOf, withUnit } from "./words.js";
+import { digitsOf, element, plainDigits, signOf, withUnit } from "./words.js";
 
 /** @typedef {import("./view.js").Columns} Columns */
 /** @typedef {import("./view.js").Scene} Scene */
@@ -46,12 +46,12 @@ export function endOf(scene, name) {
 /** The words of a field on an axis. @param {Scene} scene @param {string} name */
 export function axisOf(scene, name) {
   const field = scene.case.contents.fields[name];
-  const words = name === SPEED ? say("speed of the screw") : say("axial load");
+  const words = name === SPEED ? "speed of the screw" : "axial load";
   return withUnit(words, field.shown_in);
 }
 
 export function torqueTitle() {
-  return withUnit(say("friction torque"), "N m");
+  return withUnit("friction torque", "N m");
 }
 
 /** The friction torque in its parts, piled up over the speed or the load. */
@@ -81,7 +81,7 @@ export class Parts extends View {
       const swatch = element("span", { class: "swatch", "aria-hidden": "true" });
       swatch.style.background = colour;
       const value = element("span", { class: "value" });
-      const item = element("li", {}, swatch, element("span", {}, sayNamed(`mechanism.${name}`, words)), value);
+      const item = element("li", {}, swatch, element("span", {}, words), value);
       return { name, value, item };
     });
     this.legend.replaceChildren(...this.items.map(({ item }) => item));
@@ -145,12 +145,12 @@ export class Parts extends View {
     const { contents } = this.scene.case;
     const names = this.mechanisms ?? [];
     return {
-      caption: say(this.words.heading),
+      caption: this.words.heading,
       head: [
         axisOf(this.scene, this.over),
         torqueTitle(),
-        ...names.map((name) => sayNamed(`mechanism.${name}`, contents.mechanisms[name].words)),
-        say("valid"),
+        ...names.map((name) => contents.mechanisms[name].words),
+        "valid",
       ],
       rows: Array.from(this.xs, (x, place) => [
         x,
@@ -163,7 +163,7 @@ export class Parts extends View {
 
   description() {
     const torque = `${digitsOf(this.scene.outputs[TORQUE])} ${signOf("N m")}`;
-    return `${say(this.words.heading)}. ${say("At the operating point {torque}.", { torque })}`;
+    return `${this.words.heading}. At the operating point ${torque}.`;
   }
 }
 
@@ -187,8 +187,8 @@ export class OverSpeed extends View {
 
   get sides() {
     return [
-      { name: `screw_${this.output}`, words: say("ball and screw"), colour: colourOf("accent") },
-      { name: `nut_${this.output}`, words: say("ball and nut"), colour: colourOf("second") },
+      { name: `screw_${this.output}`, words: "ball and screw", colour: colourOf("accent") },
+      { name: `nut_${this.output}`, words: "ball and nut", colour: colourOf("second") },
     ];
   }
 
@@ -216,7 +216,7 @@ export class OverSpeed extends View {
     const up = this.hasLog
       ? { from: 10 ** Math.floor(Math.log10(least)), to: 10 ** -Math.floor(-Math.log10(span.to)), log: true }
       : rounded(span);
-    plot.begin({ from: xs[0], to: end, title: axisOf(scene, SPEED), log: true }, { ...up, title: say(this.title) });
+    plot.begin({ from: xs[0], to: end, title: axisOf(scene, SPEED), log: true }, { ...up, title: this.title });
     plot.inside(() => plot.shade(xs, found.valid));
     plot.axes();
     plot.inside(() => {
@@ -237,8 +237,8 @@ export class OverSpeed extends View {
 
   numbers() {
     return {
-      caption: say(this.words.heading),
-      head: [axisOf(this.scene, SPEED), ...this.sides.map(({ words }) => words), say("valid")],
+      caption: this.words.heading,
+      head: [axisOf(this.scene, SPEED), ...this.sides.map(({ words }) => words), "valid"],
       rows: Array.from(this.xs, (x, place) => [
         x,
         ...this.sides.map(({ name }) => this.found[name][place]),
@@ -249,7 +249,7 @@ export class OverSpeed extends View {
 
   description() {
     const value = digitsOf(this.scene.outputs[this.sides[0].name]);
-    return `${say(this.words.heading)}. ${say("At the operating point {torque}.", { torque: value })}`;
+    return `${this.words.heading}. At the operating point ${value}.`;
   }
 }
 
@@ -321,7 +321,7 @@ export class EfficiencyMap extends View {
   numbers() {
     const count = this.speeds.length;
     return {
-      caption: say("efficiency over axial load (down) and speed (across)"),
+      caption: "efficiency over axial load (down) and speed (across)",
       head: [axisOf(this.scene, LOAD), ...Array.from(this.speeds, (value) => digitsOf(value, 3))],
       rows: Array.from(this.loads, (load, row) => [load, ...this.values.slice(row * count, (row + 1) * count)]),
     };
@@ -357,7 +357,7 @@ export class Temperatures extends View {
     const isThere = this.isThere;
     this.without.textContent = isThere
       ? ""
-      : say("The oil is given by one viscosity, at one temperature. Choose a grade to see it cold and hot.");
+      : "The oil is given by one viscosity, at one temperature. Choose a grade to see it cold and hot.";
     for (const one of [this.plot?.canvas.parentElement, this.legend, this.note, this.details]) {
       if (one) one.hidden = !isThere;
     }
@@ -419,7 +419,7 @@ export class Temperatures extends View {
   numbers() {
     if (!this.isThere || !this.lines.length) return undefined;
     return {
-      caption: `${say("Cold and hot")}: ${torqueTitle()}`,
+      caption: `Cold and hot: ${torqueTitle()}`,
       head: [axisOf(this.scene, SPEED), ...this.lines.map(({ degrees }) => inDegrees(degrees))],
       rows: Array.from(this.xs, (x, place) => [x, ...this.lines.map(({ found }) => found[TORQUE][place])]),
     };
@@ -469,10 +469,10 @@ export class Quadrants extends View {
       const efficiency = found[screwDrives ? "efficiency" : "back_driving_efficiency"][place];
       const holding = `${digitsOf(found.holding_torque[place], 3)} ${signOf("N m")}`;
       const words = screwDrives
-        ? say("the screw drives")
+        ? "the screw drives"
         : holds
-          ? say("self-locking, {torque} lower it", { torque: holding })
-          : say("back-drives, {torque} hold it", { torque: holding });
+          ? `self-locking, ${holding} lower it`
+          : `back-drives, ${holding} hold it`;
       const share = Number.isFinite(efficiency) ? `η ${digitsOf(100 * efficiency, 3)} %` : "";
       const isHere = ofLoad === signIn(scene, LOAD) && ofSpeed === signIn(scene, SPEED);
       const isValid = found.valid[place] === 1;
@@ -480,19 +480,19 @@ export class Quadrants extends View {
         element("strong", {}, `${digitsOf(torque, 4)} ${signOf("N m")}`),
         element("span", { class: "track" }, bar),
         element("span", {}, words),
-        element("span", {}, [share, isValid ? "" : say("not valid")].filter(Boolean).join(" · ")),
+        element("span", {}, [share, isValid ? "" : "not valid"].filter(Boolean).join(" · ")),
       ];
       const marks = [isHere ? "here" : "", isValid ? "" : "outside"].join(" ");
       return element("td", { class: marks }, element("div", {}, ...inside));
     };
-    const corner = element("td", { class: "corner" }, withUnit(say("drive torque"), "N m"));
-    const top = [say("speed −"), say("speed +")].map((text) => element("th", { scope: "col" }, text));
+    const corner = element("td", { class: "corner" }, withUnit("drive torque", "N m"));
+    const top = ["speed −", "speed +"].map((text) => element("th", { scope: "col" }, text));
     const row = (/** @type {string} */ words, /** @type {number} */ first) =>
       element("tr", {}, element("th", { scope: "row" }, words), cell(first), cell(first + 1));
     this.grid.replaceChildren(
-      element("caption", { class: "hidden" }, say("Back-driving in four quadrants")),
+      element("caption", { class: "hidden" }, "Back-driving in four quadrants"),
       element("thead", {}, element("tr", {}, corner, ...top)),
-      element("tbody", {}, row(say("load +"), 0), row(say("load −"), 2)),
+      element("tbody", {}, row("load +", 0), row("load −", 2)),
     );
     this.sayShaded(found);
   }

@@ -2,7 +2,7 @@
 
 import { NO_NUMBER } from "./case.js";
 import { stepOf } from "./plot.js";
-import { byId, element, plainDigits, quantityIn, say, sayNamed, signOf, spaced, symbolElement } from "./words.js";
+import { byId, element, plainDigits, quantityIn, signOf, spaced, symbolElement } from "./words.js";
 
 /** @typedef {import("./case.js").Case} Case */
 /** @typedef {{ min: number, max: number, step: number }} Range */
@@ -64,9 +64,9 @@ const TEMPERATURES = { min: -10, max: 100, step: 1 };
 /** Steps of a slider at least. */
 const STEPS = 400;
 
-/** The name of a field for everybody. @param {Case} one @param {string} name */
-export function labelOf(one, name) {
-  return sayNamed(`field.${one.contents.fields[name].path}.label`, LABELS[name] ?? spaced(name));
+/** The name of a field for everybody. @param {string} name */
+export function labelOf(name) {
+  return LABELS[name] ?? spaced(name);
 }
 
 /**
@@ -112,8 +112,8 @@ function tidy(value) {
 
 /** What is wrong with a number that was typed. @param {string} bound as the case says it */
 function wordsOfFault(bound) {
-  if (bound !== NO_NUMBER) return say("must be {bound}", { bound });
-  return say("not understood: write 4000 or 4.5, with a unit where it is another one");
+  if (bound !== NO_NUMBER) return `must be ${bound}`;
+  return "not understood: write 4000 or 4.5, with a unit where it is another one";
 }
 
 export class Controls {
@@ -146,7 +146,7 @@ export class Controls {
     const found = groups
       .filter(({ own }) => own.length)
       .map(({ id, words, own }) => {
-        const details = element("details", { id: `group-${id}` }, element("summary", {}, say(words)));
+        const details = element("details", { id: `group-${id}` }, element("summary", {}, words));
         details.open = this.open.has(id);
         details.addEventListener("toggle", () => (details.open ? this.open.add(id) : this.open.delete(id)));
         details.append(...own.map((name) => this.#row(name)));
@@ -161,7 +161,7 @@ export class Controls {
     const { path, symbol, shown_in: unit, meaning } = this.case.contents.fields[name];
     const id = `f-${path.replaceAll(".", "-")}`;
     const range = { ...rangeOf(this.case, name) };
-    const label = labelOf(this.case, name);
+    const label = labelOf(name);
     const sign = signOf(unit);
     const slider = element("input", { type: "range", name: path, "aria-label": sign ? `${label}, ${sign}` : label });
     const field = element("input", {
@@ -178,13 +178,7 @@ export class Controls {
     field.addEventListener("input", () => this.#take(name, typed(), field));
     field.addEventListener("change", () => this.show(name));
     this.#rows.set(name, { slider, field, fault, range });
-    const words = element(
-      "label",
-      { for: id, title: sayNamed(`field.${path}.help`, meaning) },
-      label,
-      " ",
-      symbolElement(symbol),
-    );
+    const words = element("label", { for: id, title: meaning }, label, " ", symbolElement(symbol));
     const entry = element("span", { class: "entry" }, field, element("span", { class: "unit" }, sign));
     return element("div", { class: "control" }, words, entry, slider, fault);
   }

@@ -4,7 +4,7 @@ import { SPEED, TORQUE } from "./bands.js";
 import { axisOf, BEGIN, endOf, torqueTitle } from "./charts.js";
 import { colourOf, evenly, rounded, spanOf } from "./plot.js";
 import { inShownUnit, inSiUnit, View } from "./view.js";
-import { digitsOf, element, say, signOf } from "./words.js";
+import { digitsOf, element, signOf } from "./words.js";
 
 /** @typedef {import("./view.js").Columns} Columns */
 /** @typedef {import("./view.js").Scene} Scene */
@@ -35,7 +35,7 @@ export function wordsOfEnds(scene, name, { low, high }) {
   const shown = [low, high].map((value, place) => {
     return digitsOf(outwards(((value - offset) / factor) * (isShare ? 100 : 1), place === 1), DIGITS);
   });
-  return `${say("{low} to {high}", { low: shown[0], high: shown[1] })} ${isShare ? "%" : signOf(unit)}`.trim();
+  return `${shown[0]} to ${shown[1]} ${isShare ? "%" : signOf(unit)}`.trim();
 }
 
 /** A number of so many digits that is not inside of this one. @param {number} value @param {boolean} isHigh */
@@ -98,7 +98,7 @@ export class Fan extends View {
       const shown = name === "efficiency" && !screwDrives ? "back_driving_efficiency" : name;
       const ends = point?.ends[shown];
       const text = ends ? wordsOfEnds(scene, shown, ends) : isMissing ? "–" : "…";
-      return element("div", {}, element("dt", {}, say(words)), element("dd", {}, text));
+      return element("div", {}, element("dt", {}, words), element("dd", {}, text));
     });
     this.ends.replaceChildren(...items);
     this.said.textContent = this.#words();
@@ -106,27 +106,21 @@ export class Fan extends View {
 
   #words() {
     const { point, inputs = 0, makers = [], isMissing } = this.scene.banded();
-    if (isMissing) return say("There is no band here for this model or these numbers: take the case to the program.");
+    if (isMissing) return "There is no band here for this model or these numbers: take the case to the program.";
     if (!point) return "";
     const level = levelOf(this.scene);
-    const values = { level, count: String(point.count), inputs: String(inputs) };
     const sentences = [
-      say(
-        "Between the ends lie {level} of {count} samples of {inputs} inputs that are rarely known, by the usual uncertainties of the program.",
-        values,
-      ),
+      `Between the ends lie ${level} of ${point.count} samples of ${inputs} inputs that are rarely known, by the usual uncertainties of the program.`,
     ];
     if (makers.length) {
-      sentences.push(say("Drawn with them is what makers ask for: {names}.", { names: makers.join(", ") }));
+      sentences.push(`Drawn with them is what makers ask for: ${makers.join(", ")}.`);
     }
     sentences.push(
-      say(
-        "The inputs alone are drawn: without the other laws that the program draws as well the low end is usually 5 to 25 % higher, at high speeds up to twice as high.",
-      ),
+      "The inputs alone are drawn: without the other laws that the program draws as well the low end is usually 5 to 25 % higher, at high speeds up to twice as high.",
     );
     if (point.invalid > 0) {
       const share = `${digitsOf(100 * point.invalid, 2)} %`;
-      sentences.push(say("Outside the model's validity lie {share} of the samples.", { share }));
+      sentences.push(`Outside the model's validity lie ${share} of the samples.`);
     }
     return sentences.join(" ");
   }
@@ -137,21 +131,17 @@ export class Fan extends View {
     const { fields } = this.scene.case.contents;
     const level = levelOf(this.scene);
     return {
-      caption: say(this.words.heading),
-      head: [
-        axisOf(this.scene, SPEED),
-        `${torqueTitle()}, ${say("low end, {level}", { level })}`,
-        `${torqueTitle()}, ${say("high end, {level}", { level })}`,
-      ],
+      caption: this.words.heading,
+      head: [axisOf(this.scene, SPEED), `${torqueTitle()}, low end, ${level}`, `${torqueTitle()}, high end, ${level}`],
       rows: Array.from(inShownUnit(fan.speeds, fields[SPEED]), (x, place) => [x, fan.lows[place], fan.highs[place]]),
     };
   }
 
   description() {
     const ends = this.scene.banded().point?.ends[TORQUE];
-    const heading = say(this.words.heading);
+    const heading = this.words.heading;
     return ends
-      ? `${heading}. ${levelOf(this.scene)}, ${say("inputs alone")}: ${wordsOfEnds(this.scene, TORQUE, ends)}`
+      ? `${heading}. ${levelOf(this.scene)}, inputs alone: ${wordsOfEnds(this.scene, TORQUE, ends)}`
       : heading;
   }
 }

@@ -3,7 +3,7 @@
 import { levelOf, wordsOfEnds } from "./fan.js";
 import { textOf } from "./judgements.js";
 import { reasonsIn } from "./view.js";
-import { byId, digitsOf, element, inPlace, say, signOf } from "./words.js";
+import { byId, digitsOf, element, inPlace, signOf } from "./words.js";
 
 /** @typedef {import("./view.js").Scene} Scene */
 
@@ -29,13 +29,13 @@ export class Headline {
   }
 
   /** Make what is filled in. */
-  speak() {
+  build() {
     const { spec } = this.scene.case;
     const known = BESIDE.filter(([name]) => spec.outputs.includes(name) || name in spec.constants);
     const items = known.map(([name, words]) => {
       const value = element("dd");
       this.values.set(name, value);
-      return element("div", {}, element("dt", {}, say(words)), value);
+      return element("div", {}, element("dt", {}, words), value);
     });
     byId("beside").replaceChildren(...items);
     this.said = "";
@@ -57,8 +57,8 @@ export class Headline {
     this.#writeVerdicts();
     const reasons = outputs.valid === 1 ? [] : reasonsIn(scene.case, Object.fromEntries(entriesOf(outputs)));
     const words = reasons.length
-      ? `${say("Outside the model's validity:")} ${reasons.join("; ")}.`
-      : say("All conditions of the model hold.");
+      ? `Outside the model's validity: ${reasons.join("; ")}.`
+      : "All conditions of the model hold.";
     if (words === this.said) return;
     this.said = words;
     byId("verdict").textContent = words;
@@ -69,7 +69,7 @@ export class Headline {
   writeBand() {
     const { point, isMissing } = this.scene.banded();
     const ends = point ? wordsOfEnds(this.scene, "screw_torque", point.ends.screw_torque) : isMissing ? "–" : "…";
-    byId("band").textContent = `${levelOf(this.scene)}, ${say("inputs alone")}: ${ends}`;
+    byId("band").textContent = `${levelOf(this.scene)}, inputs alone: ${ends}`;
     byId("band-laws").style.visibility = isMissing ? "hidden" : "";
   }
 
@@ -83,7 +83,7 @@ export class Headline {
     const others = judged.warnings.filter(({ id }) => !id.startsWith("validity."));
     const records = [...judged.verdicts, ...others];
     const texts = records.map(({ message }) => textOf(this.scene.case.contents, message, inPlace));
-    const whole = `${say("Checks")}: ${textOf(this.scene.case.contents, judged.all.message, inPlace)}`;
+    const whole = `Checks: ${textOf(this.scene.case.contents, judged.all.message, inPlace)}`;
     const written = JSON.stringify([whole, texts]);
     if (written === this.judged) return;
     this.judged = written;

@@ -4,18 +4,7 @@ import { ballAt, drawBall } from "./ball.js";
 import { textOf } from "./judgements.js";
 import { colourOf } from "./plot.js";
 import { View } from "./view.js";
-import {
-  digitsOf,
-  element,
-  inPlace,
-  plainDigits,
-  powerOf,
-  quantityIn,
-  say,
-  sayNamed,
-  signOf,
-  spaced,
-} from "./words.js";
+import { digitsOf, element, inPlace, plainDigits, powerOf, quantityIn, signOf, spaced } from "./words.js";
 
 /** @typedef {import("./judgements.js").JudgedRecord} JudgedRecord */
 /** @typedef {{ factor: number, offset: number, shown_in: string }} Shown */
@@ -47,12 +36,6 @@ function shownIn(value, quantity) {
   return `${digitsOf(inUnitOf(value, quantity))} ${signOf(unit)}`.trim().replace(" °", "°");
 }
 
-/** The words of what is asked for. @param {string} name */
-function labelOfGiven(name) {
-  const path = name.startsWith("limits.") ? name : `installation.${name}`;
-  return sayNamed(`field.${path}.label`, spaced(name));
-}
-
 /** What is said of a check that is not judged, beside the word that says so. @type {Record<string, string>} */
 const OF_OPEN = {
   "not checked: give {input}": "give {input}",
@@ -65,7 +48,7 @@ const LIFE = "check.life";
 /** A number of turns, a large one with a power of ten. @param {number | null} turns */
 function turnsIn(turns) {
   if (turns === null || !Number.isFinite(turns)) return "–";
-  return `${powerOf(turns)} ${say("revolutions")}`;
+  return `${powerOf(turns)} revolutions`;
 }
 
 /** In the panel what is to be given has the name of its field there. */
@@ -73,7 +56,7 @@ const IN_PANEL = {
   ...inPlace,
   say: (/** @type {string} */ template) => {
     const name = template === "installation" ? ASKED[0] : template;
-    return ASKED.includes(name) ? `“${labelOfGiven(name)}”` : inPlace.say(OF_OPEN[template] ?? template);
+    return ASKED.includes(name) ? `“${spaced(name)}”` : (OF_OPEN[template] ?? template);
   },
 };
 
@@ -115,18 +98,18 @@ export class Checks extends View {
       field.setAttribute("aria-invalid", String(fault !== ""));
       if (!fault) this.scene.give(name, isGiven ? shown : undefined);
     });
-    return labelled(labelOfGiven(name), id, field, signOf(quantity.shown_in));
+    return labelled(spaced(name), id, field, signOf(quantity.shown_in));
   }
 
   #ends() {
     const { contents, state } = this.scene.case;
     const menu = element("select", { id: "given-ends" });
     for (const [name, { words }] of Object.entries(contents.judging.ends)) {
-      menu.append(element("option", { value: name }, inPlace.say(words)));
+      menu.append(element("option", { value: name }, words));
     }
     menu.value = String(state.given.ends ?? "fixed-supported");
     menu.addEventListener("change", () => this.scene.give("ends", menu.value));
-    return labelled(say("ends of the shaft"), "given-ends", menu, "");
+    return labelled("ends of the shaft", "given-ends", menu, "");
   }
 
   paint() {
@@ -136,9 +119,7 @@ export class Checks extends View {
     const written = JSON.stringify(lines);
     if (written === this.written) return;
     this.written = written;
-    const head = ["Check", "Value", "Limit", "Used", "Result"].map((words) =>
-      element("th", { scope: "col" }, say(words)),
-    );
+    const head = ["Check", "Value", "Limit", "Used", "Result"].map((words) => element("th", { scope: "col" }, words));
     const rows = lines.map(({ title, value, limit, used, state, words }) =>
       element(
         "tr",
@@ -147,22 +128,14 @@ export class Checks extends View {
         element("td", {}, value),
         element("td", {}, limit),
         element("td", {}, ...barOf(used, title)),
-        element("td", { class: "said" }, element("strong", {}, say(STATES[state])), `${MARKS[state] ?? ""} ${words}`),
+        element("td", { class: "said" }, element("strong", {}, STATES[state]), `${MARKS[state] ?? ""} ${words}`),
       ),
     );
     this.table.replaceChildren(element("thead", {}, element("tr", {}, ...head)), element("tbody", {}, ...rows));
     const { shown } = one.contents.judging;
     const { derived } = judged;
     const newtons = one.contents.results.largest_contact_load ?? one.contents.results.contact_load;
-    this.facts.textContent = say(
-      "Lead angle {angle}, speed of the nut {speed}, load ratings {dynamic} dynamic and {static} static.",
-      {
-        angle: shownIn(derived.lead_angle, shown.lead_angle),
-        speed: shownIn(derived.nut_speed, shown.nut_speed),
-        dynamic: shownIn(derived.dynamic_load_rating, newtons),
-        static: shownIn(derived.static_load_rating, newtons),
-      },
-    );
+    this.facts.textContent = `Lead angle ${shownIn(derived.lead_angle, shown.lead_angle)}, speed of the nut ${shownIn(derived.nut_speed, shown.nut_speed)}, load ratings ${shownIn(derived.dynamic_load_rating, newtons)} dynamic and ${shownIn(derived.static_load_rating, newtons)} static.`;
   }
 
   /** @param {JudgedRecord} record */
@@ -172,7 +145,7 @@ export class Checks extends View {
     const written = record.id === LIFE ? turnsIn : (/** @type {number | null} */ value) => shownIn(value, quantity);
     const { title } = contents.judging.tables.checks.find((/** @type {any} */ row) => row.id === record.id);
     return {
-      title: inPlace.say(title),
+      title,
       value: written(record.value),
       limit: written(record.limit),
       used: record.utilisation,
@@ -234,7 +207,7 @@ export class BallView extends View {
     };
     const angles = this.#angles();
     // two pairs of flanks leave no room for both angles
-    const words = { nut: say("nut"), screw: say("screw"), angle: angles.length > 1 ? "" : `α ${angles[0]}` };
+    const words = { nut: "nut", screw: "screw", angle: angles.length > 1 ? "" : `α ${angles[0]}` };
     drawBall(plot.pen, plot, this.places, colours, words);
     this.note.className = "hint";
     const said = this.#said();
@@ -255,15 +228,12 @@ export class BallView extends View {
   #said() {
     const { results } = this.scene.case.contents;
     const loads = this.#touched().map((flank) => this.places[`${flank}.load`]);
-    if (!loads.some((load) => load > 0)) return `${say("no load on the ball")}.`;
+    if (!loads.some((load) => load > 0)) return `no load on the ball.`;
     const quantity = results.largest_contact_load ?? results.contact_load;
-    return say("Contact angle {angle}, load of the ball {load}.", {
-      angle: this.#angles().join(", "),
-      load: loads.map((load) => shownIn(load, quantity)).join(", "),
-    });
+    return `Contact angle ${this.#angles().join(", ")}, load of the ball ${loads.map((load) => shownIn(load, quantity)).join(", ")}.`;
   }
 
   description() {
-    return `${say(this.words.heading)}. ${this.#said()}`;
+    return `${this.words.heading}. ${this.#said()}`;
   }
 }

@@ -13,7 +13,7 @@ import { keepOffline, moduleOf, site } from "./modules.js";
 import { readColours } from "./plot.js";
 import { Taking } from "./taking.js";
 import { inSiUnit } from "./view.js";
-import { byId, element, inPlace, keep, kept, languageOf, say, sayNamed, speak, useWords } from "./words.js";
+import { byId, element, inPlace, keep, kept, useSymbols } from "./words.js";
 
 /** Milliseconds after the last change that the hand is at rest. */
 const REST = 160;
@@ -26,7 +26,7 @@ const SCHEME_KEPT = "ballscrew-site-scheme";
 const SCHEMES = ["light", "dark"];
 
 const { contents, digest, worker } = site();
-useWords(contents);
+useSymbols(contents.symbols);
 /** Modules that are compiled, which the worker is sent, too. @type {Map<string, Promise<WebAssembly.Module>>} */
 const compiled = new Map();
 const engine = new Engine(contents, compiledOf);
@@ -265,7 +265,7 @@ async function choose(state) {
   try {
     await engine.load(`${state.model}/${state.kind}`);
   } catch (error) {
-    byId("trouble").textContent = `${say("This part of the page could not be loaded:")} ${String(error)}`;
+    byId("trouble").textContent = `This part of the page could not be loaded: ${String(error)}`;
     byId("page").setAttribute("aria-busy", "false");
     showChoices();
     return;
@@ -283,17 +283,10 @@ async function choose(state) {
 
 /** Make all that has words or depends on what is chosen. */
 function build() {
-  document.documentElement.lang = languageOf();
-  for (const one of document.querySelectorAll("[data-say]")) {
-    one.textContent = say(/** @type {HTMLElement} */ (one).dataset.say ?? "");
-  }
-  for (const one of document.querySelectorAll("[data-label]")) {
-    one.setAttribute("aria-label", say(/** @type {HTMLElement} */ (one).dataset.label ?? ""));
-  }
   showChoices();
   controls.build();
-  headline.speak();
-  for (const view of views) view.speak();
+  headline.build();
+  for (const view of views) view.build();
 }
 
 /** @param {string} id */
@@ -305,7 +298,7 @@ function selectById(id) {
 function wordsOfStart(name) {
   const { title, make } = contents.starts[name];
   return name === "paper"
-    ? say("the screw of Olaru et al. (2005)")
+    ? "the screw of Olaru et al. (2005)"
     : [make, title === name ? "" : title].filter(Boolean).join(", ");
 }
 
@@ -325,11 +318,11 @@ function showChoices() {
   );
   fill(
     "kind",
-    shownCase.kindsOf(model).map((name) => [name, sayNamed(`kind.${name}`, contents.kinds[name].words)]),
+    shownCase.kindsOf(model).map((name) => [name, contents.kinds[name].words]),
     kind,
   );
   const grades = Object.keys(contents.oils.grades);
-  fill("grade", [["", say("by its viscosity")], ...grades.map((name) => [name, name])], grade);
+  fill("grade", [["", "by its viscosity"], ...grades.map((name) => [name, name])], grade);
 }
 
 /** @param {string} id @param {string[][]} options @param {string} chosen */
@@ -353,17 +346,16 @@ function search(text) {
     beginAt(names[0]);
     return;
   }
-  const words = isCode
-    ? "{text} is not in the list; these are of its size, or of its maker where it says no size:"
-    : "{text} may be:";
-  const none = "{text} is not in the list: write a size such as 40x10, or a part of a name.";
-  const said = say(names.length ? words : none, { text });
+  const found = isCode
+    ? `${text} is not in the list; these are of its size, or of its maker where it says no size:`
+    : `${text} may be:`;
+  const words = names.length ? found : `${text} is not in the list: write a size such as 40x10, or a part of a name.`;
   const buttons = names.map((name) => {
     const button = element("button", { type: "button" }, name);
     button.addEventListener("click", () => beginAt(name));
     return button;
   });
-  byId("start-matches").replaceChildren(said, ...buttons.flatMap((button) => [" ", button]));
+  byId("start-matches").replaceChildren(words, ...buttons.flatMap((button) => [" ", button]));
 }
 
 function followChoices() {
@@ -433,16 +425,6 @@ function followScheme() {
   });
 }
 
-function followLanguage() {
-  const menu = selectById("language");
-  menu.value = languageOf();
-  menu.addEventListener("change", () => {
-    speak(menu.value);
-    build();
-    changed();
-  });
-}
-
 /** Charts are drawn when they are seen, and again when their size changes. */
 function followSizes() {
   const seen = new IntersectionObserver(
@@ -470,7 +452,6 @@ function begin() {
   byId("others").append(...others.map(({ section }) => section));
   byId("version").textContent = `ballscrew ${contents.version} · ${digest}`;
   followScheme();
-  followLanguage();
   followChoices();
   followSizes();
   chooseLinked();
@@ -481,9 +462,8 @@ async function chooseLinked() {
   const { state, unknown } = shownCase.stateIn(location.hash);
   await choose(state);
   if (unknown.length === 0) return;
-  byId("trouble").textContent = say("The link has what this page does not have, and is shown without it: {names}.", {
-    names: unknown.join(", "),
-  });
+  byId("trouble").textContent =
+    `The link has what this page does not have, and is shown without it: ${unknown.join(", ")}.`;
 }
 
 begin();

@@ -1,6 +1,6 @@
 // Taking the case to the program: as a file, and as a link that its page opens.
 
-import { byId, keep, kept, say } from "./words.js";
+import { byId, keep, kept } from "./words.js";
 
 /** @typedef {import("./case.js").Case} Case */
 
@@ -37,13 +37,13 @@ export class Taking {
   }
 
   async #copy() {
-    let words = say("Copied.");
+    let words = "Copied.";
     try {
       await navigator.clipboard.writeText(this.case.toml());
     } catch {
       // a page of files may not write there: the text is marked for the keys that copy
       getSelection()?.selectAllChildren(byId("toml"));
-      words = say("Marked: copy it with the keyboard.");
+      words = "Marked: copy it with the keyboard.";
     }
     byId("said").textContent = words;
   }

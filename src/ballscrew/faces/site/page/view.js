@@ -1,7 +1,7 @@
 // A chart with its heading, its numbers as a table, and what is said of it.
 
 import { Plot } from "./plot.js";
-import { digitsOf, element, say, sayNamed } from "./words.js";
+import { digitsOf, element } from "./words.js";
 
 /** @typedef {import("./case.js").Case} Case */
 /** @typedef {Record<string, Float64Array>} Columns */
@@ -25,11 +25,6 @@ import { digitsOf, element, say, sayNamed } from "./words.js";
 /** The rows of a table at most. */
 const ROWS = 21;
 
-/** The words of a reason for which the model does not hold. @param {string} name @param {string} english */
-export function reasonOf(name, english) {
-  return sayNamed(`reason.${name}`, english);
-}
-
 /**
  * The reasons for which the model does not hold at any of the points.
  *
@@ -43,7 +38,7 @@ export function reasonsIn(one, found) {
       const holds = found[`validity_${name}`];
       return holds !== undefined && Array.prototype.some.call(holds, (value) => value !== 1);
     })
-    .map(([name, words]) => reasonOf(name, words));
+    .map(([, words]) => words);
 }
 
 /** Numbers in the unit they are shown in. @param {ArrayLike<number>} numbers @param {{ factor: number, offset: number }} quantity */
@@ -91,13 +86,13 @@ export class View {
     this.section.append(element("div", { class: "picture" }, canvas), this.legend, this.note, this.details);
   }
 
-  /** Say all words again. */
-  speak() {
-    this.heading.textContent = say(this.words.heading);
-    this.hint.textContent = say(this.words.hint);
-    if (this.summary) this.summary.textContent = say("Numbers");
-    this.plot?.canvas.setAttribute("aria-label", say(this.words.heading)); // more when it is drawn
-    this.scroll?.setAttribute("aria-label", `${say("Numbers")}: ${say(this.words.heading)}`);
+  /** Make all words, and what depends on what is chosen. */
+  build() {
+    this.heading.textContent = this.words.heading;
+    this.hint.textContent = this.words.hint;
+    if (this.summary) this.summary.textContent = "Numbers";
+    this.plot?.canvas.setAttribute("aria-label", this.words.heading); // more when it is drawn
+    this.scroll?.setAttribute("aria-label", `Numbers: ${this.words.heading}`);
     this.prepare();
   }
 
@@ -128,7 +123,7 @@ export class View {
   }
 
   description() {
-    return say(this.words.heading);
+    return this.words.heading;
   }
 
   /** @param {Record<string, ArrayLike<number>>} found */
@@ -138,7 +133,7 @@ export class View {
 
   /** @param {string[]} reasons */
   sayReasons(reasons) {
-    const text = reasons.length ? `${say("Shaded, the model does not hold:")} ${reasons.join("; ")}.` : "";
+    const text = reasons.length ? `Shaded, the model does not hold: ${reasons.join("; ")}.` : "";
     if (this.note.textContent !== text) this.note.textContent = text;
   }
 

@@ -1,4 +1,4 @@
-// Words and numbers as the visitor reads them: in their language, with its decimal sign, with units and symbols.
+// Numbers as the visitor reads them, with units and symbols.
 
 const GREEK = {
   alpha: "α",
@@ -26,53 +26,13 @@ const PLAIN_NUMBER = /^[-+]?(?:\d+\.?\d*|\.\d+)$/;
 /** A number that could be two, where people write a decimal point: 4,000. */
 const EITHER = /^[-+]?\d*[1-9]\d*,\d{3}$/;
 const QUANTITY = /^([-+\d.,' \u00a0\u2009\u202f]*(?:e[-+]?\d+)?)(.*)$/i;
-const LANGUAGE_KEPT = "ballscrew-site-language";
 
-/** The German words by the English ones, or by the name of what they are of. @type {Record<string, string>} */
-let german = {};
 /** @type {Record<string, string>} */
 let unitSigns = {};
-let language = "en";
 
-/** @param {{ texts?: Record<string, Record<string, string>>, symbols: Record<string, string> }} contents */
-export function useWords(contents) {
-  german = contents.texts?.de ?? {};
-  unitSigns = contents.symbols;
-  const chosen = kept(LANGUAGE_KEPT) ?? navigator.language;
-  language = chosen.startsWith("de") ? "de" : "en";
-}
-
-/** @returns {string} */
-export function languageOf() {
-  return language;
-}
-
-/** @param {string} chosen */
-export function speak(chosen) {
-  language = chosen;
-  keep(LANGUAGE_KEPT, chosen);
-}
-
-/**
- * A text in the language of the visitor, with values in the places of their names.
- *
- * @param {string} english
- * @param {Record<string, string>} [values]
- */
-export function say(english, values = {}) {
-  return sayNamed("", english, values);
-}
-
-/**
- * The words of something that has a name; the English ones where there are no others.
- *
- * @param {string} name
- * @param {string} english
- * @param {Record<string, string>} [values]
- */
-export function sayNamed(name, english, values = {}) {
-  const pattern = (language === "de" && (german[name] ?? german[english])) || english;
-  return pattern.replace(/\{(\w+)\}/g, (place, one) => values[one] ?? place);
+/** @param {Record<string, string>} symbols of units by their names */
+export function useSymbols(symbols) {
+  unitSigns = symbols;
 }
 
 /** What is kept in this browser, if it keeps anything. @param {string} name */
@@ -112,7 +72,7 @@ export function digitsOf(number, digits = 4) {
   if (!Number.isFinite(number)) return "–";
   const text = number.toPrecision(digits);
   const plain = text.includes("e") ? String(Number(text)) : text;
-  return localised(plain).replace("-", "−");
+  return plain.replace("-", "−");
 }
 
 /**
@@ -123,31 +83,25 @@ export function digitsOf(number, digits = 4) {
 export function powerOf(number) {
   if (Math.abs(number) < LARGE) return digitsOf(number, 3);
   const [digits, power] = number.toExponential(2).split("e+");
-  return `${localised(digits)} · 10${[...power].map((one) => RAISED[Number(one)]).join("")}`;
+  return `${digits} · 10${[...power].map((one) => RAISED[Number(one)]).join("")}`;
 }
 
 /** A number without needless digits, for axes and fields. @param {number} number */
 export function plainDigits(number) {
-  return localised(String(Number(number.toPrecision(12)))).replace(/^-/, "−");
+  return String(Number(number.toPrecision(12))).replace(/^-/, "−");
 }
 
-/** @param {string} digits */
-function localised(digits) {
-  return language === "de" ? digits.replace(".", ",") : digits;
-}
-
-/** How templates, units and digits of sentences are written here. */
+/** How units and digits of sentences are written here. */
 export const inPlace = {
-  say: (/** @type {string} */ template) => (language === "de" && german[template]) || template,
   sign: signOf,
-  digits: (/** @type {string} */ text) => localised(text.replace(/^-?[\d.]+e\+\d+/, (one) => String(Number(one)))),
+  digits: (/** @type {string} */ text) => text.replace(/^-?[\d.]+e\+\d+/, (one) => String(Number(one))),
 };
 
 /** A number as somebody typed it, read as the program does; NaN where it is none or could be two. @param {string} text */
 function numberIn(text) {
   const [mantissa, exponent = "0"] = text.trim().toLowerCase().split("e");
   const grouped = GROUPED.map((pattern) => pattern.exec(mantissa)).find((match) => match);
-  if (!grouped && language !== "de" && EITHER.test(mantissa)) return Number.NaN;
+  if (!grouped && EITHER.test(mantissa)) return Number.NaN;
   const plain = grouped ? `${grouped[1].replace(/[^-+\d]/g, "")}.${grouped[2] ?? ""}` : mantissa.replace(",", ".");
   return PLAIN_NUMBER.test(plain) ? Number(`${plain}e${exponent}`) : Number.NaN;
 }

@@ -6,7 +6,7 @@ import { labelIn } from "./fields.js";
 import { fieldOf } from "./schema.js";
 import { line, polygon, shape } from "./shapes.js";
 import { valueAt } from "./state.js";
-import { text, textOr } from "./texts.js";
+import { text } from "./texts.js";
 import * as units from "./units.js";
 
 /** @typedef {import("./state.js").Tables} Tables */
@@ -149,7 +149,7 @@ function slope({ inputs }) {
 }
 
 /**
- * A value as people read it: a text with a unit in the units of the page, a number in SI, a name in the language.
+ * A value as people read it: a text with a unit in the units of the page, a number in SI, a name.
  *
  * @param {string} path
  * @param {unknown} value
@@ -160,8 +160,7 @@ function inWords(path, value) {
   if (typeof value === "number") return si ? units.formattedIn(value, unit, si) : units.digits(value);
   const found = si ? units.parse(value, si) : null;
   if (found && si) return units.formattedIn(units.toSI(found.number, found.unit, si), unit, si);
-  const words = String(value);
-  return units.inLanguage(textOr(`option.${path}.${words}`, textOr(`option.${words}`, words)));
+  return String(value);
 }
 
 /**

@@ -4,7 +4,7 @@ import * as parts from "./chart_parts.js";
 import { element } from "./dom.js";
 import { draw, layout } from "./plot.js";
 import { data } from "./results.js";
-import { text, textOr } from "./texts.js";
+import { text } from "./texts.js";
 import * as units from "./units.js";
 
 // light enough everywhere for black numbers, also for people who do not see red or green
@@ -21,7 +21,7 @@ const SCALE = [
  * @param {Mechanisms} mechanisms
  */
 export function wordsOf(name, mechanisms) {
-  return textOr(`mechanism.${name}`, mechanisms[name]?.words ?? name);
+  return mechanisms[name]?.words ?? name;
 }
 
 /** How dark the area of a band is, as two digits of a colour. */

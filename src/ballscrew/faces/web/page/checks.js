@@ -2,7 +2,6 @@
 
 import { jump } from "./cards.js";
 import { byId, element, table, update } from "./dom.js";
-import { ofRecord, said } from "./messages.js";
 import { text, textOr } from "./texts.js";
 import * as units from "./units.js";
 
@@ -21,7 +20,7 @@ const CLOSE = 0.8;
 const MULTIPLE = 10;
 const DIGITS_OF_SHARE = 3;
 
-/** @typedef {VerdictRecord & { name: string, utilisation: number | null, missing: string, source_message?: Message | null }} OneCheck */
+/** @typedef {VerdictRecord & { name: string, utilisation: number | null, missing: string, source_text?: string | null }} OneCheck */
 
 /**
  * Checks of an operating point, or over a cycle.
@@ -121,8 +120,8 @@ function percentage(share) {
  *
  * @param {OneCheck} check
  */
-function sourceOf({ value, source_message: words }) {
-  return words && value !== null ? [element("span", { class: "source" }, said(words))] : [];
+function sourceOf({ value, source_text: words }) {
+  return words && value !== null ? [element("span", { class: "source" }, words)] : [];
 }
 
 /**
@@ -185,7 +184,7 @@ export function panel(found, caption) {
   const tone = found.checks.some((one) => one.holds === false) ? "careful" : found.holds ? "good" : "";
   const headings = ["", text("checks.value"), text("checks.used")];
   const rows = found.checks.map((check) => [
-    element("span", { title: ofRecord(check) }, nameOf(check)),
+    element("span", { title: check.text }, nameOf(check)),
     element("span", {}, numberOf(check), limitOf(check, found.checks)),
     used(check),
   ]);
@@ -198,5 +197,5 @@ export function panel(found, caption) {
 /** What a limit rests on, where a check says it. @param {Judged} found */
 function notes({ checks }) {
   const source = checks.find((one) => one.name === "diameter_speed_product");
-  return source ? [text("checks.limit_source", { source: ofRecord(source) })] : [];
+  return source ? [text("checks.limit_source", { source: source.text })] : [];
 }

@@ -4,7 +4,7 @@ import { operationOf } from "./chart_parts.js";
 import * as charts from "./charts.js";
 import { verdict } from "./checks.js";
 import { byId, element, scrolling, table } from "./dom.js";
-import { labelOf, said } from "./messages.js";
+import { labelOf } from "./messages.js";
 import { words } from "./fields.js";
 import { data, greatestPressure, leastFilm, nameOf, numbersOf, rounded } from "./results.js";
 import { OF_CARDS, SECTIONS } from "./schema.js";
@@ -92,7 +92,7 @@ export async function showDesigns(answers, starts, mechanisms) {
   const rows = [
     [text("compare.start"), ...starts],
     [text("compare.changes"), ...letters.map((letter) => changesOf(LETTERS.indexOf(letter)))],
-    row(text("compare.case"), (run) => said(run.display.title)),
+    row(text("compare.case"), (run) => run.words.title),
     ...ROWS.filter(isKnown).map((name) => row(text(`results.${name}`), cell(name))),
     row(text("compare.band"), (run, { band }) => {
       return rounded("screw_torque", run.results.screw_torque, band).interval ?? "–";
@@ -126,7 +126,7 @@ function changesOf(place) {
   const { designs: all, own } = store.state;
   const { changes = {}, tables: sections = {} } = all[place] ?? {};
   const ofFields = Object.entries(changes).map(([path, value]) => {
-    const change = `${labelOf(path)}: ${value === "" ? text("form.not_given") : units.inLanguage(value)}`;
+    const change = `${labelOf(path)}: ${value === "" ? text("form.not_given") : value}`;
     const counts = own || place === 0 || !path.startsWith("operation.");
     return counts ? change : text("compare.not_counted", { change });
   });

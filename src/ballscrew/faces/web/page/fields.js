@@ -34,24 +34,13 @@ export function words(name) {
 }
 
 /**
- * The label of a field: its name in words, in the language of the page where that has one for its path or its name.
+ * The label of a field: its name in words, or the text for its path or its name.
  *
  * @param {string} path
  */
 export function labelIn(path) {
   const name = path.slice(path.lastIndexOf(".") + 1);
   return textOr(`field.${path}.label`, textOr(`field.${name}.label`, words(name)));
-}
-
-/**
- * What a field means, as its annotation says it or in the language of the page.
- *
- * @param {string} path
- * @param {string} description
- */
-export function helpIn(path, description) {
-  const name = path.slice(path.lastIndexOf(".") + 1);
-  return textOr(`field.${path}.help`, textOr(`field.${name}.help`, description));
 }
 
 /** @param {string} path */
@@ -70,7 +59,7 @@ function idOf(path) {
  */
 function frame(path, { description, "x-symbol": tex }, isGiven, control, ...others) {
   const id = `f-${idOf(path)}`;
-  const help = helpIn(path, description ?? "");
+  const help = description ?? "";
   control.id = id;
   control.setAttribute("aria-describedby", `${id}-about ${id}-fault`);
   return element(
@@ -92,14 +81,12 @@ function frame(path, { description, "x-symbol": tex }, isGiven, control, ...othe
  */
 export function choiceField(path, node, value, onChange, present) {
   const options = node.type === "boolean" ? ["true", "false"] : (node.enum ?? []);
-  /** @param {string} name */
-  const words = (name) => textOr(`option.${path}.${name}`, textOr(`option.${name}`, name));
-  const none = node.default ? text("form.usual", { value: words(String(node.default)) }) : text("form.not_given");
+  const none = node.default ? text("form.usual", { value: String(node.default) }) : text("form.not_given");
   const select = element(
     "select",
     { onchange: () => onChange({ path, text: select.value, rebuild: true }) },
     element("option", { value: "" }, present ? text("form.as_in_model", { value: present }) : none),
-    ...options.map((name) => element("option", { value: name, selected: String(value) === name }, words(name))),
+    ...options.map((name) => element("option", { value: name, selected: String(value) === name }, name)),
   );
   return frame(path, node, value !== undefined, select);
 }
@@ -132,9 +119,9 @@ export function numberField(path, node, { state, given, onChange }, present) {
   const input = element("input", { type: "text", inputmode: "decimal", spellcheck: "false" });
   input.addEventListener("keydown", (event) => step(event, input));
   if (node["x-si-unit"]) return quantityField(path, node, input, value, state, onChange);
-  input.value = units.inLanguage(String(value ?? ""));
+  input.value = String(value ?? "");
   input.placeholder = String(present ?? "");
-  input.addEventListener("input", () => reportText(onChange, path, input, units.ofLanguage(input.value.trim())));
+  input.addEventListener("input", () => reportText(onChange, path, input, units.inASCII(input.value.trim())));
   return frame(path, node, value !== undefined, input);
 }
 
@@ -153,7 +140,7 @@ function quantityField(path, node, input, value, state, onChange) {
   const unit = unitOf(path, node, value, state);
   const shown = value === undefined ? "" : units.digitsIn(value, unit, si);
   const isOther = shown === null;
-  input.value = units.inLanguage(shown ?? String(value));
+  input.value = shown ?? String(value);
   const known = [...new Set([unit, ...units.choicesOf(node)])];
   const select = element(
     "select",
@@ -163,16 +150,16 @@ function quantityField(path, node, input, value, state, onChange) {
   );
   select.addEventListener("change", () => onChange({ path, unit: select.value, rebuild: true }));
   input.addEventListener("input", () => {
-    const typed = units.ofLanguage(input.value.trim());
+    const typed = units.inASCII(input.value.trim());
     const [, number, spread] = BARE.exec(typed) ?? [];
     if (number && !select.value) select.value = unit;
     reportText(onChange, path, input, number ? `${number.trim()} ${select.value} ${spread}`.trim() : typed);
   });
   // a unit that was typed moves to the list of units
   input.addEventListener("change", () => {
-    const found = units.parse(units.ofLanguage(input.value), si);
+    const found = units.parse(units.inASCII(input.value), si);
     if (!found) return;
-    input.value = units.inLanguage(found.digits);
+    input.value = found.digits;
     select.value = found.unit;
   });
   return frame(path, node, value !== undefined, input, select);
@@ -216,12 +203,12 @@ export function showEffective(field, node, value) {
 function step(event, input) {
   if (event.key !== "ArrowUp" && event.key !== "ArrowDown") return;
   const shown = input.value || input.placeholder;
-  const value = Number(units.withPoint(units.ofLanguage(shown)));
+  const value = Number(units.withPoint(units.inASCII(shown)));
   if (!shown.trim() || !Number.isFinite(value)) return;
   event.preventDefault();
   const power = Math.floor(Math.log10(Math.abs(value)) + 1e-9) - (event.shiftKey ? 0 : 1);
   const size = value === 0 ? 1 : 10 ** power;
   const stepped = value + (event.key === "ArrowUp" ? size : -size);
-  input.value = units.inLanguage(String(Number(stepped.toPrecision(12))));
+  input.value = String(Number(stepped.toPrecision(12)));
   input.dispatchEvent(new Event("input", { bubbles: true }));
 }

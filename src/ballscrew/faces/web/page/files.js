@@ -2,7 +2,7 @@
 
 import { byId, element, showNotice } from "./dom.js";
 import { keeping } from "./keeping.js";
-import { language, text } from "./texts.js";
+import { text } from "./texts.js";
 
 /** Deleting everything is asked for twice within this time, in milliseconds. */
 const SURE_WITHIN = 6000;
@@ -63,7 +63,7 @@ function setUpKeeping() {
  * @param {import("./keeping.js").Work} work
  */
 export function sayRestored({ saved }) {
-  const when = new Intl.DateTimeFormat(language, { dateStyle: "medium", timeStyle: "short" }).format(saved);
+  const when = new Intl.DateTimeFormat("en", { dateStyle: "medium", timeStyle: "short" }).format(saved);
   const afresh = element("button", { type: "button", id: "afresh" }, text("keep.afresh"));
   afresh.addEventListener("click", () => keeping.show("#A=paper"));
   showNotice(`${text("keep.restored", { when })} `, afresh);

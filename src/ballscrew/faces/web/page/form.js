@@ -8,7 +8,7 @@ import * as help from "./help.js";
 import { slidersOf } from "./operating_point.js";
 import { definition, fieldOf, fieldsOf, isLaw, LEFT_OUT, SECTIONS } from "./schema.js";
 import { valueAt } from "./state.js";
-import { text, textOr } from "./texts.js";
+import { text } from "./texts.js";
 import { vocabulary } from "./vocabulary.js";
 
 /** @typedef {import("./schema.js").SchemaNode} SchemaNode */
@@ -160,7 +160,7 @@ function startField({ onChange }) {
   const option = (name, words) => element("option", { value: name }, words);
   const known = Object.entries(starts);
   /** @param {[string, Vocabulary["starts"][string]]} start */
-  const startOption = ([name, { title }]) => option(name, textOr(`start.${name}`, title));
+  const startOption = ([name, { title }]) => option(name, title);
   const select = element(
     "select",
     { id: "start", onchange: () => onChange({ start: select.value }) },
@@ -209,8 +209,7 @@ function showStart(start, file) {
  */
 export function rowLabel({ name, nut }) {
   const end = `-${nut}`;
-  const kind = textOr(`option.nut.type.${nut}`, nut);
-  return text("form.row", { name: name.endsWith(end) ? name.slice(0, -end.length) : name, nut: kind });
+  return text("form.row", { name: name.endsWith(end) ? name.slice(0, -end.length) : name, nut });
 }
 
 /**

@@ -4,7 +4,7 @@ import { namedButton } from "./controls.js";
 import * as designs from "./designs.js";
 import { byId, element } from "./dom.js";
 import { rowLabel } from "./form.js";
-import { text, textOr } from "./texts.js";
+import { text } from "./texts.js";
 import * as views from "./views.js";
 import { vocabulary } from "./vocabulary.js";
 
@@ -86,11 +86,7 @@ function partNumber() {
 /** Cases to start from. @returns {Node[]} */
 function examples() {
   return Object.entries(vocabulary.starts).map(([name, { title }]) =>
-    element(
-      "button",
-      { type: "button", "data-start": name, onclick: () => designs.startFrom(name) },
-      textOr(`start.${name}`, title),
-    ),
+    element("button", { type: "button", "data-start": name, onclick: () => designs.startFrom(name) }, title),
   );
 }
 

@@ -1,8 +1,7 @@
 // Help for the field that has the focus: what its annotation says, and the page of the theory.
 
 import { element } from "./dom.js";
-import { translated } from "./messages.js";
-import { helpIn, labelIn } from "./fields.js";
+import { labelIn } from "./fields.js";
 import { fieldOf } from "./schema.js";
 import { symbol } from "./symbols.js";
 import { text, textOr } from "./texts.js";
@@ -73,8 +72,8 @@ function follow(place, target) {
  */
 function show(place, path) {
   const { description = "", "x-symbol": tex, "x-hint": hint } = fieldOf(path) ?? {};
-  const help = helpIn(path, description);
-  const advice = translated(hint ?? "");
+  const help = description;
+  const advice = hint ?? "";
   place.hidden = false;
   place.replaceChildren(
     element("p", {}, element("strong", {}, labelIn(path)), symbol(tex), help ? `: ${help}` : ""),

@@ -6,7 +6,7 @@ import { byId, element, keepFocus } from "./dom.js";
 import * as form from "./form.js";
 import { LETTERS, valueAt } from "./state.js";
 import { store } from "./store.js";
-import { text, textOr } from "./texts.js";
+import { text } from "./texts.js";
 import * as units from "./units.js";
 import { vocabulary } from "./vocabulary.js";
 
@@ -86,8 +86,7 @@ function showExample() {
   const place = byId("example");
   place.hidden = example === undefined;
   if (example === undefined) return;
-  const name = textOr(`start.${example}`, vocabulary.starts[example].title);
-  place.textContent = text("have.shown", { name });
+  place.textContent = text("have.shown", { name: vocabulary.starts[example].title });
 }
 
 /**

@@ -16,7 +16,7 @@ import * as schema from "./schema.js";
 import { connection, get, linesOf } from "./server.js";
 import * as states from "./state.js";
 import { store } from "./store.js";
-import { followMenu, text } from "./texts.js";
+import { text } from "./texts.js";
 import * as units from "./units.js";
 import * as views from "./views.js";
 import { fill, vocabulary } from "./vocabulary.js";
@@ -151,7 +151,6 @@ function addListeners() {
     const change = /** @type {StateChange} */ (event);
     change.waitUntil(follow(change.about));
   });
-  followMenu(select("language"));
   byId("system").addEventListener("change", changeSystem);
   byId("band").addEventListener("change", changeBand);
   byId("own").addEventListener("change", () => {

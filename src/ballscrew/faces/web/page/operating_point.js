@@ -42,7 +42,7 @@ export function slidersOf(path, field, name, si) {
   const say = () => slider.setAttribute("aria-valuetext", `${input.value} ${units.symbol(unit.value)}`);
   let isMoving = false; // its ends stay as they are then
   const follow = () => {
-    const number = Number(units.withPoint(units.ofLanguage(input.value)));
+    const number = Number(units.withPoint(units.inASCII(input.value)));
     slider.disabled = !input.value.trim() || !Number.isFinite(number);
     if (slider.disabled) return;
     const ends = SLIDERS[path];
@@ -109,7 +109,7 @@ function roundUp(value) {
  * @param {number} number
  */
 function type(input, number) {
-  input.value = units.inLanguage(String(Number(number.toPrecision(DIGITS))));
+  input.value = String(Number(number.toPrecision(DIGITS)));
   input.dispatchEvent(new Event("input", { bubbles: true }));
 }
 

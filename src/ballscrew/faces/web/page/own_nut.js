@@ -3,7 +3,7 @@
 import { faultLines } from "./cards/log_parts.js";
 import { lines } from "./cards/records.js";
 import { element, scrolling, table } from "./dom.js";
-import { labelOf, said } from "./messages.js";
+import { labelOf } from "./messages.js";
 import { Latest, linesOf, Problem, sendJson } from "./server.js";
 import { text } from "./texts.js";
 import { currentSystem, formattedIn, inSystem, symbol, withPoint, withPowers } from "./units.js";
@@ -188,7 +188,7 @@ function shown({ estimates, warnings }) {
     const [value, low, high] = [one.value, one.low, one.high].map((number) =>
       withPowers(formattedIn(number, one.shown_in, one.unit, DIGITS)),
     );
-    return [labelOf(`screw.${PLACES[one.name] ?? one.name}`), value, low, high, said(one.message)];
+    return [labelOf(`screw.${PLACES[one.name] ?? one.name}`), value, low, high, one.source];
   });
   const caption = text("own_nut.estimated");
   const content = table(

@@ -4,7 +4,7 @@ import { byId, csv, element, table, update, within } from "./dom.js";
 import { letDrag } from "./operating_point.js";
 import { save } from "./saving.js";
 import { sketch } from "./sketch.js";
-import { hasComma, localised, text, textOr } from "./texts.js";
+import { text, textOr } from "./texts.js";
 
 /** @typedef {{ ink: string, line: string, panel: string, accent: string, second: string }} Colours */
 /** @typedef {Record<string, any>} Layout */
@@ -87,7 +87,7 @@ export function layout({ ink, line, panel }, x, y, more = {}) {
     plot_bgcolor: "rgba(0,0,0,0)",
     font: { color: ink, family: FONT, size: 12.5 },
     margin: { l: 72, r: 26, t: 8, b: 42 },
-    separators: hasComma ? ",." : ".,",
+    separators: ".,",
     showlegend: false,
     hovermode: "x unified",
     hoverlabel: { bgcolor: panel, bordercolor: line, font: { color: ink } },
@@ -113,9 +113,7 @@ function showNumbers(chart, holder) {
   if (!details?.open) return;
   const [headings, rows] = chart.numbers();
   const rounded = rows.map((cells) =>
-    cells.map((cell) =>
-      typeof cell === "number" ? localised(String(Number(cell.toPrecision(5)))) : String(cell ?? ""),
-    ),
+    cells.map((cell) => (typeof cell === "number" ? String(Number(cell.toPrecision(5))) : String(cell ?? ""))),
   );
   const scroll = details.querySelector(".scroll") ?? element("div", { class: "scroll", tabindex: "0", role: "region" });
   scroll.setAttribute("aria-label", chart.caption);

@@ -3,8 +3,7 @@
 import { inHeadline, isStarved } from "./bath.js";
 import { verdict } from "./checks.js";
 import { byId, element, table, update, write } from "./dom.js";
-import { ofRecord, said } from "./messages.js";
-import { text, textOr } from "./texts.js";
+import { text } from "./texts.js";
 import * as units from "./units.js";
 
 /** Results of the first table. */
@@ -76,7 +75,7 @@ function isOfContact(record) {
  * @param {{ id: string }} record
  */
 export function nameOf({ id }) {
-  return textOr(`record.${id}`, id.slice(id.indexOf(".") + 1).replaceAll(/[._]/g, " "));
+  return id.slice(id.indexOf(".") + 1).replaceAll(/[._]/g, " ");
 }
 
 /**
@@ -155,10 +154,10 @@ const announcer = new Announcer();
  * @param {(place: Element) => boolean} isWanted where it is shown: everywhere, or in what is seen alone
  */
 export function show(answer, { band, checks }, isWanted = () => true) {
-  const { results, display, warnings } = answer;
+  const { results, words, warnings } = answer;
   const known = band?.state === "done" ? band.answer : undefined;
   const wants = (/** @type {string} */ id) => isWanted(byId(id));
-  update(byId("case"), said(display.title));
+  update(byId("case"), words.title);
   const torque = rounded("screw_torque", results.screw_torque, known);
   const isDriven = results.efficiency === null && results.back_driving_efficiency !== null;
   const efficiency = isDriven ? "back_driving_efficiency" : "efficiency";
@@ -178,7 +177,7 @@ export function show(answer, { band, checks }, isWanted = () => true) {
   }
   if (wants("verdicts")) showVerdicts(answer);
   if (wants("numbers")) showResults(answer, known, band !== null);
-  if (wants("rules")) update(byId("rules"), ...display.rules.map((one) => element("p", { class: "small" }, said(one))));
+  if (wants("rules")) update(byId("rules"), ...words.rules.map((one) => element("p", { class: "small" }, one)));
   if (wants("vendor-rows")) showVendorRows(answer);
   if (wants("contacts")) showContacts(answer, warnings.filter(isOfContact));
   if (wants("assumed")) showAssumptions(answer);
@@ -233,7 +232,7 @@ function showVendorRows({ vendor_rows: near }) {
 function showVerdicts(answer) {
   const { verdicts, warnings } = answer;
   const lines = verdicts.map((record) =>
-    element("p", { class: record.severity === "info" ? "verdict" : "verdict careful" }, ofRecord(record)),
+    element("p", { class: record.severity === "info" ? "verdict" : "verdict careful" }, record.text),
   );
   const ofContacts = warnings.filter(isOfContact);
   if (ofContacts.length) {
@@ -257,15 +256,15 @@ function showVerdicts(answer) {
 /** @param {VerdictRecord} record */
 function warning(record) {
   const subject = element("strong", {}, `${text("answer.beware", { subject: nameOf(record) })} `);
-  return element("p", { class: "warning" }, subject, element("span", {}, ofRecord(record)));
+  return element("p", { class: "warning" }, subject, element("span", {}, record.text));
 }
 
 /** @param {Run} answer */
-function showAssumptions({ display, provenance }) {
+function showAssumptions({ words, provenance }) {
   const { model, version, references } = provenance;
   update(
     byId("assumed"),
-    element("ul", {}, ...display.assumed.map((one) => element("li", {}, said(one)))),
+    element("ul", {}, ...words.assumed.map((one) => element("li", {}, one))),
     element("p", { class: "small" }, text("assumed.sources", { model, version, references: references.join(", ") })),
   );
 }
@@ -326,7 +325,7 @@ function showBand(answer, band) {
   else if (band.state === "failed") {
     place.replaceChildren(element("p", { class: "warning" }, band.lines.join("; ")));
   } else {
-    const { display, verdicts, warnings } = band.answer;
+    const { words, verdicts, warnings } = band.answer;
     const shown = new Set(answer.warnings.map((record) => record.id));
     const others = warnings.filter((record) => !shown.has(record.id));
     const [first, ...sentences] = verdicts.filter(({ id }) => id.startsWith("band."));
@@ -335,10 +334,10 @@ function showBand(answer, band) {
       element(
         "details",
         { open: isOpen },
-        element("summary", {}, ofRecord(first)),
-        ...sentences.map((one) => element("p", {}, ofRecord(one))),
-        element("p", { class: "small" }, said(display.inputs)),
-        ...others.map((record) => element("p", { class: "small" }, ofRecord(record))),
+        element("summary", {}, first.text),
+        ...sentences.map((one) => element("p", {}, one.text)),
+        element("p", { class: "small" }, words.inputs),
+        ...others.map((record) => element("p", { class: "small" }, record.text)),
       ),
     );
   }

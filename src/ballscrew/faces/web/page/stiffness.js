@@ -3,7 +3,6 @@
 import * as parts from "./chart_parts.js";
 import { byId, element, table, update } from "./dom.js";
 import { draw, hide, layout } from "./plot.js";
-import { said } from "./messages.js";
 import { text } from "./texts.js";
 import * as units from "./units.js";
 import { vocabulary } from "./vocabulary.js";
@@ -58,7 +57,7 @@ export function show(answer) {
     const [least, mean, greatest] = ["least", "mean", "greatest"].map((one) => units.formattedIn(found[one], "N", "N"));
     rows.push([text(`stiffness.${flank}`), text("stiffness.loads", { least, greatest, mean })]);
   }
-  const notes = answer.display.rigidity.map(said).join("; ");
+  const notes = answer.words.rigidity.join("; ");
   update(
     place,
     table(text("stiffness.caption"), ["", ""], rows),

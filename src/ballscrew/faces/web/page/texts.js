@@ -1,18 +1,11 @@
-// Texts of the page in the language of the visitor: the server puts the table into the page (texts/en.json, de.json).
+// Texts of the page: the server puts the table into it (texts.json).
 
-/** @typedef {keyof typeof import("./texts/en.json")} Key */
+/** @typedef {keyof typeof import("./texts.json")} Key */
 
 /** All texts by key. @type {Record<string, string>} */
 const table = JSON.parse(document.querySelector("template")?.content.textContent || "{}");
 /** A place in a text that a value takes. */
 const PLACEHOLDER = /\{(\w+(?:\.\w+)*)\}/g;
-const COOKIE = "ballscrew-language";
-const YEAR = 31_536_000;
-
-/** The language of the page, such as "en". */
-export const language = document.documentElement.lang;
-/** What stands between a number and its decimals. */
-const POINT = new Intl.NumberFormat(language).formatToParts(1.5).find(({ type }) => type === "decimal")?.value ?? ".";
 
 /**
  * The text of a key, with values in the places of their names in braces.
@@ -41,32 +34,6 @@ export function textOr(key, other, values = {}) {
  * @param {string} pattern
  * @param {(name: string) => string | number | undefined} value
  */
-export function filledIn(pattern, value) {
+function filledIn(pattern, value) {
   return pattern.replace(PLACEHOLDER, (placeholder, name) => String(value(name) ?? placeholder));
-}
-
-/**
- * The digits of a number, written with a point, as they are written in the language.
- *
- * @param {string} digits
- */
-export function localised(digits) {
-  return digits.replace(".", POINT);
-}
-
-/** True where the language has a decimal comma. */
-export const hasComma = POINT === ",";
-
-/**
- * Follow the menu of languages: the choice stays in the browser as a cookie, and the page is loaded in it.
- *
- * @param {HTMLSelectElement} menu
- */
-export function followMenu(menu) {
-  menu.value = language; // browsers keep what was chosen before the page was loaded again
-  menu.addEventListener("change", () => {
-    // biome-ignore lint/suspicious/noDocumentCookie: the other interface needs HTTPS, which a server on one's own machine has not
-    document.cookie = `${COOKIE}=${menu.value}; path=/; max-age=${YEAR}; samesite=strict`;
-    location.reload();
-  });
 }

@@ -2,7 +2,6 @@
 
 import { currentLead } from "./designs.js";
 import { store } from "./store.js";
-import { hasComma, localised, textOr } from "./texts.js";
 import { vocabulary } from "./vocabulary.js";
 
 const NUMBER = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(.*?)\s*$/i;
@@ -13,13 +12,6 @@ const SAME_UNIT = { preload_drag: "screw_torque" };
 export const DIGITS = 4;
 /** Digits beyond which a number is that of its rounding errors. */
 const EXACT = 12;
-/** The number at the start of an input, with what is told of its spread. */
-const LEADING = /^[\s\d.,'eE+±-]+/;
-/** Digits in groups of three by the mark between them, which may stand between thousands. */
-const GROUPS = {
-  ".": /(?<![\d.,])[1-9]\d{0,2}(?:\.\d{3})+(?![\d.])/,
-  ",": /(?<![\d.,])[1-9]\d{0,2}(?:,\d{3})+(?![\d,])/,
-};
 /** How far the full-width forms stand behind those of ASCII. */
 const FULL_WIDTH = 0xfee0;
 
@@ -43,12 +35,12 @@ function lead() {
 }
 
 /**
- * A unit in its usual symbols, in the language of the page where that has others: µm, °C, m/s², N·m.
+ * A unit in its usual symbols: µm, °C, m/s², N·m.
  *
  * @param {string} unit
  */
 export function symbol(unit) {
-  return textOr(`unit.${unit}`, vocabulary.symbols[unit] ?? unit);
+  return vocabulary.symbols[unit] ?? unit;
 }
 
 /**
@@ -142,48 +134,15 @@ export function withPoint(text) {
 }
 
 /**
- * An input as it is kept, with points, where the language writes commas. Points between thousands become commas there,
- * which the server does not take for decimals.
- *
- * @param {string} text
- */
-export function ofLanguage(text) {
-  const plain = inASCII(text);
-  return hasComma ? plain.replace(LEADING, (number) => swapped(number, ",")) : plain;
-}
-
-/**
  * A text with digits and signs as keyboards have them: a minus sign and full-width digits are read as well.
  *
  * @param {string} text
  */
-function inASCII(text) {
+export function inASCII(text) {
   return text
     .replaceAll("\u2212", "-")
     .replaceAll("\u3000", " ")
     .replace(/[\uff01-\uff5e]/g, (one) => String.fromCharCode(one.charCodeAt(0) - FULL_WIDTH));
-}
-
-/**
- * An input as the language writes it.
- *
- * @param {string} text
- */
-export function inLanguage(text) {
-  return hasComma ? text.replace(LEADING, (number) => swapped(number, ".")) : text;
-}
-
-/**
- * A number with one mark of its decimals in place of the other; with both, where the other one stands between groups.
- *
- * @param {string} number
- * @param {"." | ","} mark the one that is replaced
- */
-function swapped(number, mark) {
-  const other = mark === "," ? "." : ",";
-  return GROUPS[other].test(number)
-    ? number.replace(/[.,]/g, (one) => (one === "," ? "." : ","))
-    : number.replaceAll(mark, other);
 }
 
 /**
@@ -225,8 +184,8 @@ export function digits(value, count = DIGITS, toward = 0) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   const rounded = toward ? directed(value, count, toward) : Number(value.toPrecision(count));
   return Math.abs(rounded) >= 1e6 || (rounded !== 0 && Math.abs(rounded) < 1e-4)
-    ? localised(rounded.toExponential().replace("e+", "e"))
-    : localised(String(rounded));
+    ? rounded.toExponential().replace("e+", "e")
+    : String(rounded);
 }
 
 /**
@@ -284,10 +243,9 @@ export function inDisplayUnit(name, value) {
  * @param {number | null | undefined} value
  * @param {string} unit
  * @param {number} count
- * @param {number} [toward]
  */
-function withUnit(value, unit, count, toward) {
-  const text = digits(value, count, toward);
+function withUnit(value, unit, count) {
+  const text = digits(value, count);
   return unit && text !== "–" ? `${text}\u00a0${symbol(unit)}` : text; // units do not wrap
 }
 
@@ -307,12 +265,11 @@ export function formatted(name, value, count = DIGITS) {
  * @param {number | null | undefined} value
  * @param {string} metric
  * @param {string} si
- * @param {number} [toward] as of digits
  */
-export function formattedIn(value, metric, si, count = DIGITS, toward = 0) {
-  if (si === "1") return digits(value, count, toward);
+export function formattedIn(value, metric, si, count = DIGITS) {
+  if (si === "1") return digits(value, count);
   const unit = inSystem(metric);
-  return withUnit(value === null || value === undefined ? value : fromSI(value, unit, si), unit, count, toward);
+  return withUnit(value === null || value === undefined ? value : fromSI(value, unit, si), unit, count);
 }
 
 const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";

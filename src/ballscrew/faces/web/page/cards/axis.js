@@ -4,7 +4,6 @@ import { sketch } from "../axis_sketch.js";
 import * as designs from "../designs.js";
 import { element, redraw, scrolling, table } from "../dom.js";
 import { documented } from "../help.js";
-import { said } from "../messages.js";
 import { draw, hide, layout, watch } from "../plot.js";
 import * as schema from "../schema.js";
 import * as states from "../state.js";
@@ -143,7 +142,7 @@ export function setUp(holder) {
     else hide("axis-lost");
     draw("axis-speed", against(results, "speed", results.critical_speed, results.largest_speed, TURNING));
     draw("axis-buckling", against(results, "buckling", results.buckling_load, results.largest_load, BUCKLING));
-    const list = element("ul", {}, ...found.display.assumed.map((one) => element("li", {}, said(one))));
+    const list = element("ul", {}, ...found.assumed.map((one) => element("li", {}, one)));
     weakest.replaceChildren(softest(results));
     assumed.replaceChildren(element("details", { open: "" }, element("summary", {}, text("axis.assumed")), list));
   }

@@ -3,7 +3,6 @@
 import * as designs from "../designs.js";
 import { namedButton, primaryButton } from "../controls.js";
 import { element, redraw, scrollingTable } from "../dom.js";
-import { said } from "../messages.js";
 import { watch } from "../plot.js";
 import { save } from "../saving.js";
 import { linesOf, Problem } from "../server.js";
@@ -176,16 +175,16 @@ export function setUp(holder) {
   function show(found) {
     answer = found;
     system = units.currentSystem();
-    const { rows, display } = found;
+    const { rows, words: texts } = found;
     words.replaceChildren(
       ...lines(found.verdicts, []),
       element("p", {}, text("calibrate.rows", { used: rows.used, read: rows.read, held: rows.held_out })),
-      element("p", { class: "small" }, display.rows.map(said).join("; ")),
+      element("p", { class: "small" }, texts.rows.join("; ")),
       estimates(found),
       ...lines([], found.warnings),
-      element("p", {}, said(display.trade_off)),
-      ...(display.next_test.length ? [element("h3", {}, text("calibrate.next"))] : []),
-      ...display.next_test.map((line) => element("p", {}, said(line))),
+      element("p", {}, texts.trade_off),
+      ...(texts.next_test.length ? [element("h3", {}, text("calibrate.next"))] : []),
+      ...texts.next_test.map((line) => element("p", {}, line)),
     );
     charts.show(found);
     const untold = Object.entries(found.estimates)

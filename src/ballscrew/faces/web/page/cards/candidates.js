@@ -3,7 +3,6 @@
 import * as designs from "../designs.js";
 import { box, button, menu, textField } from "../controls.js";
 import { element, redraw, scrolling } from "../dom.js";
-import { said } from "../messages.js";
 import { draw, layout, watch } from "../plot.js";
 import { LETTERS } from "../state.js";
 import { store } from "../store.js";
@@ -162,7 +161,7 @@ export function candidates(holder, found) {
   const x = axis("choose-x", "choose.across", "loss");
   const y = axis("choose-y", "choose.up", known.includes("inertia") ? "inertia" : known[0]);
   holder.replaceChildren(
-    element("p", { class: "small" }, found.display.notes.map(said).join("; ")),
+    element("p", { class: "small" }, [.../** @type {string[]} */ (found.need.assumed), ...found.notes].join("; ")),
     filter.fields,
     words,
     element("p", { class: "small" }, text("choose.order", { first: names[0], names: names.join(", ") })),

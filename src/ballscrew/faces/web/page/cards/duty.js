@@ -130,7 +130,6 @@ export function setUp(holder) {
 
   /** @param {string} fault */
   function showRecorded(fault) {
-    // the button of the browser would speak the language of the browser
     const input = element("input", {
       type: "file",
       id: "duty-trace",
@@ -174,7 +173,7 @@ export function setUp(holder) {
   function examples(starts) {
     const moving = Object.entries(starts).filter(([, { moves }]) => moves);
     const select = menu(
-      moving.map(([name, { title }]) => [name, textOr(`start.${name}`, title)]),
+      moving.map(([name, { title }]) => [name, title]),
       "",
       () => {},
       { id: "duty-example" },
@@ -216,8 +215,7 @@ export function setUp(holder) {
     );
     const rows = shown.map(([name, of]) => {
       const inUnits = units.withPowers(quantity(of.unit, of.shown_in).text(values[name]));
-      const meaning = textOr(`quantity.${name}`, of.meaning);
-      return element("div", {}, element("dt", {}, meaning), element("dd", {}, data(name, values[name], inUnits)));
+      return element("div", {}, element("dt", {}, of.meaning), element("dd", {}, data(name, values[name], inUnits)));
     });
     return element("div", { class: "numbers" }, element("dl", {}, ...rows));
   }
@@ -229,8 +227,7 @@ export function setUp(holder) {
       [peak, rms, energy].some((one) => Math.abs(one[name] ?? 0) > ROUNDING),
     );
     /** @param {string} name */
-    const meaning = (name) =>
-      textOr(`mechanism.${name}`, vocabulary.mechanisms[name]?.words ?? name.replaceAll("_", " "));
+    const meaning = (name) => vocabulary.mechanisms[name]?.words ?? name.replaceAll("_", " ");
     /** @param {Record<string, number | null>} column */
     const sum = (column) => Object.values(column).reduce((/** @type {number} */ found, one) => found + (one ?? 0), 0);
     /** What is rounding is nothing. @param {Record<string, number | null>} column @param {string} name */
@@ -290,7 +287,7 @@ export function setUp(holder) {
       textOr(`duty.phase.${name}`, name),
     );
     const heat = Object.entries(results.heat_by_element).map(
-      ([name, power]) => `${textOr(`mechanism.${name}`, name.replaceAll("_", " "))} ${POWER.text(power)}`,
+      ([name, power]) => `${name.replaceAll("_", " ")} ${POWER.text(power)}`,
     );
     return element(
       "div",

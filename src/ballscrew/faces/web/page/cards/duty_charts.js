@@ -1,7 +1,7 @@
 // Charts of a cycle: its motion, the torque of the motor by cause, and the torque over speed on the motor's curve.
 
 import { draw, layout } from "../plot.js";
-import { text, textOr } from "../texts.js";
+import { text } from "../texts.js";
 import { POSITION, SPEED, TIME, TORQUE, TURNING } from "./quantities.js";
 
 /** @typedef {DutyAnswer["results"]} Results */
@@ -102,7 +102,7 @@ function torque(results, causes) {
   const { torque_rms: rms } = byMechanics(results);
   const time = TIME.all(cycle.time);
   const parts = Object.entries(cycle.torque_by).map(([name, values]) => ({
-    name: textOr(`cause.${name}`, causes[name]?.words ?? name),
+    name: causes[name]?.words ?? name,
     values: TORQUE.all(values),
     colour: causes[name]?.colour,
   }));

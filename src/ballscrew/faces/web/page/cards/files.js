@@ -9,11 +9,11 @@ import { save } from "../saving.js";
 import { linesOf, send } from "../server.js";
 import { LETTERS } from "../state.js";
 import { store } from "../store.js";
-import { language, text } from "../texts.js";
+import { text } from "../texts.js";
 
 /** Kinds of project files. */
 const KINDS = ["toml", "json"];
-const WHEN = new Intl.DateTimeFormat(language, { dateStyle: "medium", timeStyle: "short" });
+const WHEN = new Intl.DateTimeFormat("en", { dateStyle: "medium", timeStyle: "short" });
 
 /** @param {HTMLElement} holder */
 export function setUp(holder) {

@@ -3,7 +3,6 @@
 import * as designs from "../designs.js";
 import { framed, labelled, namedButton, primaryButton, opened } from "../controls.js";
 import { element, scrollingTable } from "../dom.js";
-import { said, translated } from "../messages.js";
 import { save } from "../saving.js";
 import { get } from "../server.js";
 import { text, textOr } from "../texts.js";
@@ -91,7 +90,7 @@ export function setUp(holder) {
           text("hand_over.usual"),
         ),
       ),
-      ...(target?.options ?? []).map((one) => field("option", one.name, translated(one.meaning), one.default)),
+      ...(target?.options ?? []).map((one) => field("option", one.name, one.meaning, one.default)),
     );
   }
 
@@ -102,7 +101,7 @@ export function setUp(holder) {
       const found = await get("targets");
       targets = found.targets;
       select.replaceChildren(
-        ...targets.map(({ name, meaning }) => element("option", { value: name }, `${name}: ${translated(meaning)}`)),
+        ...targets.map(({ name, meaning }) => element("option", { value: name }, `${name}: ${meaning}`)),
       );
       showOptions();
     }
@@ -115,7 +114,7 @@ export function setUp(holder) {
   }
 
   /** @param {HandOverAnswer} found */
-  function show({ results, warnings, display, file }) {
+  function show({ results, warnings, words: { ranges: inWords }, file }) {
     const worst = /** @type {Record<string, Record<string, any>>} */ (results.worst_error);
     const rows = Object.entries(worst).map(([name, one]) => [
       textOr(`result.${name}`, name.replaceAll("_", " ")),
@@ -133,7 +132,7 @@ export function setUp(holder) {
     const download = namedButton("hand-over-download", "hand_over.download", () =>
       save(`-${file.name}`, new Blob([bytes], { type: file.media_type })),
     );
-    const told = display.lines.map((line) => element("li", {}, said(line)));
+    const told = inWords.map((line) => element("li", {}, line));
     const ranges = opened(text("hand_over.ranges"), element("ul", {}, ...told));
     ranges.open = true;
     result.replaceChildren(

@@ -156,11 +156,11 @@ function motorFields(current, usualMotor, source, put) {
   const points = motor.curve ?? [];
   /** @param {string} typed */
   const read = (typed) => {
-    const points = typed.split(";").map((point) => point.split(":").map((one) => units.ofLanguage(one.trim())));
+    const points = typed.split(";").map((point) => point.split(":").map((one) => units.inASCII(one.trim())));
     const { curve, ...others } = current() ?? {};
     put({ motor: typed.trim() ? { ...others, curve: points } : others }, { path: "motor.curve" });
   };
-  const input = textField(points.map((point) => point.map(units.inLanguage).join(": ")).join("; "), read, {
+  const input = textField(points.map((point) => point.join(": ")).join("; "), read, {
     id: "f-motor-curve",
     spellcheck: "false",
     "aria-describedby": "f-motor-curve-about f-motor-curve-fault",

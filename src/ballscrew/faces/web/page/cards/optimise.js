@@ -4,7 +4,7 @@
 import * as designs from "../designs.js";
 import { button, primaryButton } from "../controls.js";
 import { element, scrolling, table } from "../dom.js";
-import { labelOf, said } from "../messages.js";
+import { labelOf } from "../messages.js";
 import { FIELDS } from "../needs.js";
 import { draw, hide, layout, watch } from "../plot.js";
 import { LETTERS } from "../state.js";
@@ -127,7 +127,7 @@ export function setUp(holder) {
     answer = found;
     system = units.currentSystem();
     result.hidden = false;
-    const { candidates, search, display, warnings } = found;
+    const { candidates, search, notes, warnings } = found;
     const counts = text("optimise.counts", {
       shown: candidates.length,
       front: search.front,
@@ -136,7 +136,7 @@ export function setUp(holder) {
     words.replaceChildren(
       element("p", { class: candidates.length ? "verdict" : "verdict careful", "data-record": "optimise" }, counts),
       ...(candidates.length ? [] : [element("p", {}, text("optimise.none"))]),
-      element("p", { class: "small" }, display.notes.map(said).join("; ")),
+      element("p", { class: "small" }, notes.join("; ")),
       element("p", { class: "small" }, text("optimise.shapes")),
       ...lines([], warnings),
     );

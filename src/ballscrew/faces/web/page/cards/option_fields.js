@@ -3,7 +3,7 @@
 import { menu, opened, textField } from "../controls.js";
 import { element } from "../dom.js";
 import { words } from "../fields.js";
-import { text, textOr } from "../texts.js";
+import { text } from "../texts.js";
 import * as units from "../units.js";
 
 /** @typedef {Vocabulary["options"][string][number]} Option */
@@ -29,30 +29,17 @@ export function optionFields(question, options, given, change) {
     });
     control.id = `${question}-${option.name}`;
     control.setAttribute("aria-describedby", `${control.id}-about`);
-    const help = ofOption(question, option, "help", option.meaning);
     return element(
       "div",
-      { class: "field", title: help },
-      element("label", { for: control.id }, ofOption(question, option, "label", words(option.name))),
+      { class: "field", title: option.meaning },
+      element("label", { for: control.id }, words(option.name)),
       element("div", { class: "entry" }, control),
-      element("p", { id: `${control.id}-about`, class: "hidden" }, help),
+      element("p", { id: `${control.id}-about`, class: "hidden" }, option.meaning),
     );
   });
   const found = opened(text("card.options"), element("div", { class: "grid" }, ...fields));
   found.className = "card-fields";
   return found;
-}
-
-/**
- * The label or the help of an option in the language of the page: that of the question, or of all that have the option.
- *
- * @param {string} question
- * @param {Option} option
- * @param {"label" | "help"} part
- * @param {string} other
- */
-function ofOption(question, { name }, part, other) {
-  return textOr(`option.${question}.${name}.${part}`, textOr(`option.${name}.${part}`, other));
 }
 
 /**
@@ -68,7 +55,7 @@ function controlOf(option, take) {
   if (option.kind === "choice") {
     const names = ["", ...option.choices];
     return menu(
-      names.map((name) => [name, name ? textOr(`option.${name}`, name) : text("form.not_given")]),
+      names.map((name) => [name, name || text("form.not_given")]),
       "",
       (name) => take(name || undefined),
     );
@@ -76,16 +63,16 @@ function controlOf(option, take) {
   /** @param {string} typed */
   const read = (typed) => take(typed.trim() ? fromText(option, typed.trim()) : undefined);
   const usual = typeof option.default === "object" ? "" : String(option.default ?? ""); // a table is empty by default
-  return textField("", read, { placeholder: units.inLanguage(usual) });
+  return textField("", read, { placeholder: usual });
 }
 
 /** What was typed, as the body of a request has it. @param {Option} option @param {string} typed */
 function fromText({ kind }, typed) {
   if (kind === "whole" || kind === "number") {
-    const found = Number(units.withPoint(units.ofLanguage(typed)));
+    const found = Number(units.withPoint(units.inASCII(typed)));
     return Number.isFinite(found) ? found : typed;
   }
-  if (kind === "quantity") return units.ofLanguage(typed);
+  if (kind === "quantity") return units.inASCII(typed);
   if (kind === "names") return typed.split(",").map((name) => name.trim());
   if (kind !== "texts" && kind !== "ranges") return typed;
   const entries = typed.split(BETWEEN).filter((entry) => entry.trim());

@@ -90,7 +90,7 @@ export function setUp(holder) {
   const field = (end) => {
     /** @param {string} typed */
     const read = (typed) => {
-      const number = Number(units.withPoint(units.ofLanguage(typed)));
+      const number = Number(units.withPoint(units.inASCII(typed)));
       question[end] = typed.trim() !== "" && Number.isFinite(number) ? inSI(question.path, number) : undefined;
       later();
     };

@@ -2,7 +2,6 @@
 
 import { element } from "../dom.js";
 import { text } from "../texts.js";
-import { ofRecord } from "../messages.js";
 
 /**
  * Verdicts, and below them what to beware of.
@@ -12,7 +11,7 @@ import { ofRecord } from "../messages.js";
  */
 export function lines(verdicts, warnings) {
   const [firstVerdicts, firstWarnings] = [once(verdicts), once(warnings)];
-  const said = new Set(firstVerdicts.map(ofRecord));
+  const said = new Set(firstVerdicts.map((one) => one.text));
   return [
     ...firstVerdicts.map((record) =>
       element(
@@ -21,17 +20,17 @@ export function lines(verdicts, warnings) {
           class: record.severity === "info" ? "verdict" : "verdict careful",
           "data-record": record.id,
         },
-        sentence(ofRecord(record)),
+        sentence(record.text),
       ),
     ),
     ...firstWarnings
-      .filter((record) => !said.has(ofRecord(record)))
+      .filter((record) => !said.has(record.text))
       .map((record) =>
         element(
           "p",
           { class: "warning", "data-record": record.id },
           element("strong", {}, `${text("card.beware")} `),
-          element("span", {}, sentence(ofRecord(record))),
+          element("span", {}, sentence(record.text)),
         ),
       ),
   ];
@@ -39,7 +38,7 @@ export function lines(verdicts, warnings) {
 
 /** Records without those that say the same again. @param {VerdictRecord[]} records */
 export function once(records) {
-  return [...new Map(records.map((record) => [ofRecord(record), record])).values()];
+  return [...new Map(records.map((record) => [record.text, record])).values()];
 }
 
 /** A sentence with its capital letter and its full stop. @param {string} words */

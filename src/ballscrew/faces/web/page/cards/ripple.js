@@ -3,7 +3,6 @@
 
 import { element, scrollingTable } from "../dom.js";
 import { documented } from "../help.js";
-import { said, translated } from "../messages.js";
 import { draw, layout } from "../plot.js";
 import { text } from "../texts.js";
 import * as units from "../units.js";
@@ -28,12 +27,12 @@ export function setUp(holder) {
   const charts = [CHART, ORDERS].map((id) => element("div", { id, class: "chart low", hidden: true }));
   const page = documented("howto/ripple", `${text("ripple.how_to")}.`);
   const about = [`${text("ripple.hypothesis")} `, page];
-  return askedByButton(holder, "ripple", about, "ripple.start", charts, ({ results, display }) => {
+  return askedByButton(holder, "ripple", about, "ripple.start", charts, ({ results, assumed }) => {
     draw(CHART, overAngle(results));
     draw(ORDERS, overOrder(results));
-    const list = element("ul", {}, ...display.assumed.map((one) => element("li", {}, said(one))));
-    const assumed = element("details", { open: "" }, element("summary", {}, text("ripple.assumed")), list);
-    return [sizes(results), causes(results), orders(results), assumed];
+    const list = element("ul", {}, ...assumed.map((one) => element("li", {}, one)));
+    const details = element("details", { open: "" }, element("summary", {}, text("ripple.assumed")), list);
+    return [sizes(results), causes(results), orders(results), details];
   });
 }
 
@@ -161,7 +160,7 @@ function causes({ parts, range }) {
 /** The orders that have a cause, as the nut is and with each fault. @param {Results} results */
 function orders({ orders: named, faults }) {
   const rows = named.map(({ name, order, amplitude }, place) => [
-    translated(name),
+    name,
     units.digits(order, 4),
     data(`order-${place}`, amplitude, SMALL_TORQUE.text(amplitude, 2)),
     ...faults.map((one) => SMALL_TORQUE.text(one.orders[place]?.amplitude, 2)),

@@ -183,12 +183,12 @@ function cell(place, name, node, value, label, onInput) {
   const digits = value === undefined ? "" : units.digitsIn(value, unitOf(node), node?.["x-si-unit"]);
   /** @param {string} shown */
   const read = (shown) => {
-    const typed = units.ofLanguage(shown.trim());
+    const typed = units.inASCII(shown.trim());
     const isBare = typed !== "" && /^[\s\d.,'eE+±-]*$/.test(typed);
     onInput(isBare ? `${typed} ${unitOf(node)}` : typed);
   };
   const attributes = { inputmode: "decimal", id, "aria-label": label, "aria-describedby": fault };
-  const input = textField(units.inLanguage(digits ?? String(value)), read, attributes);
+  const input = textField(digits ?? String(value), read, attributes);
   const path = `motion.segment ${place + 1}.${name}`;
   return element("td", { "data-path": path }, input, element("p", { class: "fault", id: fault }));
 }

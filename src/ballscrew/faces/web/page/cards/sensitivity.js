@@ -5,9 +5,8 @@ import { jump } from "../cards.js";
 import { menu } from "../controls.js";
 import { element, scrolling, table } from "../dom.js";
 import { documented } from "../help.js";
-import { labelOf } from "../messages.js";
 import { draw, layout } from "../plot.js";
-import { language, text, textOr } from "../texts.js";
+import { text, textOr } from "../texts.js";
 import * as units from "../units.js";
 import { askedByButton } from "./asked_by_button.js";
 import { data, quantity } from "./quantities.js";
@@ -147,7 +146,7 @@ function picture(found, all) {
     caption: text("sensitivity.caption"),
     description: text("sensitivity.description", {
       count: inputs.length,
-      first: inputs[0] ? nameOf(inputs[0]) : "–",
+      first: inputs[0] ? inputs[0].meaning : "–",
       change: first ? changeOf(found, Math.abs(first.value)) : "–",
       mean: unit.text(indices.mean, 3),
     }),
@@ -159,7 +158,7 @@ function picture(found, all) {
         x: inputs.map((one) => 2 * Math.abs(size(barsOf(found, one)[bar].value))),
         base: inputs.map((one) => mean - Math.abs(size(barsOf(found, one)[bar].value))),
         customdata: inputs.map(
-          (one) => `${nameOf(one)}: ± ${changeOf(found, Math.abs(barsOf(found, one)[bar].value))}`,
+          (one) => `${one.meaning}: ± ${changeOf(found, Math.abs(barsOf(found, one)[bar].value))}`,
         ),
         name,
         width: bar ? 0.4 : 0.75,
@@ -177,7 +176,7 @@ function picture(found, all) {
         yaxis: {
           range: [inputs.length - 0.5, -0.5],
           tickvals: places,
-          ticktext: inputs.map((one) => inLines(nameOf(one))),
+          ticktext: inputs.map((one) => inLines(one.meaning)),
           tickmode: "array",
           zeroline: false,
         },
@@ -193,15 +192,10 @@ function picture(found, all) {
     ],
     numbers: () => [
       [text("sensitivity.input"), ...names.map((name) => withUnit(found, name))],
-      all.map((one) => [nameOf(one), ...barsOf(found, one).map(({ value }) => size(value))]),
+      all.map((one) => [one.meaning, ...barsOf(found, one).map(({ value }) => size(value))]),
     ],
     click: (place) => jump(inputs[place].path),
   };
-}
-
-/** The name of an input in the language of the page: its meaning in English, and the label of its field elsewhere. @param {Input} input */
-function nameOf({ path, meaning }) {
-  return language === "en" ? meaning : labelOf(path);
 }
 
 /** Words with the unit of the output; a plain number has none. @param {SensitivityAnswer} found @param {string} words */
@@ -230,7 +224,7 @@ function inputsTable(found, inputs) {
   const names = namesOf(found.sensitivity.method);
   const hasLeft = found.sensitivity.method !== "morris";
   const rows = inputs.map((one) => {
-    const go = element("button", { type: "button", class: "sort", onclick: () => jump(one.path) }, nameOf(one));
+    const go = element("button", { type: "button", class: "sort", onclick: () => jump(one.path) }, one.meaning);
     const bars = barsOf(found, one);
     return [
       go,

@@ -4,7 +4,6 @@ import * as designs from "../designs.js";
 import { labelled, primaryButton, textField } from "../controls.js";
 import { element, scrollingTable } from "../dom.js";
 import { draw, layout, watch } from "../plot.js";
-import { said } from "../messages.js";
 import { text } from "../texts.js";
 import * as units from "../units.js";
 import { vocabulary } from "../vocabulary.js";
@@ -103,13 +102,13 @@ export function setUp(holder) {
   function show(found) {
     answer = found;
     system = units.currentSystem();
-    const { verdicts, display, warnings, results } = found;
+    const { verdicts, words: texts, warnings, results } = found;
     const ratio = /** @type {{ value: number, low: number, high: number } | undefined} */ (results.ratio);
     words.replaceChildren(
       ...lines(verdicts.slice(0, 1), []),
       ...(ratio ? [left(ratio)] : []),
       preloads(results),
-      ...display.causes.map((one) => element("p", { class: "small" }, said(one))),
+      ...texts.causes.map((one) => element("p", { class: "small" }, one)),
       ...(verdicts.length > 1 ? [element("h3", {}, text("service.others"))] : []),
       ...lines(verdicts.slice(1), warnings),
     );

@@ -3,7 +3,6 @@
 import * as designs from "../designs.js";
 import { box, framed, labelled, opened, textField } from "../controls.js";
 import { element, redraw, table } from "../dom.js";
-import { said } from "../messages.js";
 import { watch } from "../plot.js";
 import * as schema from "../schema.js";
 import * as states from "../state.js";
@@ -160,11 +159,11 @@ export function setUp(holder) {
     /** @param {"hours" | "rest"} name @param {string} option */
     const hours = (name, option) => {
       const id = `warm-${name}`;
-      const input = textField(
-        units.inLanguage(heat[name]),
-        (typed) => changeHeat({ [name]: units.ofLanguage(typed.trim()) }),
-        { inputmode: "decimal", id, "aria-describedby": `${id}-fault` },
-      );
+      const input = textField(heat[name], (typed) => changeHeat({ [name]: units.inASCII(typed.trim()) }), {
+        inputmode: "decimal",
+        id,
+        "aria-describedby": `${id}-fault`,
+      });
       return element(
         "div",
         { class: "field", "data-path": option },
@@ -199,7 +198,7 @@ export function setUp(holder) {
     sayInstant(found);
     words.replaceChildren(...lines(verdicts, warnings), steady(found), margin(found));
     charts.show(results, band, vocabulary, Number(slider.value));
-    rest.replaceChildren(compensation(results), assumed(found));
+    rest.replaceChildren(compensation(results), assumptions(found));
   }
 
   /** @param {WarmUpAnswer} found */
@@ -246,8 +245,8 @@ export function setUp(holder) {
   }
 
   /** @param {WarmUpAnswer} found */
-  function assumed({ display }) {
-    const list = element("ul", {}, ...display.assumed.map((one) => element("li", {}, said(one))));
+  function assumptions({ assumed }) {
+    const list = element("ul", {}, ...assumed.map((one) => element("li", {}, one)));
     return opened(text("warm_up.assumed"), list);
   }
 

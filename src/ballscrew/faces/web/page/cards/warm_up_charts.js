@@ -33,7 +33,7 @@ const SHADE = 0.2;
 
 /** The meaning of a series. @param {string} name @param {Vocabulary} vocabulary */
 export function meaning(name, { of_warm_up: known }) {
-  return textOr(`quantity.${name}`, known[name]?.meaning ?? name);
+  return known[name]?.meaning ?? name;
 }
 
 /**
