@@ -23,7 +23,7 @@ import numpy as np
 
 from ballscrew.basis.arrays import as_array, namespace, where
 from ballscrew.basis.quantities import Mask, Quantity, Ratio
-from ballscrew.basis.records import FilledText, Measured, Message, Record, Severity, Value
+from ballscrew.basis.records import Measured, Message, Record, Severity, Value
 
 Formula: TypeAlias = Callable[[Mapping[str, Any]], Mapping[str, Any]]
 
@@ -173,15 +173,14 @@ class Judgement:
         if not found.get("said", True):
             return None
         message = self.message(found, words)
-        sentence = FilledText(text(message), message)
         holds = bool(found["holds"]) if "holds" in found else self.holds
         holds = holds if found.get("judged", True) else None
         fails = holds is False and self.severity_of_failure is not None
         return Record(
             id=self.id,
             subject=self.subject,
-            text=str(sentence),
-            message=sentence.message,
+            text=text(message),
+            message=message,
             severity=self.severity_of_failure or self.severity if fails else self.severity,
             holds=holds,
             value=float(found["value"]) if "value" in found else None,

@@ -10,7 +10,7 @@ from __future__ import annotations
 import dataclasses
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, Literal, Self
+from typing import Any, Literal
 
 from ballscrew.basis.quantities import Quantity
 
@@ -154,37 +154,15 @@ def listed(messages: Iterable[Message]) -> Message:
     return Message("{parts}", {"parts": list(messages)})
 
 
-class FilledText(str):
-    """English text that keeps the message it was filled from: a text wherever one is asked for.
-
-    The page shows the message. So messages of ``zope.i18nmessageid`` are texts, too.
-    """
-
-    message: Message
-
-    def __new__(cls, text: str, message: Message | None = None) -> Self:
-        """Return the text with its message; a text alone is the template of its own."""
-        made = super().__new__(cls, text)
-        made.message = Message(text) if message is None else message
-        return made
-
-
 def message_of(text: str | Message) -> Message:
-    """The message of a text: the one it was filled from, or the literal text as a template."""
-    if isinstance(text, Message):
-        return text
-    return text.message if isinstance(text, FilledText) else Message(text)
+    """A message as it is; a literal text as a template."""
+    return text if isinstance(text, Message) else Message(text)
 
 
 def in_file(path: str) -> Named:
     """A field by its place in a case file, ``[axis] mass``; its label on the page."""
     section, _, key = path.partition(".")
     return Named(path, f"[{section}] {key}")
-
-
-def translatable(text: str) -> str:
-    """A literal text as it is, marked as the template of a message without values, as ``N_`` marks it for gettext."""
-    return text
 
 
 @dataclasses.dataclass(frozen=True, slots=True, kw_only=True)

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 from ballscrew.basis import pint_plugins as _pint_plugins
 from ballscrew.basis.errors import Fault, as_float
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.basis.records import FilledText, Measured, Message, Record, UnitName, Value, message_of
+from ballscrew.basis.records import Measured, Message, Record, UnitName, Value, message_of
 
 if TYPE_CHECKING:
     import pint
@@ -221,10 +221,9 @@ def filled(message: Message) -> str:
     return message.filled(_measured)
 
 
-def filled_text(template: str, **values: Value) -> FilledText:
-    """The English text of a template with its values in display units, which keeps its message."""
-    message = Message(template, values)
-    return FilledText(filled(message), message)
+def filled_text(template: str, **values: Value) -> str:
+    """The text of a template with its values in display units."""
+    return filled(Message(template, values))
 
 
 def _measured(one: Measured) -> str:
@@ -253,11 +252,6 @@ def in_display_units(fault: Fault, quantity: Quantity, given: str | Message) -> 
         return dataclasses.replace(value, quantity=quantity, written=shown(value.value, quantity, digits))
 
     return dataclasses.replace(fault.changed(with_unit), given=given)
-
-
-def measured(value: Any, quantity: Quantity, digits: int = DIGITS, toward: int = 0) -> Measured:
-    """A number of a message, written in its display unit."""
-    return Measured(float(value), quantity, digits, toward, shown(value, quantity, digits, toward))
 
 
 def in_display_units_of(records: Sequence[Record]) -> list[Record]:
@@ -330,7 +324,7 @@ def _plain(written: str) -> str | Fault:
     match = _WITH_COMMA.fullmatch(mantissa)
     if match and len(match[2]) == 3 and match[1].strip("+-0"):
         thousands, fraction = f"{match[1]}{match[2]}", f"{match[1]}.{match[2].rstrip('0') or '0'}"
-        either = {"thousands": as_written(thousands), "fraction": as_written(fraction)}
+        either = {"thousands": thousands, "fraction": fraction}
         remedy = Message("write {thousands} for thousands, {fraction} for a decimal", either)
         return Fault("", "could be two numbers", written, remedy)
     if match and (match[1] or match[2]):
@@ -346,49 +340,39 @@ def unit_in(text: str) -> str:
     return (match["unit"] or "") if match else ""
 
 
-def as_written(number: str) -> Measured:
-    """A number to write, with the digits that it has."""
-    return Measured(as_float(number), digits=12, written=number)
+def fixed(value: Any, decimals: int = 0) -> str:
+    """A plain number with so many decimals."""
+    return f"{float(value):.{decimals}f}"
 
 
-def fixed(value: Any, decimals: int = 0) -> Measured:
-    """A plain number with so many decimals; pages leave out the zeros at its end."""
-    return as_written(f"{float(value):.{decimals}f}")
-
-
-def to_significant(value: Any, digits: int) -> Measured:
+def to_significant(value: Any, digits: int) -> str:
     """A plain number to so many digits."""
-    return as_written(f"{float(value):.{digits}g}")
+    return f"{float(value):.{digits}g}"
 
 
-def grouped(number: int) -> Measured:
+def grouped(number: int) -> str:
     """A whole number with its thousands in groups."""
-    return Measured(float(number), digits=12, written=f"{number:,}")
+    return f"{number:,}"
 
 
-def percent(share: Any, decimals: int = 0) -> Message:
+def percent(share: Any, decimals: int = 0) -> str:
     """A share in per cent: ``12%``."""
-    return Message("{percent}%", {"percent": _of_hundred(share, decimals)})
+    return f"{float(share):.{decimals}%}"
 
 
-def change(share: Any, decimals: int = 0) -> Message:
+def change(share: Any, decimals: int = 0) -> str:
     """A change in per cent, with its sign: ``+12%``."""
-    values = {"percent": _of_hundred(share, decimals)}
-    return Message("{percent}%" if math.copysign(1.0, float(share)) < 0 else "+{percent}%", values)
+    return f"{float(share):+.{decimals}%}"
 
 
-def signed(number: Measured) -> Message:
+def signed(number: str) -> str:
     """A number with its sign: ``+0.2 N m``."""
-    return Message("{number}" if math.copysign(1.0, number.value) < 0 else "+{number}", {"number": number})
+    return number if number.startswith("-") else f"+{number}"
 
 
-def _of_hundred(share: Any, decimals: int) -> Measured:
-    return as_written(f"{float(share):.{decimals}%}".removesuffix("%"))
-
-
-def in_unit(value: Any, unit: str, digits: int = DIGITS) -> Measured:
-    """A number of a message in an SI unit, where no quantity is at hand."""
-    return measured(value, Quantity("", unit, Info("", "")), digits)
+def in_unit(value: Any, unit: str, digits: int = DIGITS) -> str:
+    """A number in an SI unit, where no quantity is at hand."""
+    return shown(value, Quantity("", unit, Info("", "")), digits)
 
 
 def _written_like(quantity: Quantity, number: str) -> Message:
@@ -406,7 +390,7 @@ def _plain_number(number: float, unit: str, quantity: Quantity) -> str | Message
     if quantity.name == "loaded_balls":
         return "a number of balls: about turns · pi · pitch_circle_diameter / ball_diameter"
     if unit == "%" and not quantity.info.whole:
-        return Message("write {example}", {"example": as_written(f"{number / 100:.12g}")})
+        return Message("write {example}", {"example": f"{number / 100:.12g}"})
     if quantity.info.hint:
         return Message("it is a plain number: {hint}", {"hint": Message(quantity.info.hint)})
     return "it is a plain number"

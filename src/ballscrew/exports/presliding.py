@@ -109,8 +109,8 @@ class Presliding:
     def warning(self) -> Record:
         """That it is a hypothesis."""
         message = _HYPOTHESIS.of(
-            load=units.measured(self.axial_load, _LOAD, 3),
-            speed=units.measured(self.screw_speed, _SPEED, 3),
+            load=units.shown(self.axial_load, _LOAD, 3),
+            speed=units.shown(self.screw_speed, _SPEED, 3),
             off=units.percent(self.fit.error.largest),
             work=units.percent(self.fit.work_error),
         )

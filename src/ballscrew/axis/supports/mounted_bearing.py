@@ -10,7 +10,6 @@ from ballscrew.axis.supports.bearing import SupportBearing
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, faults_of, nearest, raise_if_any
 from ballscrew.basis.quantities import Force, Info, Ratio, Stiffness
-from ballscrew.basis.records import translatable
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction.element import ElementFriction, FrictionElement
 
@@ -83,8 +82,8 @@ class MountedBearing(ByValue):
         That of the maker, or that of balls and races, whose rings are rigid: more than a catalogue prints.
         """
         if self.rigidity is not None:
-            return float(self.rigidity), translatable("as given")
+            return float(self.rigidity), "as given"
         if isinstance(self.element, SupportBearing):
             found = float(self.element.rigidity(self.load_share * axial_load))
-            return (found, translatable("of balls and races, its rings rigid")) if found > 0 else (None, "")
+            return (found, "of balls and races, its rings rigid") if found > 0 else (None, "")
         return None, ""

@@ -15,7 +15,7 @@ from ballscrew.axis.supports.shaft_on_supports import buckling_root, whirling_ro
 from ballscrew.basis.arrays import ByValue, lazy
 from ballscrew.basis.errors import Fault, accepts_units, is_concrete, measured, raise_if_any, shown
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Ratio, Stiffness
-from ballscrew.basis.records import Message, translatable
+from ballscrew.basis.records import Message
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import geometry, presliding, rigidity, shaft
 from ballscrew.physics.sizing.installation import Installation
@@ -150,9 +150,9 @@ def stiffness_over_stroke(
     )
     assumed = [*found[0].assumed]
     if mount_rigidity is None:
-        assumed.append(translatable("mount rigid: no rigidity of it is given"))
+        assumed.append("mount rigid: no rigidity of it is given")
     if not nut_holds_slope:
-        assumed.append(translatable("the nut holds the shaft sideways and lets it turn"))
+        assumed.append("the nut holds the shaft sideways and lets it turn")
     return AxisStiffness(
         position=places,
         nut=nut,

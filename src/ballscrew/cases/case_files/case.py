@@ -82,8 +82,8 @@ class PreloadNote(NamedTuple):
     def message(self) -> Message:
         """The preload, the share, the rating and its source."""
         quantity = LISTED["dynamic_load_rating"]
-        force, rating = (units.measured(value, quantity) for value in (self.share * self.rating, self.rating))
-        share = units.as_written(f"{100 * self.share:.4g}")
+        force, rating = (units.shown(value, quantity) for value in (self.share * self.rating, self.rating))
+        share = f"{100 * self.share:.4g}"
         message = Message("preload {force}: {share} % of the dynamic load rating {rating}, {source}")
         return message.of(force=force, share=share, rating=rating, source=Message(self.source))
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from ballscrew.basis import units
 from ballscrew.basis.quantities import fields_of, quantities_of
-from ballscrew.basis.records import Measured, Message, Named, Value, listed
+from ballscrew.basis.records import Message, Named, Value, listed
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.lubricants import described
 from ballscrew.cases.case_files.makers_rules import by_rules, make_of
@@ -81,14 +81,14 @@ def _load_speed_and_nut(case: Case) -> list[Message]:
 
 def operating_point(case: Case) -> Message:
     """``4000 N, 600 rpm``."""
-    values = (units.measured(getattr(case.operation, name), quantity) for name, quantity in _OPERATION.items())
+    values = (units.shown(getattr(case.operation, name), quantity) for name, quantity in _OPERATION.items())
     return listed(Message("{value}", {"value": value}) for value in values)
 
 
 def nut_with_preload(nut: Nut) -> Message:
     """``double nut, preload 5047 N``."""
     numbers = [
-        _named(f"nut.{name}", units.measured(value, quantity))
+        _named(f"nut.{name}", units.shown(value, quantity))
         for name, quantity in fields_of(nut).items()
         if (value := getattr(nut, name)) is not None and (name == "preload" or value)
     ]
@@ -115,11 +115,11 @@ def _change(case: Case, name: str) -> Message:
         number = fields_of(case.model).get(name)
         if number is None or value is None:
             return Message("{name}", {"name": label})
-        return _named(label.path, units.measured(value, number))
+        return _named(label.path, units.shown(value, number))
     law, preset = name_of_law(name, value), getattr(MODELS[case.model.name], name)
     usual: Any = preset if type(preset) is type(value) else type(value)
     numbers = [
-        _named(coefficient, units.measured(getattr(value, coefficient), quantity))
+        _named(coefficient, units.shown(getattr(value, coefficient), quantity))
         for coefficient, quantity in coefficients(value).items()
         if getattr(value, coefficient) != getattr(usual, coefficient, None)
     ]
@@ -155,7 +155,7 @@ def _seals_of_row(case: Case) -> list[Message]:
         return []
     of_maker = seal_source(row.make)
     source = of_maker if units.filled(of_maker) == row.seal_torque_source else row.seal_torque_source
-    torque = units.measured(row.seal_torque, fields_of(Seals)["seal_torque"])
+    torque = units.shown(row.seal_torque, fields_of(Seals)["seal_torque"])
     message = Message("seals {torque}: {source}; give the torque of your seals if you know it")
     return [message.of(torque=torque, source=source)]
 
@@ -165,7 +165,7 @@ def _spacers(case: Case) -> list[Message]:
     if not screw.nut.spacer_balls:
         return []
     message = Message("every second ball is a spacer: {carrying} of {balls} carry; ratings as listed")
-    balls = (units.as_written(f"{number:g}") for number in (screw.carrying_balls, screw.loaded_balls))
+    balls = (f"{number:g}" for number in (screw.carrying_balls, screw.loaded_balls))
     return [message.of(**dict(zip(("carrying", "balls"), balls, strict=True)))]
 
 
@@ -179,15 +179,15 @@ def common_assumptions(case: Case, ball_to_ball_force: float | None = None) -> l
         *([_OF_GREASE] if sheet is not None and sheet.is_grease else []),
         Message(
             "equivalent modulus {modulus}",
-            {"modulus": units.measured(modulus, quantities_of(RaceState)["equivalent_modulus"])},
+            {"modulus": units.shown(modulus, quantities_of(RaceState)["equivalent_modulus"])},
         ),
         Message("roughness of balls, screw, nut {ball}, {screw}, {nut}", roughness),
         _between_balls(case, ball_to_ball_force),
     ]
 
 
-def _part(part: Any, name: str) -> Measured:
-    return units.measured(getattr(part, name), _PARTS[name])
+def _part(part: Any, name: str) -> str:
+    return units.shown(getattr(part, name), _PARTS[name])
 
 
 def _oil(case: Case) -> Message:
@@ -198,7 +198,7 @@ def _oil(case: Case) -> Message:
     }
     if not case.oil:
         return Message("oil viscosity {viscosity}, pressure–viscosity coefficient {coefficient}", values)
-    temperature = units.measured(case.oil.get("temperature", _DEFAULT_TEMPERATURE), TEMPERATURE)
+    temperature = units.shown(case.oil.get("temperature", _DEFAULT_TEMPERATURE), TEMPERATURE)
     return Message(
         "oil {oil} at {temperature}: viscosity {viscosity}, pressure–viscosity coefficient {coefficient}",
         {**values, "oil": described(case.oil), "temperature": temperature},
@@ -214,9 +214,9 @@ def _between_balls(case: Case, force: float | None) -> Message:
         share = getattr(law, "share_of_load", None)
         if share is None:
             return Message("force between balls by {law}", {"law": name_of_law("ball_force", law)})
-        return Message("force between balls {share} of the load of each", {"share": units.as_written(f"{share:.4g}")})
+        return Message("force between balls {share} of the load of each", {"share": f"{share:.4g}"})
     known = case.model.imposed_ball_force(case.screw) if force is None else force
-    return Message("force between balls {force}", {"force": units.measured(known, _BALL_FORCE)})
+    return Message("force between balls {force}", {"force": units.shown(known, _BALL_FORCE)})
 
 
 def _without_preload(case: Case) -> list[Message]:
@@ -235,7 +235,7 @@ def _against_vendors(case: Case) -> list[Message]:
     near = vendor_rows_like(case)
     if near is None:
         return []
-    mean, scatter = (units.as_written(f"{number:.2f}") for number in (near.mean, near.scatter))
+    mean, scatter = (f"{number:.2f}" for number in (near.mean, near.scatter))
     values: dict[str, Value] = {"mean": mean, "scatter": scatter, "rows": str(len(near.rows)), "data": near.data}
     if case.calibration is None:
         found = _WITHOUT_CALIBRATION.of(**values)

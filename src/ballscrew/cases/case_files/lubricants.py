@@ -145,5 +145,5 @@ def described(oil: Mapping[str, Any]) -> Message:
     if "oil" in oil:
         return Message("{oil}", {"oil": str(oil["oil"])})
     known = fields_of(DataSheet)
-    warm, hot = (units.measured(oil[name], known[name]) for name in _POINTS)
+    warm, hot = (units.shown(oil[name], known[name]) for name in _POINTS)
     return Message("with {warm} at 40 °C and {hot} at 100 °C", {"warm": warm, "hot": hot})

@@ -34,7 +34,7 @@ class OfRule(NamedTuple):
     @property
     def message(self) -> Message:
         """``0.8654 N m by THK (JIS B 1192)``."""
-        torque = units.measured(self.torque, BY_RULE[self.rule.name])
+        torque = units.shown(self.torque, BY_RULE[self.rule.name])
         return Message("{torque} by {rule}", {"torque": torque, "rule": self.rule.label})
 
 

@@ -141,7 +141,7 @@ def read_preload(raw: object) -> float:
     bare = units.parse("", raw, PERCENT)
     if not isinstance(bare, Fault) and 0 < bare <= 100:
         share, force = (f"{number:.12g}" for number in (bare if bare >= 1 else 100 * bare, bare))
-        numbers = {"share": units.as_written(share), "force": units.as_written(force)}
+        numbers = {"share": share, "force": force}
         remedy = Message('write "{share} %" of the dynamic load rating, or "{force} kN"', numbers)
         raise PydanticCustomError("fault", "fault", {"fault": Fault("", "needs a unit", str(raw), remedy)})
     return si_value(raw, NUT_FIELDS["preload"], may_vary=True)

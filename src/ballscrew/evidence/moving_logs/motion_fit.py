@@ -288,7 +288,7 @@ def _equation(log: MovingLog, **options: float) -> Equation:
             {
                 "moving": str(len(log) - equation.left_out.get(AT_REST, 0)),
                 "rows": str(len(log)),
-                "rest": units.measured(equation.rest, _REST, 3),
+                "rest": units.shown(equation.rest, _REST, 3),
                 "periods": units.fixed(equation.periods, 1),
                 "cutoff": units.in_unit(equation.cutoff, "Hz", 2),
                 "needed": str(needed),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from typing import Any
 
@@ -367,10 +366,7 @@ def _of_part(name: str, part: Part) -> Message:
     cause = _CAUSES.get(name, Named(name))
     if name == CONSTANT:
         value = units.signed(units.in_unit(part.value, "N m", 2))
-        low, high = (
-            units.signed(dataclasses.replace(units.in_unit(end, "N m", 2), written=f"{end:.2g}"))
-            for end in (part.low, part.high)
-        )
+        low, high = (units.signed(units.to_significant(end, 2)) for end in (part.low, part.high))
         return _TORQUE_OF_PART.of(cause=cause, value=value, low=low, high=high)
     if name == WARMER:
         value, low, high = (units.signed(units.to_significant(one, 2)) for one in (part.value, part.low, part.high))

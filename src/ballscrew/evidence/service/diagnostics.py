@@ -166,8 +166,8 @@ def _of_ratings(
             continue
         message = _ABOVE_RATING.of(
             log=Message(label),
-            preload=units.measured(one.preload, quantity),
-            limit=units.measured(limit, quantity),
+            preload=units.shown(one.preload, quantity),
+            limit=units.shown(limit, quantity),
             percent=Measured(100 * HIGHEST_PRELOAD),
         )
         found.append(

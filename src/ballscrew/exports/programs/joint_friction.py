@@ -371,7 +371,7 @@ class JointErrors(NamedTuple):
         return found
 
 
-def _percent(share: float) -> Measured:
+def _percent(share: float) -> str:
     return units.to_significant(100 * share, 2) if share < 1 else units.fixed(100 * share)
 
 

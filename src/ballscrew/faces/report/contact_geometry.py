@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.basis.records import translatable
 from ballscrew.physics.components.nut import OversizeBallNut
 from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.equations import kinematics, slip
@@ -23,13 +22,11 @@ _HEIGHTS = 4001
 #: Places along and across the ellipse where the largest slip is looked for.
 _PLACES = 181
 
-AT_REST = translatable("At rest nothing slips: neither arrows nor lines of pure rolling.")
-NO_LOAD = translatable("Without load ball and grooves have no contact area: neither ellipse nor slip.")
-NO_NUMBER = translatable("No contact is drawn: what came out is no number here.")
-NO_SLIP = translatable("No slip is drawn: what came out is no number here.")
-FOUR_CONTACTS = translatable(
-    "The slip on four contacts is not drawn: the result keeps the power that is lost in it, not its speeds."
-)
+AT_REST = "At rest nothing slips: neither arrows nor lines of pure rolling."
+NO_LOAD = "Without load ball and grooves have no contact area: neither ellipse nor slip."
+NO_NUMBER = "No contact is drawn: what came out is no number here."
+NO_SLIP = "No slip is drawn: what came out is no number here."
+FOUR_CONTACTS = "The slip on four contacts is not drawn: the result keeps the power that is lost in it, not its speeds."
 
 
 @dataclasses.dataclass(frozen=True)

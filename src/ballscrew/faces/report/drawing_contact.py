@@ -128,8 +128,8 @@ def _axes(contact: DrawnContact, place: Place) -> list[svg.Part]:
     ]
 
 
-def _of_contact(contact: DrawnContact, name: str) -> Measured:
-    return units.measured(getattr(contact, name), _CONTACT[name])
+def _of_contact(contact: DrawnContact, name: str) -> str:
+    return units.shown(getattr(contact, name), _CONTACT[name])
 
 
 def _measure(start: Point, end: Point) -> list[str]:
@@ -179,15 +179,15 @@ def in_words(ball: DrawnBall) -> Sequence[Message]:
         words += _slip_in_words(contact, contact.slip)
     stretched = Place.of(contact).stretched
     if stretched > 1:
-        times = {"times": units.as_written(f"{stretched:g}")}
+        times = {"times": f"{stretched:g}"}
         words.append(Message("The ellipse is stretched {times} times along the path.", times))
     return [*words, *([Message(contact.missing)] if contact.missing else [])]
 
 
 def _slip_in_words(contact: DrawnContact, field: SlipField) -> list[Message]:
     slip = {
-        "slip": units.measured(field.largest(contact.axes_ratio), _SLIP),
-        "speed": units.measured(field.entrainment_speed, _SLIP),
+        "slip": units.shown(field.largest(contact.axes_ratio), _SLIP),
+        "speed": units.shown(field.entrainment_speed, _SLIP),
     }
     words = [Message("Largest slip {slip}, at a rolling speed of {speed}.", slip)]
     lines = [

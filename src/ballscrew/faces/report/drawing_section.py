@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from typing import NamedTuple
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import both, chained
 from ballscrew.basis.quantities import fields_of, quantities_of
-from ballscrew.basis.records import Measured, Message
+from ballscrew.basis.records import Message
 from ballscrew.faces.report import svg
 from ballscrew.faces.report.contact_geometry import DrawnBall
 from ballscrew.faces.report.svg import FAINT, GREEN, LINE, TEXT, TITLE, Panel, Point
@@ -174,10 +173,9 @@ def _angle(flank: Touching, *, has_both: bool) -> list[svg.Part]:
     ]
 
 
-def _degrees(flank: Touching) -> Measured:
+def _degrees(flank: Touching) -> str:
     """The contact angle as it is written in drawings."""
-    found = units.measured(flank.angle, _ANGLE)
-    return dataclasses.replace(found, written=found.written.replace(" deg", "°"))
+    return units.shown(flank.angle, _ANGLE).replace(" deg", "°")
 
 
 def _scale_bar(ball: DrawnBall) -> list[svg.Part]:
@@ -192,7 +190,7 @@ def _scale_bar(ball: DrawnBall) -> list[svg.Part]:
         *(svg.line((end[0], y - 4), (end[0], y + 4), stroke_width=1.2) for end in ends),
         svg.text(
             (x - wide / 2, y - 7),
-            Message("{length}", {"length": units.measured(length * 1e-3, _LENGTH)}),
+            Message("{length}", {"length": units.shown(length * 1e-3, _LENGTH)}),
             TEXT,
             "middle",
         ),
@@ -204,12 +202,12 @@ def _sizes(ball: DrawnBall, words: _Words) -> list[Message]:
     conformities = ball.screw_conformity, ball.nut_conformity
     factors = [f"{f:.4g}" for f in conformities]
     screw, nut = (
-        {"radius": units.measured(f * ball.ball_diameter, _LENGTH), "factor": units.as_written(factor)}
+        {"radius": units.shown(f * ball.ball_diameter, _LENGTH), "factor": factor}
         for f, factor in zip(conformities, factors, strict=True)
     )
     same = factors[0] == factors[1]
     grooves = [words.groove.of(**screw)] if same else [words.screw_groove.of(**screw), words.nut_groove.of(**nut)]
-    return [words.ball.of(diameter=units.measured(ball.ball_diameter, _LENGTH)), *grooves, *_loads(ball)]
+    return [words.ball.of(diameter=units.shown(ball.ball_diameter, _LENGTH)), *grooves, *_loads(ball)]
 
 
 def _loads(ball: DrawnBall) -> list[Message]:
@@ -218,7 +216,7 @@ def _loads(ball: DrawnBall) -> list[Message]:
     whose = Message("load of this ball") if ball.most_loaded else Message("load of each ball")
     if not math.isfinite(ball.load):
         return [Message("{load_of_ball}: no number", {"load_of_ball": whose})]
-    loads = [Message("{load}", {"load": units.measured(flank.load, _LOAD)}) for flank in ball.flanks]
+    loads = [Message("{load}", {"load": units.shown(flank.load, _LOAD)}) for flank in ball.flanks]
     said = Message("{load_of_ball} {load}", {"load_of_ball": whose, "load": both(loads)})
     if len(ball.flanks) == 1:
         return [said]
@@ -228,7 +226,7 @@ def _loads(ball: DrawnBall) -> list[Message]:
 
 def in_words(ball: DrawnBall) -> list[Message]:
     """Alternative text of the section, with its numbers."""
-    angles = [Message("{angle}", {"angle": units.measured(flank.angle, _ANGLE)}) for flank in ball.flanks]
+    angles = [Message("{angle}", {"angle": units.shown(flank.angle, _ANGLE)}) for flank in ball.flanks]
     return [
         Message(
             "Left: section across the path of the balls, to scale, the screw below and the nut above; how far the "

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ballscrew.basis.errors import Fault, InputError, fault_of
 from ballscrew.basis.quantities import within_bounds
-from ballscrew.basis.records import FilledText, Measured, Message, Named
+from ballscrew.basis.records import Measured, Message, Named
 from ballscrew.basis.units import filled_text
 from ballscrew.files.torque_logs.log_rows import INERTIA, REQUIRED, LogRows, quantities
 from ballscrew.files.torque_logs.motion import CLEAR, Floats, motion_of, runs_in
@@ -23,8 +23,8 @@ Log = TypeVar("Log", bound=LogRows)
 #: Reasons for leaving rows out.
 GAPS, REST, RAMPS, THINNED = "a value is missing or impossible", "at rest", "speed changes", "thinned"
 REPEATED = "repeats an earlier row"
-_SORTED = filled_text("rows were not in the order of time: sorted")
-_INERTIA_NOT_USED = filled_text("the inertia is not used: a torque of friction has no share of it")
+_SORTED = "rows were not in the order of time: sorted"
+_INERTIA_NOT_USED = "the inertia is not used: a torque of friction has no share of it"
 #: Fewer rows than these tell nothing; fewer than those tell little.
 LEAST_ROWS, FEW_ROWS = 3, 30
 #: A log that is longer is thinned to so many rows before anything but its acceleration is looked at.
@@ -117,9 +117,7 @@ def without_repeats(log: Log) -> Log:
 def in_order(log: Log) -> Log:
     """In the order of time, with its motion; a log without time is left as it is."""
     if log.time is None:
-        return log.with_notes(
-            filled_text("no time: rows under acceleration cannot be told from the others, and all stay")
-        )
+        return log.with_notes("no time: rows under acceleration cannot be told from the others, and all stay")
     if log.motion is not None or not len(log):
         return log
     runs = runs_in(log.time)
@@ -138,11 +136,11 @@ def of_settings(log: Log) -> Log:
     jumps = np.abs(log.motion.bend) > _JUMP * _largest_speed(log)
     if np.mean(jumps) <= _JUMPING:
         return log
-    note = filled_text("speeds jump from row to row: every row is taken as a reading at a steady speed")
+    note = "speeds jump from row to row: every row is taken as a reading at a steady speed"
     return dataclasses.replace(log, motion=None).with_notes(note)
 
 
-def describe_runs(runs: int) -> FilledText:
+def describe_runs(runs: int) -> str:
     """The note on a log whose time begins anew."""
     return filled_text(
         "time begins anew {times} times: read as {runs} logs, one after the other",
@@ -180,7 +178,7 @@ def without_ramps(log: Log, inertia: float | None) -> Log:
     if log.motion is None or not turns.any():
         if inertia is None or log.motion is not None:
             return log
-        return log.with_notes(filled_text("the inertia is not used, for it takes a trace of the speed over time"))
+        return log.with_notes("the inertia is not used, for it takes a trace of the speed over time")
     used = inertia if inertia and log.kind != "friction" else None
     if used is not None:
         limit = least = _INERTIA_SHARE * float(np.median(np.abs(log.torque[turns]))) / used
@@ -194,15 +192,13 @@ def without_ramps(log: Log, inertia: float | None) -> Log:
     if used is None:
         usual = CLEAR * _quarter(np.abs(change[turns])) / _QUARTER
         if usual > _RESTLESS * np.median(bound):
-            notes.append(
-                filled_text("the speed hardly rests: rows at steady speed cannot be told from others; give the inertia")
-            )
+            notes.append("the speed hardly rests: rows at steady speed cannot be told from others; give the inertia")
         bound = np.maximum(bound, usual)
     else:
         # what is lost in the noise of the speed would only add to that of the torque
         taken_off = np.where(CLEAR * noise > limit, 0.0, used * change)
         log = dataclasses.replace(log, torque=log.torque - taken_off)
-        notes.append(filled_text("the torque that accelerates the inertia is taken off"))
+        notes.append("the torque that accelerates the inertia is taken off")
     hides = (noise > _HIDING * np.median(noise[turns])) & (CLEAR * noise > least)
     return log.select(~(turns & (hides | (np.abs(change) > bound))), RAMPS).with_notes(*notes)
 
@@ -219,26 +215,26 @@ def thinned(log: Log, most: int) -> Log:
     return log.select(keep, THINNED).with_notes(describe_thinning(most))
 
 
-def describe_thinning(most: int) -> FilledText:
+def describe_thinning(most: int) -> str:
     """The note on a log that is too long."""
     return filled_text("longer than {most} rows: thinned evenly at random", most=Measured(most))
 
 
-def data_warnings(log: LogRows) -> list[FilledText]:
+def data_warnings(log: LogRows) -> list[str]:
     """Warnings about effects that a log cannot identify."""
-    found: list[FilledText] = []
+    found: list[str] = []
     if len(log) < FEW_ROWS:
         found.append(filled_text("{rows} rows are few: expect wide intervals", rows=Measured(len(log))))
     if _one_setting(np.abs(log.axial_load)):
-        found.append(filled_text("one axial load only: what depends on the load cannot be told"))
+        found.append("one axial load only: what depends on the load cannot be told")
     if _one_setting(np.abs(log.screw_speed)):
-        found.append(filled_text("one speed only: what depends on the speed cannot be told"))
+        found.append("one speed only: what depends on the speed cannot be told")
     if not (log.forward.any() and log.backward.any()):
-        found.append(filled_text("one direction only: friction cannot be told from an offset of the torque"))
+        found.append("one direction only: friction cannot be told from an offset of the torque")
     if log.temperature is None:
-        found.append(filled_text("no temperature: the oil is taken to be as warm as in the case"))
+        found.append("no temperature: the oil is taken to be as warm as in the case")
     elif float(np.ptp(log.temperature)) < 1.0:
-        found.append(filled_text("one temperature only: what depends on the temperature cannot be told"))
+        found.append("one temperature only: what depends on the temperature cannot be told")
     return found
 
 

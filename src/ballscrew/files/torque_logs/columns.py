@@ -16,7 +16,7 @@ from typing import Any
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, message_of, nearest, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.basis.records import FilledText, Message, UnitName, Value
+from ballscrew.basis.records import Message, UnitName, Value
 from ballscrew.files.tables import decimals
 from ballscrew.files.tables.headings import (
     NEEDS_UNIT,
@@ -87,7 +87,7 @@ TEMPERATURE, LOAD = "temperature", "axial_load"
 #: The note on a log without a column of the load.
 
 
-def columns_not_used(names: Iterable[str]) -> FilledText:
+def columns_not_used(names: Iterable[str]) -> str:
     """The note on columns of a table that nothing takes."""
     return units.filled_text("columns not used: {names}", names=", ".join(names))
 

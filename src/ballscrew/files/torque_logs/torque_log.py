@@ -13,7 +13,6 @@ import numpy as np
 from ballscrew.basis.errors import Fault, InputError, accepts_units, closest, nearest, raise_if_any, without_unit
 from ballscrew.basis.quantities import MomentOfInertia
 from ballscrew.basis.records import Message
-from ballscrew.basis.units import filled_text
 from ballscrew.files.torque_logs import cleaning
 from ballscrew.files.torque_logs.columns import columns_not_used
 from ballscrew.files.torque_logs.log_rows import (
@@ -28,7 +27,7 @@ from ballscrew.files.torque_logs.log_rows import (
 from ballscrew.files.torque_logs.motion import Floats
 
 #: The note on data without a load.
-NO_LOAD = filled_text("no axial load: 0 N in every row")
+NO_LOAD = "no axial load: 0 N in every row"
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -8,7 +8,7 @@ from importlib import resources
 from typing import Any, NamedTuple
 
 from ballscrew.basis.quantities import Ratio
-from ballscrew.basis.records import FilledText, Measured, Message
+from ballscrew.basis.records import Measured, Message
 from ballscrew.physics.sizing.sources import QUALIFICATIONS, Source
 
 
@@ -32,14 +32,14 @@ class FactorOfMake(NamedTuple):
     reference: str
 
     @property
-    def words(self) -> FilledText:
+    def words(self) -> str:
         """Whose factor it is, with the kind of its source where it was not read."""
         values = {"factor": Measured(self.value, digits=3), "make": self.make, "source": self.reference}
         said = Message("factor for accuracy {factor}, of {make}'s printed rigidities of double nuts ({source})", values)
         qualified = QUALIFICATIONS[self.source]
         if qualified is not None:
             said = Message("{said}: {source}", {"said": said, "source": qualified})
-        return FilledText(said.filled(Measured.plain), said)
+        return said.filled(Measured.plain)
 
 
 def factors_of_standard() -> FactorsOfStandard:

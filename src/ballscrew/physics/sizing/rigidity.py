@@ -20,7 +20,7 @@ from ballscrew.basis.errors import (
     shown_in_si,
 )
 from ballscrew.basis.quantities import Force, Info, Length, Quantity, Ratio, Stiffness
-from ballscrew.basis.records import FilledText, Measured, Message, translatable
+from ballscrew.basis.records import Measured, Message
 from ballscrew.physics.components.nut import Nut, OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import rigidity
@@ -123,30 +123,19 @@ def rigidity_iso3408(
         R_bt, of_body = _balls_and_tracks(screw, preload, load), _widening(screw, size.nut_outer_diameter)
     R_ns = where(preload > 0, 2 * of_body, of_body)
     if holds_somewhere(R_ns != R_ns):
-        assumed.append(
-            translatable(
-                "no rigidity of the nut: the usual one has no wall around these balls, give nut_outer_diameter"
-            )
-        )
+        assumed.append("no rigidity of the nut: the usual one has no wall around these balls, give nut_outer_diameter")
     if holds_somewhere(preload > 0):
-        assumed.append(
-            translatable("R_b/t up to the load that relieves one half, as ISO 3408-4 is recalled; it was not read")
-        )
+        assumed.append("R_b/t up to the load that relieves one half, as ISO 3408-4 is recalled; it was not read")
         if holds_somewhere(load > 2**1.5 * preload):
             assumed.append(
-                translatable(
-                    "the load is beyond that which relieves one half: "
-                    "there only one half carries, and just beyond that load the nut is softer than R_nu says"
-                )
+                "the load is beyond that which relieves one half: "
+                "there only one half carries, and just beyond that load the nut is softer than R_nu says"
             )
     elif holds_somewhere(load == 0):
-        assumed.append(translatable("no rigidity of the nut: without preload it takes a load"))
+        assumed.append("no rigidity of the nut: without preload it takes a load")
     if isinstance(nut, OversizeBallNut):
         assumed.append(
-            translatable(
-                "widening of a nut with oversize balls as of two halves; "
-                "a ball on both flanks widens it less under load"
-            )
+            "widening of a nut with oversize balls as of two halves; a ball on both flanks widens it less under load"
         )
     R_nu = rigidity.series_rigidity(R_bt, R_ns)
     factor = None if accuracy_factor is None else plain(accuracy_factor)
@@ -158,7 +147,7 @@ def rigidity_iso3408(
     R_s, R_b, words = _shaft(screw, installation, distance_to_bearing)
     assumed += words
     if factor is None and installation is not None:
-        assumed.append(translatable("drive with R_nu, not R_nu,ar: no accuracy factor is given"))
+        assumed.append("drive with R_nu, not R_nu,ar: no accuracy factor is given")
     compliances = (1 / (R_nu if factor is None else corrected), 1 / R_s, 0.0 if R_b is None else 1 / R_b)
     drive = 1 / sum(compliances)
     return AxialRigidity(
@@ -247,19 +236,19 @@ def _shaft(
     assumed: list[str] = []
     if distance is None:
         assumed.append(
-            translatable("nut in the middle of the shaft, where it gives way most")
+            "nut in the middle of the shaft, where it gives way most"
             if both
-            else translatable("nut at the end of the shaft, where it gives way most")
+            else "nut at the end of the shaft, where it gives way most"
         )
     if installation.ends is Ends.SUPPORTED_SUPPORTED:
-        assumed.append(translatable("one of the two supports holds the shaft axially"))
+        assumed.append("one of the two supports holds the shaft axially")
     R_s = (
         rigidity.shaft_rigidity_held_at_both_ends(E, d_c, at, l)
         if both
         else rigidity.shaft_rigidity_held_at_one_end(E, d_c, at)
     )
     if installation.bearing_rigidity is None:
-        return R_s, None, [*assumed, translatable("support bearings rigid: no rigidity of theirs is given")]
+        return R_s, None, [*assumed, "support bearings rigid: no rigidity of theirs is given"]
     R_b = installation.bearing_rigidity
     if not both:
         return R_s, R_b, assumed
@@ -283,7 +272,7 @@ def _outer_diameter(screw: BallScrew, nut: Nut, given: Length | None, nominal: L
     if not min(DIN_69051_5) <= size <= max(DIN_69051_5):
         message = Message("nut {width} wide, DIN 69051-5, its last size with the same wall: none is given")
     said = message.of(width=Measured(usual, _WIDTH, written=f"{1000 * usual:.4g} mm"))
-    return _Sizes(usual, (FilledText(said.filled(shown_in_si), said),))
+    return _Sizes(usual, (said.filled(shown_in_si),))
 
 
 def _numbers(screw: BallScrew) -> tuple[Any, ...]:

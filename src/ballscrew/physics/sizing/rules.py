@@ -16,7 +16,6 @@ from ballscrew.basis.arrays import where
 from ballscrew.basis.errors import plain
 from ballscrew.basis.judgements import is_nan
 from ballscrew.basis.quantities import Angle, Force, Length, Ratio, Torque
-from ballscrew.basis.records import translatable
 from ballscrew.physics.components.nut_losses import (
     DOUBLE_NUT_DRAG,
     OVERSIZE_BALL_DRAG,
@@ -204,7 +203,7 @@ RULES: Mapping[str, Rule] = {
             formula="M_Sa / η + (1/η − η_b) F_pr P_h / 2π",
             source="HIWIN BS-08-2-EN-1704-K, F 3.2 and 3.7.3; ρ of the example in S99TE20-1610",
             checked="read, but for the example with ρ, which is taken from a copy of its numbers",
-            range=translatable("100 rpm, ISO VG 68, no wipers; its (1/η − η_b) is said to be 0.1 to 0.3"),
+            range="100 rpm, ISO VG 68, no wipers; its (1/η − η_b) is said to be 0.1 to 0.3",
             estimate=hiwin,
             maker="HIWIN",
             label="HIWIN",
@@ -215,7 +214,7 @@ RULES: Mapping[str, Rule] = {
             formula="0.05 (tan φ)^−0.5 F_pr P_h / 2π",
             source="THK General Catalog, A-688, which names JIS B 1192-1997",
             checked="read as the catalogue prints it; the standard itself was not read",
-            range=translatable("a tolerance of 10 to 65 % on both sides by size and accuracy grade"),
+            range="a tolerance of 10 to 65 % on both sides by size and accuracy grade",
             estimate=jis_drag,
             maker="THK",
             label="THK (JIS B 1192)",
@@ -226,7 +225,7 @@ RULES: Mapping[str, Rule] = {
             formula="c F_pr d_0, c = 0.004, with oversize balls 0.010",
             source="Bosch Rexroth R310RU 3301 (2006.02)",
             checked="the coefficients are those behind the tables; the vendor does not print them",
-            range=translatable("diameters of 16 to 125 mm, 100 rpm, no wipers"),
+            range="diameters of 16 to 125 mm, 100 rpm, no wipers",
             estimate=rexroth_drag,
             maker="Rexroth",
             label="Rexroth",

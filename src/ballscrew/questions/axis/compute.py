@@ -18,7 +18,7 @@ from ballscrew.basis.arrays import lazy
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Quantity, quantities_of
-from ballscrew.basis.records import Measured, Message, Record, translatable
+from ballscrew.basis.records import Measured, Message, Record
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 
@@ -202,16 +202,16 @@ def chain_of(case: Case, positions: Sequence[Length] = ()) -> ChainReport:
         **sizes,
     )
     if travel is None:
-        words.append(translatable("travels over nearly the whole shaft: no motion tells how far"))
+        words.append("travels over nearly the whole shaft: no motion tells how far")
     elif case.surroundings is None or case.surroundings.first_position is None:
-        words.append(translatable("travels in the middle of the shaft: surroundings.first_position is not given"))
+        words.append("travels in the middle of the shaft: surroundings.first_position is not given")
     axis = case.axis
     # where motion reverses, the table stands still for a moment
     rubs = math.nan if axis is None else axis.resting_guide_friction
     guided = axis is not None and (axis.guides is not None or rubs > 0)
     rubs = rubs if guided else math.nan
     if not guided:
-        words.append(translatable("no lost motion: the friction of the guides is not given ([guides])"))
+        words.append("no lost motion: the friction of the guides is not given ([guides])")
     return ChainReport(
         case,
         found,

@@ -267,4 +267,4 @@ def _torque_in_file(text: Any, quantity: Quantity) -> Measured | Message | str:
     if text is None:
         return Message("an unknown torque")
     found = units.parse("calibration.holdout_rms", text, quantity)
-    return str(text) if isinstance(found, Fault) else units.measured(found, quantity, 6)
+    return str(text) if isinstance(found, Fault) else units.shown(found, quantity, 6)

@@ -106,19 +106,14 @@ def _slot(name: str) -> Named:
     return Named(f"model.{name}")
 
 
-def _span(span: tuple[float, float]) -> Message:
-    low, *high = [change(end) for end in span if end]
-    return Message("{low} to {high}", {"low": low, "high": high[0]}) if high else low
+def _span(span: tuple[float, float]) -> str:
+    low, *high = [percent(end) for end in span if end]
+    return f"{low} to {high[0]}" if high else low
 
 
 def percent(of: float) -> str:
-    """``+12.3%``; no sign before zero, a dash for what is not finite."""
-    return units.filled(change(of))
-
-
-def change(of: float) -> Message:
     """A change in per cent to a tenth; no sign before zero, a dash for what is not finite."""
     if not math.isfinite(of):
-        return Message("–")
+        return "–"
     text = f"{of:+.1%}"
     return units.percent(0.0, 1) if text in ("+0.0%", "-0.0%") else units.change(of, 1)

@@ -113,7 +113,7 @@ def position_compensation(
         low, high = sorted((-1000 * sign * zero, 1000 * sign * (length - zero)))
         remedy = Message(
             "it is {low} mm to {high} mm",
-            {"low": units.as_written(f"{low:zg}"), "high": units.as_written(f"{high:zg}")},
+            {"low": f"{low:zg}", "high": f"{high:zg}"},
         )
         raise InputError(Fault("--reference", "is beyond the shaft", f"{1000 * sign * (at - zero):g} mm", remedy))
     places, growth = report.warm_up.compensation_table(step / _FINER)

@@ -303,8 +303,8 @@ def _short_reversal(report: DutyReport) -> list[Record]:
     if found is None:
         return []
     values = {
-        "stroke": units.measured(found.stroke, TRAVEL, 3), "share": units.percent(BACK),
-        "travel": units.measured(found.back, TRAVEL, 3), "work": units.percent(found.work_share),
+        "stroke": units.shown(found.stroke, TRAVEL, 3), "share": units.percent(BACK),
+        "travel": units.shown(found.back, TRAVEL, 3), "work": units.percent(found.work_share),
     }  # fmt: skip
     message = Message(
         "friction changes its sign at once here, but after a reversal {share} of that of the screw are back within "

@@ -12,7 +12,7 @@ from rich.table import Table
 from ballscrew.basis import units
 from ballscrew.basis.errors import both
 from ballscrew.basis.quantities import Quantity, quantities_of
-from ballscrew.basis.records import Measured, Message, Named
+from ballscrew.basis.records import Message, Named
 from ballscrew.cases.case_files.case_file import Case
 from ballscrew.cases.case_files.descriptions import design, model_text
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
@@ -149,7 +149,7 @@ def trade_off(model: CalibratedModel) -> Message:
 def _changed(name: str, share: float) -> Message:
     """``2.1 % more preload``."""
     message = Message("{percent} % more {name}") if share > 0 else Message("{percent} % less {name}")
-    return message.of(percent=units.as_written(f"{abs(100 * share):.2g}"), name=Named(name))
+    return message.of(percent=f"{abs(100 * share):.2g}", name=Named(name))
 
 
 def _scores(model: CalibratedModel) -> Table:
@@ -174,7 +174,7 @@ def _residuals(model: CalibratedModel) -> Table:
 def describe_next_test(test: NextTest, model: CalibratedModel) -> list[Message]:
     """Recommended next test, and the reduction of uncertainty it would give."""
     known: Mapping[str, Quantity] = {name: quantity for name, (_, quantity) in model.subject.inputs.items()}
-    where = [Message("{value}", {"value": units.measured(value, known[name], 3)}) for name, value in test.best.items()]
+    where = [Message("{value}", {"value": units.shown(value, known[name], 3)}) for name, value in test.best.items()]
     message = Message("next test: {where}; {readings} readings")
     if model.rows.log.forward.any() and model.rows.log.backward.any():
         message = Message("next test: {where}; {readings} readings, half of them in each direction")
@@ -190,8 +190,8 @@ def describe_next_test(test: NextTest, model: CalibratedModel) -> list[Message]:
     ]
 
 
-def _percent(share: float) -> Measured:
-    return units.as_written(f"{100 * share:.0f}")
+def _percent(share: float) -> str:
+    return f"{100 * share:.0f}"
 
 
 def _beside_the_log(test: NextTest, model: CalibratedModel, known: Mapping[str, Quantity]) -> list[Message]:
@@ -201,7 +201,7 @@ def _beside_the_log(test: NextTest, model: CalibratedModel, known: Mapping[str, 
     ends = {name: (min(float(values.min()), 0.0), max(float(values.max()), 0.0)) for name, values in logged.items()}
     nearest = {name: min(max(test.best[name], low), high) for name, (low, high) in ends.items()}
     beyond = [
-        Message("{name} {value}", {"name": Named(name), "value": units.measured(end, known[name], 3)})
+        Message("{name} {value}", {"name": Named(name), "value": units.shown(end, known[name], 3)})
         for name, end in nearest.items()
         if test.best[name] != end
     ]

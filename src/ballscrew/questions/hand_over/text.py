@@ -40,14 +40,14 @@ def blocks(export: Export) -> list[tuple[Message, list[Message]]]:
 
 
 def _ends(name: str, ends: tuple[float, float], export: Export) -> Message:
-    least, greatest = (units.measured(end, export.quantities[name]) for end in ends)
+    least, greatest = (units.shown(end, export.quantities[name]) for end in ends)
     if ends[0] == ends[1]:
         return Message("{name}: {value}", {"name": name, "value": least})
     return Message("{name}: {least} to {greatest}", {"name": name, "least": least, "greatest": greatest})
 
 
 def _of_range(name: str, ends: tuple[float, float], export: Export) -> Message:
-    least, greatest = (units.measured(end, export.quantities[name]) for end in ends)
+    least, greatest = (units.shown(end, export.quantities[name]) for end in ends)
     if ends[0] == ends[1]:
         return Message("{name} {value}", {"name": name, "value": least})
     return Message("{name} {least} to {greatest}", {"name": name, "least": least, "greatest": greatest})
@@ -64,7 +64,7 @@ def _error(one: WorstError) -> Message:
         {
             "output": one.output,
             "value": Measured(one.value, Quantity("", one.unit, Info("", "")), 2, written=written),
-            "relative": units.as_written(f"{one.relative:.2g}"),
-            "share": units.as_written(f"{one.of_largest:.2g}"),
+            "relative": f"{one.relative:.2g}",
+            "share": f"{one.of_largest:.2g}",
         },
     )

@@ -113,12 +113,12 @@ class ReversalReport:
         start = Message("from rest") if self.reversal.from_rest else Message("after a reversal")
         if math.isfinite(place.screw_angle):
             values = {
-                "share": share, "start": start, "angle": units.measured(place.screw_angle, ANGLE, 3),
-                "travel": units.measured(place.travel, TRAVEL, 3),
+                "share": share, "start": start, "angle": units.shown(place.screw_angle, ANGLE, 3),
+                "travel": units.shown(place.travel, TRAVEL, 3),
             }  # fmt: skip
             message = Message("{start} {share} of the friction is back within {angle} of the screw, {travel}", values)
         else:
-            end = units.measured(float(np.asarray(self.curve.travel)[-1]), TRAVEL, 3)
+            end = units.shown(float(np.asarray(self.curve.travel)[-1]), TRAVEL, 3)
             message = Message(
                 "{start} less than {share} of the friction is back within {end}",
                 {"share": share, "start": start, "end": end},
@@ -128,7 +128,7 @@ class ReversalReport:
         if self.first is not None and float(np.asarray(self.curve.travel)[-1]) > TRACKING:
             first, tracking = self.first.model.presliding_stiffness, self.tracking.model.presliding_stiffness
             values = {
-                "first": units.measured(first, STIFFNESS, 3), "tracking": units.measured(tracking, STIFFNESS, 3),
+                "first": units.shown(first, STIFFNESS, 3), "tracking": units.shown(tracking, STIFFNESS, 3),
                 "off": units.percent(self.tracking.error.largest),
             }  # fmt: skip
             message = Message(
@@ -179,7 +179,7 @@ class ReversalReport:
             )  # fmt: skip
         ratios = [loop.work_ratio for fit in self.elements for loop in fit.loops]
         if ratios:
-            ends = [units.measured(loop.stroke / 2, ANGLE, 3) for loop in (self.curve.loops[0], self.curve.loops[-1])]
+            ends = [units.shown(loop.stroke / 2, ANGLE, 3) for loop in (self.curve.loops[0], self.curve.loops[-1])]
             message = Message(
                 "on strokes of ±{shortest} to ±{longest} the friction work of the Maxwell-slip elements is {least} to "
                 "{most} of that of the balls, whose contacts have no memory of turning points: no elements have both "

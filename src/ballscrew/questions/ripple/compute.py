@@ -88,7 +88,7 @@ class RippleReport:
     def assumed(self) -> Sequence[Message]:
         """What a catalogue does not print, and what is left out."""
         numbers = {
-            "gap": units.as_written(f"{self.given['gap']:g}"),
+            "gap": f"{self.given['gap']:g}",
             "deviation": Measured(self.given["groove_deviation"], _DEVIATION),
             "circuits": str(self.given["circuits"]),
         }
@@ -110,7 +110,7 @@ class RippleReport:
         )
         message = message.of(
             range=_torque(found.peak_to_peak), share=units.percent(relative(found)),
-            order=units.as_written(f"{most.order:.3g}"), name=Message(most.name), amplitude=_torque(most.amplitude),
+            order=f"{most.order:.3g}", name=Message(most.name), amplitude=_torque(most.amplitude),
         )  # fmt: skip
         return units.record(message, id="ripple.size", subject="peak_to_peak", value=found.peak_to_peak, unit="N m")
 

@@ -35,7 +35,7 @@ class BesideRule(NamedTuple):
         rule, torque = self.by_rule.rule, self.by_rule.torque
         return {
             "rule": rule.label,
-            "torque": units.measured(torque, BY_RULE[rule.name]),
+            "torque": units.shown(torque, BY_RULE[rule.name]),
             "ratio": units.fixed(self.ratio, 2),
         }
 
@@ -59,7 +59,7 @@ def messages(case: Case, nut: NutState | None) -> list[Message]:
     if nut is None or not found:
         return []
     rules = [(_OWN if one.by_rule.is_own else _OTHER).of(**one.values) for one in found]
-    torque = units.measured(nut.drag_of_balls, BY_RULE[found[0].by_rule.rule.name])
+    torque = units.shown(nut.drag_of_balls, BY_RULE[found[0].by_rule.rule.name])
     return [_LINE.of(torque=torque, rules=rules), contradiction(found)]
 
 

@@ -273,7 +273,7 @@ def _need(tables: dict[str, Any], folder: Path, name: str, faults: list[Fault], 
     tables.pop("optimise", None)
     tables.pop("sweep", None)
     if "bodies" not in tables:
-        notes.append(filled_text("elastic bodies of screw and nut of a usual size, as none were given"))
+        notes.append("elastic bodies of screw and nut of a usual size, as none were given")
     try:
         names = objectives_named(
             USUAL_OBJECTIVES if objectives is None else _texts("need.objectives", objectives, faults), "need.objectives"
@@ -416,6 +416,6 @@ def _installation(tables: dict[str, Any], required: Requirements, notes: list[st
         tables["installation"] = {**table, "unsupported_length": f"{required.stroke!r} m"}
         return True
     if table is None:
-        notes.append(filled_text("inertia: that of the stroke alone; give the length of the shaft"))
-        notes.append(filled_text("buckling and critical speed are not judged: give the ends of the shaft"))
+        notes.append("inertia: that of the stroke alone; give the length of the shaft")
+        notes.append("buckling and critical speed are not judged: give the ends of the shaft")
     return False

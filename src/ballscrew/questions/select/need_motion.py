@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from typing import Any
 
 from ballscrew.basis.errors import MISSING, Fault
-from ballscrew.basis.units import filled_text
 
 #: Short names of an axis and its motion, and the places they stand for.
 OF_MOTION: Mapping[str, str] = {
@@ -23,8 +22,8 @@ _BESIDE: Mapping[str, str] = {
     "need.feed": 'add feed = "15 m/min", the largest speed of the mass',
 }
 #: What takes the place of a load and a speed beside a mass.
-_WITHOUT_RESTS = filled_text("motion: there and back over the stroke without rests, as no dwell was given")
-_HORIZONTAL = filled_text("axis: horizontal, as no inclination was given")
+_WITHOUT_RESTS = "motion: there and back over the stroke without rests, as no dwell was given"
+_HORIZONTAL = "axis: horizontal, as no inclination was given"
 _INSTEAD: Mapping[str, str] = {
     "axial_load": "leave it out: mass, inclination and acceleration make the load; a force at work is [motion] force",
     "screw_speed": "write the feed: each lead then has a speed of its own",

@@ -97,12 +97,12 @@ def verdicts(case: Case, report: ServiceReport) -> list[Record]:
     return [*records, *(_of_alternative(one) for one in change.alternatives)]
 
 
-def probability(share: float) -> Message:
+def probability(share: float) -> str:
     """``12%``; of what is nearly certain or nearly impossible only that."""
     if share > 0.999:
-        return Message("more than 99.9%")
+        return "more than 99.9%"
     if share < 0.001:
-        return Message("less than 0.1%")
+        return "less than 0.1%"
     return units.percent(share, 1 if share > 0.99 or share < 0.01 else 0)
 
 

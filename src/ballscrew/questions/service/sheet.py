@@ -99,7 +99,7 @@ def causes(report: ServiceReport) -> list[Message]:
     by_cause = report.preload.shares if report.preload is not None else by_cause
     shares = sorted(((share, name) for name, share in by_cause.items() if math.isfinite(share)), reverse=True)
     largest = [
-        Message("{cause} ({percent}%)", {"cause": _cause(name), "percent": units.as_written(f"{100 * share:.0f}")})
+        Message("{cause} ({percent}%)", {"cause": _cause(name), "percent": f"{100 * share:.0f}"})
         for share, name in shares[:_MOST_CAUSES]
         if share >= _LEAST_CAUSE
     ]

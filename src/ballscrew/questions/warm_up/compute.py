@@ -35,7 +35,7 @@ from ballscrew.basis.quantities import (
     Unit,
     fields_of,
 )  # fmt: skip
-from ballscrew.basis.records import FilledText, Message
+from ballscrew.basis.records import Message
 from ballscrew.basis.units import filled_text
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
@@ -185,14 +185,14 @@ class WarmUpReport:
         return assumed_of(self.case, self.surroundings, self.warm_up.network, self.stroke)
 
 
-def assumed_of(case: Case, given: Surroundings, network: Network, stroke: Length | None) -> Sequence[FilledText]:
+def assumed_of(case: Case, given: Surroundings, network: Network, stroke: Length | None) -> Sequence[str]:
     """Numbers of the heat that a case does not give, and what stands in for them."""
     found = [*_assumed_sizes(case, given, network)]
     if stroke is not None and given.stroke is None:
-        length = units.measured(stroke, PLACE)
+        length = units.shown(stroke, PLACE)
         found.append(filled_text("to and fro over {stroke}, half the shaft, under the load of the case", stroke=length))
     if any(network.bearing_power):
-        first, last = (units.measured(power, SERIES["friction_power"], 3) for power in network.bearing_power)
+        first, last = (units.shown(power, SERIES["friction_power"], 3) for power in network.bearing_power)
         found.append(
             filled_text(
                 "bearings make {first} at the fixed end and {last} at the other, whatever they warm up to",
@@ -200,37 +200,37 @@ def assumed_of(case: Case, given: Surroundings, network: Network, stroke: Length
             )
         )  # fmt: skip
     else:
-        found.append(filled_text("no heat of the support bearings: their friction is not given ([bearings.fixed])"))
+        found.append("no heat of the support bearings: their friction is not given ([bearings.fixed])")
     defaults = {field.name: field.default for field in dataclasses.fields(Surroundings)}
     for name in OF_DEFAULTS:
         if getattr(given, name) == defaults[name] and name not in case.given_surroundings:
-            meaning, value = Message(_OF[name].info.meaning), units.measured(defaults[name], _OF[name])
+            meaning, value = Message(_OF[name].info.meaning), units.shown(defaults[name], _OF[name])
             found.append(filled_text("{meaning} {value}: the default", meaning=meaning, value=value))
     return found
 
 
-def _assumed_sizes(case: Case, given: Surroundings, network: Network) -> Iterator[FilledText]:
+def _assumed_sizes(case: Case, given: Surroundings, network: Network) -> Iterator[str]:
     """Conductances and sizes of nut and shaft that are not given."""
     if given.ball_conductance is None:
         yield filled_text(
             "{conductance} from nut to shaft: balls at rest and grease of {grease} W/(m K) in a gap of {gap} ball "
             "diameters; a factor of three either way is possible",
-            conductance=units.measured(network.ball_conductance, _OF["ball_conductance"]),
-            grease=units.as_written(f"{GREASE_CONDUCTIVITY:g}"),
-            gap=units.as_written(f"{GAP_SHARE:g}"),
+            conductance=units.shown(network.ball_conductance, _OF["ball_conductance"]),
+            grease=f"{GREASE_CONDUCTIVITY:g}",
+            gap=f"{GAP_SHARE:g}",
         )
     if given.shaft_convection is None:
-        convection = units.measured(network.shaft.convection, _OF["shaft_convection"])
+        convection = units.shown(network.shaft.convection, _OF["shaft_convection"])
         yield filled_text(
             "{convection} from the shaft to the air by the mean speed, a recalled formula; "
             "a factor of two either way is possible",
             convection=convection,
         )
     if given.nut_mass is None:
-        mass, wall = units.measured(network.nut_mass, _OF["nut_mass"]), units.as_written(f"{NUT_WALL:g}")
+        mass, wall = units.shown(network.nut_mass, _OF["nut_mass"]), f"{NUT_WALL:g}"
         yield filled_text("nut of {mass}: {wall} times as wide as the screw", mass=mass, wall=wall)
     if given.shaft_length is None:
-        length = units.measured(network.shaft.length, _OF["shaft_length"])
+        length = units.shown(network.shaft.length, _OF["shaft_length"])
         if case.installation is None:
             yield filled_text("shaft of {length}: not given, an assumption", length=length)
         else:
