@@ -232,8 +232,9 @@ def _measured(one: Measured) -> str:
     )
 
 
-def record(message: Message, **fields: Any) -> Record:
-    """A record that says a message; ``fields`` are its others."""
+def record(sentence: Message | str, **fields: Any) -> Record:
+    """A record that says a sentence; ``fields`` are its others."""
+    message = Message("{sentence}", {"sentence": sentence}) if isinstance(sentence, str) else sentence
     return Record(text=filled(message), message=message, **fields)
 
 

@@ -15,7 +15,7 @@ from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import Angle, Info, Length, Quantity, Ratio, RotationalDamping, quantities_of
-from ballscrew.basis.records import Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.sweeps.reversal import QUANTITIES
 from ballscrew.physics.moving_balls import reversal as moving_balls
@@ -110,48 +110,36 @@ class ReversalReport:
         """Where most of the friction is back, that one stiffness cannot hold it, and how many elements can."""
         place = next(one for one in self.places if one.share == MOST)
         share = units.percent(MOST)
-        start = Message("from rest") if self.reversal.from_rest else Message("after a reversal")
+        start = "from rest" if self.reversal.from_rest else "after a reversal"
         if math.isfinite(place.screw_angle):
-            values = {
-                "share": share, "start": start, "angle": units.shown(place.screw_angle, ANGLE, 3),
-                "travel": units.shown(place.travel, TRAVEL, 3),
-            }  # fmt: skip
-            message = Message("{start} {share} of the friction is back within {angle} of the screw, {travel}", values)
+            angle, travel = units.shown(place.screw_angle, ANGLE, 3), units.shown(place.travel, TRAVEL, 3)
+            text = f"{start} {share} of the friction is back within {angle} of the screw, {travel}"
         else:
             end = units.shown(float(np.asarray(self.curve.travel)[-1]), TRAVEL, 3)
-            message = Message(
-                "{start} less than {share} of the friction is back within {end}",
-                {"share": share, "start": start, "end": end},
-            )
-        found = [units.record(message, id="reversal.back", subject="screw_torque", value=place.screw_angle, unit="rad")]
+            text = f"{start} less than {share} of the friction is back within {end}"
+        found = [units.record(text, id="reversal.back", subject="screw_torque", value=place.screw_angle, unit="rad")]
         two = self.elements[0]
         if self.first is not None and float(np.asarray(self.curve.travel)[-1]) > TRACKING:
-            first, tracking = self.first.model.presliding_stiffness, self.tracking.model.presliding_stiffness
-            values = {
-                "first": units.shown(first, STIFFNESS, 3), "tracking": units.shown(tracking, STIFFNESS, 3),
-                "off": units.percent(self.tracking.error.largest),
-            }  # fmt: skip
-            message = Message(
-                "one stiffness of Dahl or LuGre is {first} for the first 0.02° and {tracking} for tracking over more "
-                "than 0.1 mm; with the latter the torque is off by up to {off} of the steady one",
-                values,
+            first = units.shown(self.first.model.presliding_stiffness, STIFFNESS, 3)
+            tracking = units.shown(self.tracking.model.presliding_stiffness, STIFFNESS, 3)
+            text = (
+                f"one stiffness of Dahl or LuGre is {first} for the first 0.02° and {tracking} for tracking over more "
+                "than 0.1 mm; with the latter the torque is off by up to "
+                f"{units.percent(self.tracking.error.largest)} of the steady one"
             )
             found.append(
                 units.record(
-                    message,
+                    text,
                     id="reversal.one_stiffness",
                     subject="presliding_stiffness",
                     value=self.tracking.error.largest,
                 )
             )
         off = units.percent(two.error.largest)
-        message = Message("one Maxwell-slip element is off by up to {off}", {"off": off})
+        text = f"one Maxwell-slip element is off by up to {off}"
         if len(two.elements) > 1:
-            count = units.fixed(len(two.elements))
-            message = Message("{count} Maxwell-slip elements are off by up to {off}", {"count": count, "off": off})
-        found.append(
-            units.record(message, id="reversal.slip_elements", subject="slip_elements", value=two.error.largest)
-        )
+            text = f"{len(two.elements)} Maxwell-slip elements are off by up to {off}"
+        found.append(units.record(text, id="reversal.slip_elements", subject="slip_elements", value=two.error.largest))
         return found
 
     @property
@@ -159,46 +147,40 @@ class ReversalReport:
         """That the helix part is a hypothesis, what is known of the first range, and implausible inputs."""
         found: list[Record] = []
         if self.crosses:
-            message = Message(
+            text = (
                 "helix slip that comes back over degrees of the screw is a hypothesis: it is computed, and the log of "
                 "one axis (EMPS: guides, an unknown screw) is all that speaks for it"
             )
-            found.append(units.record(message, id="reversal.hypothesis", subject="helix", severity="warning"))
+            found.append(units.record(text, id="reversal.hypothesis", subject="helix", severity="warning"))
         ratio = float(self.reversal.bristles_over_model)
         if abs(ratio - 1) > BRISTLES_OFF:
-            message = Message(
-                "the bristles that the curve is computed with have {ratio} of the steady slip torque of the model, to "
-                "which the curve is scaled: its shape is as uncertain",
-                {"ratio": units.percent(ratio)},
+            text = (
+                f"the bristles that the curve is computed with have {units.percent(ratio)} of the steady slip torque "
+                "of the model, to which the curve is scaled: its shape is as uncertain"
             )
             found.append(
                 units.record(
-                    message, id="reversal.bristles", subject="bristles_over_model", severity="warning", value=ratio,
+                    text, id="reversal.bristles", subject="bristles_over_model", severity="warning", value=ratio,
                     limit=BRISTLES_OFF,
                 )
             )  # fmt: skip
         ratios = [loop.work_ratio for fit in self.elements for loop in fit.loops]
         if ratios:
-            ends = [units.shown(loop.stroke / 2, ANGLE, 3) for loop in (self.curve.loops[0], self.curve.loops[-1])]
-            message = Message(
-                "on strokes of ±{shortest} to ±{longest} the friction work of the Maxwell-slip elements is {least} to "
-                "{most} of that of the balls, whose contacts have no memory of turning points: no elements have both "
-                "the curve and the work of all strokes",
-                {
-                    "shortest": ends[0],
-                    "longest": ends[1],
-                    "least": units.percent(min(ratios)),
-                    "most": units.percent(max(ratios)),
-                },
+            loops = (self.curve.loops[0], self.curve.loops[-1])
+            shortest, longest = (units.shown(loop.stroke / 2, ANGLE, 3) for loop in loops)
+            text = (
+                f"on strokes of ±{shortest} to ±{longest} the friction work of the Maxwell-slip elements is "
+                f"{units.percent(min(ratios))} to {units.percent(max(ratios))} of that of the balls, whose contacts "
+                "have no memory of turning points: no elements have both the curve and the work of all strokes"
             )
             worst = max(fit.work_error for fit in self.elements)
             found.append(
                 units.record(
-                    message, id="reversal.work_of_elements", subject="slip_elements", severity="info", value=worst
+                    text, id="reversal.work_of_elements", subject="slip_elements", severity="info", value=worst
                 )
             )
-        message = Message("the stiffness of the first hundredths of a degree is known to a factor of three")
-        found.append(units.record(message, id="reversal.first_range", subject="spin_and_curvature", severity="info"))
+        text = "the stiffness of the first hundredths of a degree is known to a factor of three"
+        found.append(units.record(text, id="reversal.first_range", subject="spin_and_curvature", severity="info"))
         return [*found, *self.case.implausible()]
 
 
