@@ -43,9 +43,9 @@ FREE = PRELOAD, CONSTANT_TORQUE.name
 RIGID = "leave out [bodies] and [deviations]: without load the torque is nearly the same, under load it is another one"
 #: What became of the preload, by the verdict.
 VERDICTS = {
-    "lost": Message("preload lost"),
-    "kept": Message("preload kept"),
-    "open": Message("lost or kept cannot be told"),
+    "lost": "preload lost",
+    "kept": "preload kept",
+    "open": "lost or kept cannot be told",
 }
 
 

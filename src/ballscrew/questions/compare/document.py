@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import each_of
-from ballscrew.basis.records import Message, Named, Record, documents
+from ballscrew.basis.records import Record, documents
 from ballscrew.basis.version import __version__
 from ballscrew.cases.case_files import case_file
 from ballscrew.engine.evaluation.comparison import ComparedRule, Comparison, OfBalls, Row, Spread
@@ -17,10 +16,6 @@ from ballscrew.questions.compare.answer import ComparedLaw, by_rules, compared
 from ballscrew.questions.shared import declared
 
 _TORQUE = "screw_torque"
-_SPREAD = Message("{low} to {high}")
-_SPREAD_WITH_EFFICIENCY = Message("{low} to {high}; efficiency {least} to {greatest}")
-_INVALID = Message("{spread}; not valid here: {names}")
-_EFFECT = Message("{slot} ({span})")
 #: The units of the numbers by their names, which are the same in all rows.
 _UNITS = {name: unit for cls in (ComparedLaw, ComparedRule, OfBalls) for name, unit in declared.units_of(cls).items()}
 #: Components named in the verdict on what changes the torque most, and the least change that is shown.
@@ -53,57 +48,47 @@ def verdicts(found: Comparison) -> list[Record]:
     records: list[Record] = []
     if found.spread_of_models is not None:
         outside = [row.candidate.name for row in found.models if row.outside]
-        message = _spread(found.spread_of_models, found.models)
+        text = _spread(found.spread_of_models, found.models)
         if outside:
-            message = _INVALID.of(spread=message, names=each_of(outside))
-        records.append(_spread_record("compare.models", message, found.spread_of_models))
+            text = f"{text}; not valid here: {', '.join(outside)}"
+        records.append(_spread_record("compare.models", text, found.spread_of_models))
     if found.spread_of_laws is None:
-        records.append(units.record(Message("none is valid here"), id="compare.laws", subject=_TORQUE, holds=False))
+        records.append(units.record("none is valid here", id="compare.laws", subject=_TORQUE, holds=False))
     else:
         valid = [row for row in (found.case, *found.laws) if row.candidate.counts and not row.outside]
-        message = _spread(found.spread_of_laws, valid)
-        records.append(_spread_record("compare.laws", message, found.spread_of_laws, holds=True))
+        text = _spread(found.spread_of_laws, valid)
+        records.append(_spread_record("compare.laws", text, found.spread_of_laws, holds=True))
     spans = {slot: span for slot, span in found.spans.items() if max(map(abs, span)) >= LEAST_SHOWN}
     if spans:
         most = list(spans.items())[:_MOST_SHOWN]
-        effects = [_EFFECT.of(slot=_slot(slot), span=_span(span)) for slot, span in most]
+        effects = ", ".join(f"{_words(slot)} ({_span(span)})" for slot, span in most)
         slot, span = most[0]
-        records.append(
-            units.record(
-                Message("{effects}", {"effects": effects}), id="compare.largest_effect", subject=slot,
-                value=max(span, key=abs),
-            )
-        )  # fmt: skip
+        records.append(units.record(effects, id="compare.largest_effect", subject=slot, value=max(span, key=abs)))
     return records
 
 
-def _spread_record(name: str, message: Message, spread: Spread, holds: bool | None = None) -> Record:
+def _spread_record(name: str, text: str, spread: Spread, holds: bool | None = None) -> Record:
     least, greatest = (row.torque for row in spread)
-    return units.record(message, id=name, subject=_TORQUE, value=greatest - least, unit="N m", holds=holds)
+    return units.record(text, id=name, subject=_TORQUE, value=greatest - least, unit="N m", holds=holds)
 
 
-def _spread(spread: Spread, rows: Sequence[Row]) -> Message:
+def _spread(spread: Spread, rows: Sequence[Row]) -> str:
     """``0.15 N m (one) to 0.23 N m (other); efficiency 0.934 to 0.952``."""
-    low, high = (
-        Message("{torque} ({name})", {"torque": units.in_unit(row.torque, "N m"), "name": _full_name(row)})
-        for row in spread
-    )
+    low, high = (f"{units.in_unit(row.torque, 'N m')} ({_full_name(row)})" for row in spread)
     efficiencies = [float(row.result.efficiency) for row in rows if math.isfinite(float(row.result.efficiency))]
     if not efficiencies:
-        return _SPREAD.of(low=low, high=high)
-    ends = {"least": units.fixed(min(efficiencies), 3), "greatest": units.fixed(max(efficiencies), 3)}
-    return _SPREAD_WITH_EFFICIENCY.of(low=low, high=high, **ends)
+        return f"{low} to {high}"
+    return f"{low} to {high}; efficiency {min(efficiencies):.3f} to {max(efficiencies):.3f}"
 
 
-def _full_name(row: Row) -> Message:
-    if row.candidate.slot:
-        return Message("{slot} {name}", {"slot": _slot(row.candidate.slot), "name": row.candidate.name})
-    return Message("{name}", {"name": row.candidate.name})
+def _full_name(row: Row) -> str:
+    name = row.candidate.name
+    return f"{_words(row.candidate.slot)} {name}" if row.candidate.slot else name
 
 
-def _slot(name: str) -> Named:
-    """A component of the model."""
-    return Named(f"model.{name}")
+def _words(name: str) -> str:
+    """A component of the model in words."""
+    return name.replace("_", " ")
 
 
 def _span(span: tuple[float, float]) -> str:

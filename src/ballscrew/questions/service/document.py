@@ -6,7 +6,7 @@ from typing import Any
 
 from ballscrew.basis import units
 from ballscrew.basis.quantities import Quantity
-from ballscrew.basis.records import Measured, Message, Named, Record, documents
+from ballscrew.basis.records import Record, documents
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.provenance import of_case
@@ -19,34 +19,12 @@ from ballscrew.questions.service.answer import results
 from ballscrew.questions.service.compute import TORQUE, ServiceReport
 from ballscrew.questions.shared import declared
 
-_LEFT = Message(
-    "{verdict}: {share} of the preload is left ({low} to {high}), less than {least} of it with a probability of "
-    "{probability}"
-)
-_LEFT_OF_NOMINAL = Message(
-    "{verdict}: {share} of the nominal preload is left ({low} to {high}), less than {least} of it with a probability "
-    "of {probability}"
-)
-_EXPLAINS = Message(
-    "{name} {value} instead of {instead} explains it as well (off by {off}, with another preload {off_of_preload}); "
-    "{known}"
-)
 #: By whether the value is within what is known of the number.
 _KNOWN = {
-    True: Message("within what is known of it"),
-    False: Message("beyond what is known of it"),
-    None: Message("nothing is known of it"),
+    True: "within what is known of it",
+    False: "beyond what is known of it",
+    None: "nothing is known of it",
 }
-_DOES_NOT_EXPLAIN = Message(
-    "{name} {value} instead of {instead} does not explain it (off by {off}, with another preload {off_of_preload})"
-)
-_READING = Message("preload {preload} ({low} to {high})")
-_SHARE_OF_NOMINAL = Message(
-    "preload {preload} ({low} to {high}), {share} of the {nominal} of the case ({least} to {most})"
-)
-_AT_SPEED = Message("{preload}; taken at {speed}")
-_AT_SPEED_AND_TEMPERATURE = Message("{preload}; taken at {speed} and {temperature}")
-_AT_SPEED_AND_OIL = Message("{preload}; taken at {speed} and {temperature}, the oil of the case")
 
 
 def document(case: Case, report: ServiceReport) -> dict[str, Any]:
@@ -74,23 +52,20 @@ def verdicts(case: Case, report: ServiceReport) -> list[Record]:
         return [_of_reading(case, report)]
     change = report.change
     if not change.logarithm.told:
-        message = Message("the preload cannot be told from this: see the warnings")
-        return [units.record(message, id="service.preload_left", subject=PRELOAD, severity="warning")]
-    low, high = change.ratio_interval()
+        text = "the preload cannot be told from this: see the warnings"
+        return [units.record(text, id="service.preload_left", subject=PRELOAD, severity="warning")]
+    low, high = (units.percent(end) for end in change.ratio_interval())
     limit = 1 - change.tolerance
-    message = (_LEFT_OF_NOMINAL if change.new.fit is None else _LEFT).of(
-        verdict=VERDICTS[change.verdict],
-        share=units.percent(change.ratio),
-        low=units.percent(low),
-        high=units.percent(high),
-        least=units.percent(limit),
-        probability=probability(change.probability_of_loss),
+    preload = "nominal preload" if change.new.fit is None else "preload"
+    text = (
+        f"{VERDICTS[change.verdict]}: {units.percent(change.ratio)} of the {preload} is left ({low} to {high}), less "
+        f"than {units.percent(limit)} of it with a probability of {probability(change.probability_of_loss)}"
     )
     holds = {"lost": False, "kept": True, "open": None}[change.verdict]
     severity = "warning" if change.verdict == "lost" else "info"
     records = [
         units.record(
-            message, id="service.preload_left", subject=PRELOAD, severity=severity, holds=holds, value=change.ratio,
+            text, id="service.preload_left", subject=PRELOAD, severity=severity, holds=holds, value=change.ratio,
             limit=limit,
         )
     ]  # fmt: skip
@@ -107,16 +82,17 @@ def probability(share: float) -> str:
 
 
 def _of_alternative(one: Alternative) -> Record:
-    message = (_EXPLAINS if one.explains else _DOES_NOT_EXPLAIN).of(
-        name=Named(one.name),
-        value=Measured(one.value, one.quantity, 3),
-        instead=Measured(one.instead_of, one.quantity, 3),
-        off=Measured(one.rms, TORQUE, 3),
-        off_of_preload=Measured(one.rms_of_preload, TORQUE, 3),
-        known=_KNOWN[one.plausible],
+    value, instead = (units.shown(number, one.quantity, 3) for number in (one.value, one.instead_of))
+    off, off_of_preload = (units.shown(torque, TORQUE, 3) for torque in (one.rms, one.rms_of_preload))
+    explains = "explains it as well" if one.explains else "does not explain it"
+    text = (
+        f"{one.name.rpartition('.')[2].replace('_', ' ')} {value} instead of {instead} {explains} (off by {off}, with "
+        f"another preload {off_of_preload})"
     )
+    if one.explains:
+        text += f"; {_KNOWN[one.plausible]}"
     return units.record(
-        message, id="service.alternative", subject=one.name, value=one.value, limit=one.instead_of,
+        text, id="service.alternative", subject=one.name, value=one.value, limit=one.instead_of,
         unit=one.quantity.unit, holds=one.explains,
     )  # fmt: skip
 
@@ -125,31 +101,28 @@ def _of_reading(case: Case, report: ServiceReport) -> Record:
     assert report.preload is not None
     quantity = preload_quantity(case)
     found = (report.preload.preload, *report.preload.interval())
-    ends = {name: Measured(x, quantity) for name, x in zip(("preload", "low", "high"), found, strict=True)}
+    preload, low, high = (units.shown(force, quantity) for force in found)
+    text = f"preload {preload} ({low} to {high})"
     nominal = getattr(case.screw.nut, "preload", None)
     if nominal:
-        share, least, most = (units.percent(x / nominal) for x in found)
-        message = _SHARE_OF_NOMINAL.of(
-            **ends, share=share, nominal=Measured(float(nominal), quantity), least=least, most=most
-        )
-    else:
-        message = _READING.of(**ends)
-    message = _taken_at(case, report, message)
-    return units.record(message, id="service.preload", subject=PRELOAD, value=report.preload.preload, unit="N")
+        share, least, most = (units.percent(force / nominal) for force in found)
+        text += f", {share} of the {units.shown(float(nominal), quantity)} of the case ({least} to {most})"
+    text += _taken_at(case, report)
+    return units.record(text, id="service.preload", subject=PRELOAD, value=report.preload.preload, unit="N")
 
 
-def _taken_at(case: Case, report: ServiceReport, message: Message) -> Message:
-    """A reading with the speed and the temperature that it is taken at, and whose they are."""
+def _taken_at(case: Case, report: ServiceReport) -> str:
+    """The speed and the temperature that a reading is taken at, and whose they are."""
     if report.reading is None:
-        return message
+        return ""
     of_speed = inputs_of(case.model, case.screw, case.lubricant)["screw_speed"][1]
-    speed = Measured(report.reading.screw_speed, of_speed)
+    taken = f"; taken at {units.shown(report.reading.screw_speed, of_speed)}"
     given = report.reading.temperature
     warm = case.lubricant.temperature if given is None else given
     if warm is None:
-        return _AT_SPEED.of(preload=message, speed=speed)
-    template = _AT_SPEED_AND_OIL if given is None else _AT_SPEED_AND_TEMPERATURE
-    return template.of(preload=message, speed=speed, temperature=Measured(float(warm), TEMPERATURE, 3))
+        return taken
+    temperature = units.shown(float(warm), TEMPERATURE, 3)
+    return f"{taken} and {temperature}" if given is not None else f"{taken} and {temperature}, the oil of the case"
 
 
 def _logs(report: ServiceReport) -> list[dict[str, Any]]:
