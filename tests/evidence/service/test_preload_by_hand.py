@@ -324,8 +324,8 @@ def test_what_a_trend_says():
         message = rising._replace(slope=sign * rising.slope, low=ends[0], high=ends[1]).message(per_kelvin)
         assert ("rises" if sign > 0 else "falls") in message.template
         assert f"the model {words}-corrects" in message.template
-        assert message.values["low"].value == pytest.approx(100 * rising.low, abs=0.005)
-        assert message.values["high"].value == pytest.approx(100 * rising.high, abs=0.005)
+        assert float(message.values["low"]) == pytest.approx(100 * rising.low, abs=0.005)
+        assert float(message.values["high"]) == pytest.approx(100 * rising.high, abs=0.005)
 
 
 # -- groups of rows, and logs that nothing explains -----------------------------------------------

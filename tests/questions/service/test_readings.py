@@ -4,7 +4,6 @@ import math
 
 import pytest
 
-from ballscrew.basis import units
 from ballscrew.basis.errors import InputError
 from ballscrew.questions.service import reading
 from ballscrew.questions.service.document import probability
@@ -22,7 +21,7 @@ from ballscrew.questions.service.document import probability
     ],
 )
 def test_probabilities_in_words(share, text):
-    assert units.filled(probability(share)) == text
+    assert probability(share) == text
 
 
 def written(**given):
