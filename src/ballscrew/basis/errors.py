@@ -49,8 +49,8 @@ _FAULTS = {
 class Fault:
     """One error in one field.
 
-    Problem and remedy are English templates: a literal text, or a :class:`Message` with what stands in it, never a text
-    that was put together. So faces say them in their language, with numbers in their units.
+    Problem and remedy are a literal text, or a :class:`Message` with what stands in it, so that faces say numbers in
+    their units.
     """
 
     where: str

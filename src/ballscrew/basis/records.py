@@ -1,8 +1,7 @@
 """Records of a result: verdicts, checks and warnings of every document.
 
 Terminal, page, report and API read the fields; the text is for people to read and for no program to parse. It is that
-of a :class:`Message`, an English template with its values; a program that has words of its own, such as the page in
-another language, fills the template of its language.
+of a :class:`Message`, a template with its values.
 """
 
 from __future__ import annotations
@@ -81,7 +80,7 @@ class Named:
 class Message:
     """A sentence for people, or a part of one: an English template, and what stands in it by name.
 
-    The template is the key of its translations, as gettext has it. ``{torque}`` in it is replaced by the value of that
+    ``{torque}`` in the template is replaced by the value of that
     name: a number, a text that people gave, a field to set, a name, a unit, another message, or a list of messages with
     commas between them. ``{nut.preload}`` without a value stands for setting that field.
     """

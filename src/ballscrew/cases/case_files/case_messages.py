@@ -1,4 +1,4 @@
-"""Operating point, nut, model, assumptions and omissions of a case as messages, which faces fill in their language."""
+"""Operating point, nut, model, assumptions and omissions of a case as messages, which faces fill."""
 
 from __future__ import annotations
 
