@@ -27,13 +27,6 @@ def beside(prefix: str, words: str, narrowest: int = 24) -> str:
     return "\n".join([(prefix + lines[0]).rstrip(), *(" " * len(prefix) + line for line in lines[1:])])
 
 
-def aligned_beside(lines: Sequence[Sequence[str]], of_text: Collection[int] = (0,)) -> list[str]:
-    """Cells in columns as by :func:`aligned`; the last one has words, which go on below themselves."""
-    prefixes = aligned([line[:-1] for line in lines], of_text)
-    width = max(map(len, prefixes)) + 2
-    return [beside(prefix.ljust(width), line[-1]) for prefix, line in zip(prefixes, lines, strict=True)]
-
-
 def aligned(lines: Sequence[Sequence[str]], of_text: Collection[int] = (0,), gap: int = 2) -> list[str]:
     """Cells in columns: those of text to the left, the others to the right."""
     widths = [max(map(len, column)) for column in zip(*lines, strict=True)]

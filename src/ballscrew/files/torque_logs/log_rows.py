@@ -29,7 +29,6 @@ INERTIA = Quantity(
 )
 #: A median temperature below this is one in °C given as one in kelvin: no ball screw is so cold.
 COLDEST = 150.0
-TORQUE_CONSTANT = Quantity("torque_constant", "N m/A", Info("k_T", "torque of the motor for each ampere", above=0))
 
 Time = Annotated[Any, Unit("s")]
 
