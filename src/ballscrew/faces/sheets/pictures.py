@@ -26,7 +26,7 @@ _STYLES: Mapping[str, Mapping[str, Any]] = {
     "dots": {"linestyle": "", "marker": ".", "markersize": 4},
     "circles": {"linestyle": "", "marker": "o", "markerfacecolor": "none", "markersize": 4},
 }
-_TITLE_CHARACTERS, _LABEL_CHARACTERS, _LABEL_SIZE, _SHADE, _CONTOURS, _HATCH = 100, 32, 8.0, 0.15, 12, "/////"
+_TITLE_CHARACTERS, _LABEL_CHARACTERS, _LABEL_SIZE, _SHADE, _CONTOURS, _HATCH = 100, 36, 8.0, 0.15, 12, "/////"
 #: Inches: the height of a chart in a picture and on a page of a report, and how wide a page is.
 _CHART, _PAGE_CHART, _PAGE_WIDTH = 2.7, 2.1, 7.1
 #: More bars than these have a row of their own, with inches for each and for what is above and below.
@@ -145,7 +145,9 @@ def _mark(panel: Axes, mark: Level | Vertical, block: Chart | Map, **style: Any)
 
 
 def _axes(panel: Axes, block: Chart | Map) -> None:
-    ylabel = textwrap.fill(_label(block.y), _LABEL_CHARACTERS)
+    ylabel = _label(block.y)
+    if len(ylabel) > _LABEL_CHARACTERS:  # the unit stands below
+        ylabel = "\n[".join(ylabel.rsplit(" [", 1))
     panel.set(xlabel=_label(block.x), ylabel=ylabel, title=block.title)
     panel.set(xscale="log" if block.x.log else "linear", yscale="log" if block.y.log else "linear")
     if block.x.least is not None:
