@@ -107,6 +107,9 @@ class LocalEngine {
   /** Milliseconds that a point takes, about. */
   #ofPoint = 0;
 
+  /** The engine that inputs are of. @type {WeakMap<Values, Engine>} */
+  #engineOf = new WeakMap();
+
   /** Somebody is about to change something: from now on the module of the case is asked for. */
   want() {
     this.#isWanted = true;
@@ -186,6 +189,7 @@ class LocalEngine {
         for (const [name, [number]] of Object.entries(engine.oil(HERE, value, 1))) values[name] = number;
       } else values[place.input] = value;
     }
+    this.#engineOf.set(values, engine);
     return values;
   }
 
@@ -234,7 +238,8 @@ class LocalEngine {
    * @returns {Found}
    */
   at(values, points) {
-    const { engine } = /** @type {Known} */ (this.#known); // who has values has it
+    // that of the case which the values are of: another one may have come meanwhile
+    const engine = this.#engineOf.get(values) ?? /** @type {Known} */ (this.#known).engine;
     const start = performance.now();
     const given = {
       ...values,
