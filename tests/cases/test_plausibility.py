@@ -175,4 +175,4 @@ def test_documents_of_commands(ballscrew, strange_case, command):
 
 def test_a_sweep_on_the_command_line(ballscrew, strange_case):
     found = ballscrew("sweep", strange_case, "--vary", "axial_load=1, 2 kN")
-    assert "beware  implausible: lead angle" in found.stderr
+    assert "warning  implausible: lead angle" in found.stderr
