@@ -23,8 +23,7 @@ from ballscrew.questions.optimise import search as searches
 from ballscrew.questions.optimise.design_model import DesignModel
 from ballscrew.questions.optimise.design_space import design_space, makeable_ratios
 from ballscrew.questions.optimise.document import document
-from ballscrew.questions.optimise.sheet import cost, sheet
-from ballscrew.questions.optimise.table import of_optimisation
+from ballscrew.questions.optimise.sheet import cost, of_optimisation, sheet
 from ballscrew.questions.select import requirement_checks
 from ballscrew.questions.select.need import need_of
 from ballscrew.questions.select.objectives import OBJECTIVES

@@ -7,12 +7,12 @@ from ballscrew.basis import units
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.cases.case_files.makers_rules import by_rules
 from ballscrew.faces.sheets import files
-from ballscrew.questions.select import document, table
+from ballscrew.questions.select import document
 from ballscrew.questions.select.answer import BrakeOfNeed, MotorTorque, OfMotion, OneCandidate, OneObjective
 from ballscrew.questions.select.compute import Plan, plan
 from ballscrew.questions.select.objectives import OBJECTIVES
 from ballscrew.questions.select.response import Candidate, Select
-from ballscrew.questions.select.sheet import beside_rules
+from ballscrew.questions.select.sheet import beside_rules, of_selection
 from ballscrew.questions.shared import declared
 from support.answers import undescribed, without_unit
 
@@ -29,7 +29,7 @@ def found(request):
 
 
 def test_the_numbers_compared_are_on_every_face(found):
-    answer, headings = document.document(found), files.rows_of(table.of_selection(found.ranked)).headings
+    answer, headings = document.document(found), files.rows_of(of_selection(found.ranked)).headings
     schema = declared.schema(OneCandidate).model_json_schema()["$defs"]["Objectives"]["properties"]
     for name, objective in OBJECTIVES.items():
         quantity = objective.quantity
@@ -45,7 +45,7 @@ def test_the_numbers_compared_are_on_every_face(found):
 
 def test_torques_of_motor_and_brake_are_on_every_face():
     found = bs.select(MOVING)
-    answer, headings = document.document(found), " ".join(files.rows_of(table.of_selection(found.ranked)).headings)
+    answer, headings = document.document(found), " ".join(files.rows_of(of_selection(found.ranked)).headings)
     candidate, schema = answer["candidates"][0], Candidate.model_json_schema()["$defs"]
     for part, cls, word in (("motor_torque", MotorTorque, "motor"), ("brake", BrakeOfNeed, "brake")):
         for name, quantity in quantities_of(cls).items():
@@ -70,7 +70,7 @@ def test_the_best_stands_beside_the_rules_of_makers():
     assert line.startswith("1: drag torque without seals ")
     assert "HIWIN, its maker, " in " ".join(line.split())
     of_best = found.best.checked.run
-    sheet = files.rows_of(table.of_selection(found.ranked[:1]))
+    sheet = files.rows_of(of_selection(found.ranked[:1]))
     cells = dict(zip(sheet.headings, sheet.rows[0], strict=True))
     assert cells["torque without load of balls [N m]"] == pytest.approx(of_best.nut.drag_of_balls, rel=1e-9)
     for one in by_rules(of_best.case):

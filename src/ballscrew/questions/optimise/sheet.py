@@ -3,17 +3,33 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.output.sheet import Axis, Cell, Chart, Colour, Curve, Line, Lines, Number, Share, Sheet, Table
+from ballscrew.basis.output.sheet import (
+    Axis,
+    Cell,
+    Cells,
+    Chart,
+    Colour,
+    Columns,
+    Curve,
+    Line,
+    Lines,
+    Number,
+    Share,
+    Sheet,
+    Table,
+    columns_of,
+)
 from ballscrew.basis.output.wrapping import wrapped
 from ballscrew.basis.quantities import Info, Quantity
+from ballscrew.questions.check import sheet as check_sheet
 from ballscrew.questions.optimise.compute import Member, Optimisation, Plan
 from ballscrew.questions.optimise.design_model import OF_MODEL
 from ballscrew.questions.optimise.design_space import VARIABLES
-from ballscrew.questions.optimise.table import of_optimisation
 from ballscrew.questions.select.objectives import OBJECTIVES
 from ballscrew.questions.select.sheet import LABELS, asked
 
@@ -127,6 +143,29 @@ def _limits(member: Member) -> str:
     lost = ["the load takes the preload away"] if member.checked.nut.preload_is_lost else []
     text = ", ".join([*near, *others, *lost])
     return text if member.valid else f"{text}; outside the model's validity".removeprefix("; ")
+
+
+# -- files ----------------------------------------------------------------------------------------
+
+
+def of_optimisation(members: Sequence[Member]) -> Columns:
+    """The free variables and the objectives of each member, and what ``ballscrew check --to`` writes of a screw."""
+    return columns_of("screws", [_cells(member) for member in members])
+
+
+def _cells(member: Member) -> Cells:
+    values: dict[str, tuple[Any, Any]] = {"holds": (int(member.holds), None), "pareto": (int(member.pareto), None)}
+    for name, value in member.variables.items():
+        if name == "preload":
+            values["preload share [%]"] = (100 * value, None)
+        else:
+            values[VARIABLES[name].name] = (value, VARIABLES[name])
+    for name, objective in OBJECTIVES.items():
+        if name != "price_index":
+            values[objective.quantity.name] = (member.objectives[name], objective.quantity)
+    for check in member.checks:
+        values[f"{check.name.replace('_', ' ')} utilisation"] = (check.utilisation, None)
+    return {**values, **check_sheet.cells(member.checked)}
 
 
 # -- charts ---------------------------------------------------------------------------------------

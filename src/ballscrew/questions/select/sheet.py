@@ -5,24 +5,39 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.output.sheet import Axis, Cell, Chart, Colour, Curve, Line, Lines, Number, Sheet, Table
+from ballscrew.basis.output.sheet import (
+    Axis,
+    Cell,
+    Cells,
+    Chart,
+    Colour,
+    Columns,
+    Curve,
+    Number,
+    Sheet,
+    Table,
+    columns_of,
+    lines,
+)
 from ballscrew.basis.output.wrapping import wrapped
 from ballscrew.basis.quantities import fields_of
 from ballscrew.basis.records import Message
+from ballscrew.questions.check import sheet as check_sheet
 from ballscrew.questions.duty import verdicts as duty_verdicts
 from ballscrew.questions.duty.compute import NUMBERS, DutyReport
 from ballscrew.questions.run import makers
+from ballscrew.questions.select.answer import BRAKE
 from ballscrew.questions.select.candidates import Candidate
 from ballscrew.questions.select.compute import Plan, Ranked, Selection
 from ballscrew.questions.select.document import verdict
 from ballscrew.questions.select.need import Need
 from ballscrew.questions.select.objectives import OBJECTIVES
 from ballscrew.questions.select.requirements import ALLOWED, Requirements
-from ballscrew.questions.select.table import of_selection
 from ballscrew.questions.shared import check_lines
 
 #: What stands against a limit, where the list prints something else.
@@ -57,13 +72,13 @@ def sheet(selection: Selection, ranked: Sequence[Ranked], most: int = USUAL_LINE
     return Sheet(
         title(selection),
         [
-            Lines([Line(text, "verdict") for text in _answer(selection)]),
+            lines(_answer(selection), "verdict"),
             _candidates(selection, shown),
-            Lines([Line(text) for text in _remarks(selection, ranked, len(shown))]),
-            Lines([Line(text) for text in compared_with(selection)]),
-            Lines([Line(text) for text in (*what_turns(ranked), *beside_rules(selection))]),
-            Lines([Line(text, "small") for text in _legend(selection)]),
-            Lines([Line(text, "small") for text in _assumed(selection.need)]),
+            lines(_remarks(selection, ranked, len(shown))),
+            lines(compared_with(selection)),
+            lines((*what_turns(ranked), *beside_rules(selection))),
+            lines(_legend(selection), "small"),
+            lines(_assumed(selection.need), "small"),
             *_charts(selection),
             of_selection(ranked),
         ],
@@ -247,6 +262,51 @@ def beside_rules(found: Selection) -> list[str]:
     run = best.candidate.run.run
     said = "; ".join(map(units.filled, makers.messages(run.case, run.nut)))
     return [f"{best.rank}: {said}"] if said else []
+
+
+# -- files ----------------------------------------------------------------------------------------
+
+
+def of_selection(ranked: Sequence[Ranked]) -> Columns:
+    """Rank, row, nut, preload and oil, the objectives, and all that ``ballscrew check --to`` writes of a screw.
+
+    Of a need with a motion with the torques of motor and brake. Cells of what was not computed are empty.
+    """
+    return columns_of("screws", [_cells(each) for each in ranked])
+
+
+def _cells(ranked: Ranked) -> Cells:
+    candidate = ranked.candidate
+    plain: dict[str, Any] = {
+        "rank": ranked.rank,
+        "name": candidate.name,
+        "nut": candidate.variant.nut,
+        "preload as given": candidate.variant.preload,
+        "oil": candidate.variant.oil_name,
+        "holds": int(candidate.holds),
+        "pareto": int(ranked.pareto),
+        "largest utilisation": _finite(candidate.worst),
+        "verdict": verdict(candidate),
+    }
+    values: dict[str, tuple[Any, Any]] = {heading: (value, None) for heading, value in plain.items()}
+    values |= {
+        objective.quantity.name: (candidate.objectives[name], objective.quantity)
+        for name, objective in OBJECTIVES.items()
+    }
+    if candidate.duty is not None:
+        for name, torque in candidate.duty.motor_torque.items():
+            values[f"motor {name}"] = (torque, NUMBERS[name])
+        for name in BRAKE:
+            values[f"brake {name}"] = (getattr(candidate.duty.brake, name), NUMBERS["torque_peak"])
+    for check in candidate.checks:
+        values[f"{check.name.replace('_', ' ')} utilisation"] = (_finite(check.utilisation), None)
+    of_check = check_sheet.cells(candidate.checked) if candidate.complete else {}
+    return {**values, **{heading: cell for heading, cell in of_check.items() if heading not in values}}
+
+
+def _finite(share: float | None) -> float | None:
+    """A share of a limit; none where nothing of the limit is left."""
+    return share if share is not None and math.isfinite(share) else None
 
 
 # -- charts ---------------------------------------------------------------------------------------
