@@ -8,7 +8,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.axis.thermal.surroundings import Surroundings
-from ballscrew.basis.output.sheet import words
+from ballscrew.basis.output.sheet import Number, words
 from ballscrew.cases.case_files import case_file
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.faces.sheets import report_blocks
@@ -20,7 +20,8 @@ from ballscrew.questions.duty.compute import duty as duty_of
 from ballscrew.questions.duty.sheet import sheet as duty_sheet
 from ballscrew.questions.run import document as run_documents
 from ballscrew.questions.run.compute import run
-from ballscrew.questions.run.sheet import SHOWN, in_full_bath, results_table
+from ballscrew.questions.run.sheet import SHOWN, results_table
+from ballscrew.questions.run.sheet import meaning as meaning_of
 from ballscrew.questions.service import compute as service
 from ballscrew.questions.service import document as service_documents
 from ballscrew.questions.sweep import compute as sweep
@@ -118,8 +119,9 @@ def test_the_band_holds_both_torques_that_are_named(load):
     # beside each result that of the model in a full bath
     operation = {name: getattr(case.operation, name) for name in ("axial_load", "screw_speed")}
     flooded = case.model.in_full_bath(case.screw, case.lubricant, **operation)
-    for name, value in in_full_bath(run(case)).items():
-        assert value == pytest.approx(float(getattr(flooded, name)), rel=1e-9), name
+    for name in ("drive_torque", "holding_torque", "efficiency", "back_driving_efficiency", "friction_power"):
+        meaning, number = run(case).quantities[name], float(getattr(flooded, name))
+        assert rows[meaning_of(name)][1] == words(Number(number, meaning)), name
 
 
 def tables_of_duty(temperature, *settings):

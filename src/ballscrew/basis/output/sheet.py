@@ -9,12 +9,13 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar, Literal, TypeAlias
 
 from ballscrew.basis import units
 from ballscrew.basis.output.plain_numbers import plain
 from ballscrew.basis.quantities import Array, Quantity
+from ballscrew.basis.records import Record
 
 #: Colours by name; each renderer has its own shades of them.
 Colour = Literal["ink", "grey", "blue", "orange", "green", "purple", "sky", "red", "yellow"]
@@ -47,12 +48,16 @@ class Share:
 Cell: TypeAlias = str | Number | Share | None
 
 
+#: What a line is: an answer, something to beware of, what was assumed, or anything else.
+Kind = Literal["plain", "verdict", "warning", "small"]
+
+
 @dataclasses.dataclass(frozen=True)
 class Line:
     """A sentence without its full stop; a warning has its name before it."""
 
     text: str
-    kind: Literal["plain", "verdict", "warning", "small"] = "plain"
+    kind: Kind = "plain"
     name: str = ""
 
 
@@ -64,6 +69,16 @@ class Lines:
     lines: Sequence[Line]
     #: Left out where room is short, on pages of a report.
     detail: bool = False
+
+
+def lines(texts: Iterable[str], kind: Kind = "plain", *, detail: bool = False) -> Lines:
+    """Texts of one kind, one below the other."""
+    return Lines([Line(text, kind) for text in texts], detail)
+
+
+def warning_lines(records: Iterable[Record]) -> Lines:
+    """Warnings with their names."""
+    return Lines([Line(record.text, "warning", record.name) for record in records])
 
 
 @dataclasses.dataclass(frozen=True)

@@ -122,13 +122,17 @@ class FrictionResult(VendorTerms, Drawn):
 
         Equal to ``screw_torque`` where the model has no law of the inlet that starves.
         """
+        return self.in_full_bath.screw_torque
+
+    @property
+    def in_full_bath(self) -> FrictionResult:
+        """The result in a full bath of oil, under the same loads of the balls; itself where no oil can be late."""
         model = self.parts["model"]
         full = model.in_full_bath
         if full is model:
-            return self.screw_torque
+            return self
         with np.errstate(all="ignore"):
-            bath = full.under(self.solved_loads, self.ball_screw, self.parts["lubricant"], self.parts["operation"])
-            return bath.screw_torque
+            return full.under(self.solved_loads, self.ball_screw, self.parts["lubricant"], self.parts["operation"])
 
     @lazy
     def ideal_torque(

@@ -26,6 +26,7 @@ from ballscrew.basis.output.sheet import (
     Sheet,
     Table,
     Vertical,
+    warning_lines,
 )
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.cases.case_files import descriptions
@@ -56,7 +57,7 @@ def sheet(report: ChainReport) -> Sheet:
                 detail=True,
             ),
             Lines([Line(record.text, "verdict") for record in report.verdicts]),
-            Lines([Line(record.text, "warning", record.name) for record in case.implausible()]),
+            warning_lines(case.implausible()),
             _places(report),
             *_springs(report),
             *_charts(report),

@@ -24,6 +24,8 @@ from ballscrew.basis.output.sheet import (
     Sheet,
     Table,
     Vertical,
+    lines,
+    warning_lines,
     words,
 )
 from ballscrew.basis.quantities import Info, Quantity, fields_of, quantities_of
@@ -71,8 +73,8 @@ def sheet(
             *([_causes(report), _others(case, report)] if has_band(report) else []),
             *_laws(case, report),
             *_inputs(report),
-            Lines([Line(record.text, "warning", record.name) for record in [*case.implausible(), *warnings(report)]]),
-            Lines([Line(text, "small") for text in _remarks(case, report, curve)]),
+            warning_lines([*case.implausible(), *warnings(report)]),
+            lines(_remarks(case, report, curve), "small"),
             *([] if curve is None else [_along(report, curve), *_bars(report)]),
             *([] if tornado is None else swings(report, tornado)),
         ],

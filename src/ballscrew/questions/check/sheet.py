@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ballscrew.basis import units
-from ballscrew.basis.output.sheet import Cell, Cells, Line, Lines, Number, Sheet, Table, columns_of
+from ballscrew.basis.output.sheet import Cell, Cells, Line, Lines, Number, Sheet, Table, columns_of, warning_lines
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
@@ -38,7 +38,7 @@ def sheet(screw: Checked) -> Sheet:
             Lines(
                 [Line(f"verdict: {screw.verdict}", "verdict"), *(Line(record.text, "verdict") for record in records)]
             ),
-            Lines([run_sheet.warning_line(record) for record in screw.run.conditions]),
+            warning_lines(screw.run.conditions),
             _sizes(screw),
             run_sheet.results_table(screw.run, _RESULTS),
             run_sheet.stiffness(screw.nut),

@@ -19,6 +19,8 @@ from ballscrew.basis.output.sheet import (
     Table,
     Vertical,
     columns_of,
+    lines,
+    warning_lines,
 )
 from ballscrew.basis.quantities import Info, Quantity, quantities_of
 from ballscrew.basis.records import Record
@@ -76,9 +78,9 @@ def sheet(case: Case, comparison: Comparison, heating: Sequence[Record] = ()) ->
             Lines([Line(left_out)] if names else []),
             _rules(comparison, torque),
             Lines([Line(f"{rule.title}: {rule.formula}; {rule.source}", "plain") for rule in comparison.rules]),
-            Lines([Line(record.text, "warning", record.name) for record in own]),
+            warning_lines(own),
             Lines([Line(text, "warning", reason) for reason, text in _outside(comparison).items()]),
-            Lines([Line(text, "small") for text in _assumed(case, comparison)]),
+            lines(_assumed(case, comparison), "small"),
             _bars(case, comparison, torque),
             columns_of("laws", [_cells(row) for row in comparison.rows]),
         ],

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from ballscrew.basis.output.sheet import Bar, Bars, Cell, Line, Lines, Number, Share, Sheet, Table, columns_of
+from ballscrew.basis.output.sheet import Bar, Bars, Cell, Line, Lines, Number, Share, Sheet, Table, columns_of, lines
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.cases.case_files import descriptions
 from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
@@ -41,7 +41,7 @@ def sheet(designs: SideBySide) -> Sheet:
     return Sheet(
         f"{len(designs.designs)} designs side by side",
         [
-            Lines([Line(text) for text in at]),
+            lines(at),
             Lines([Line(f"{design.name}: checks {design.verdict}", "verdict") for design in designs.designs]),
             _results(designs.designs, first),
             Lines(warnings),

@@ -3,7 +3,19 @@
 from __future__ import annotations
 
 from ballscrew.basis import units
-from ballscrew.basis.output.sheet import Axis, Chart, Column, Columns, Curve, Line, Lines, Number, Sheet, Table
+from ballscrew.basis.output.sheet import (
+    Axis,
+    Chart,
+    Column,
+    Columns,
+    Curve,
+    Line,
+    Lines,
+    Number,
+    Sheet,
+    Table,
+    warning_lines,
+)
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.questions.compensation.compute import PositionCompensation
 from ballscrew.questions.warm_up.compute import WarmUpReport
@@ -21,7 +33,7 @@ def sheet(result: PositionCompensation, report: WarmUpReport) -> Sheet:
         f"it holds after {result.hours:g} h of this work only",
         [
             Lines([Line(record.text, "verdict") for record in verdicts(report)]),
-            Lines([Line(record.text, "warning", record.name) for record in warnings(report)]),
+            warning_lines(warnings(report)),
             Table(
                 "range",
                 "Growth of the shaft",

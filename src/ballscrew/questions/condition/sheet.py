@@ -25,6 +25,7 @@ from ballscrew.basis.output.sheet import (
     Sheet,
     Table,
     Vertical,
+    warning_lines,
 )
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.cases.case_files.case import Case
@@ -55,7 +56,7 @@ def sheet(case: Case, condition: Condition) -> Sheet:
     return Sheet(
         f"{_tests(condition)}: {nut_text(case.screw.nut)}, {model_text(case)}",
         [
-            Lines([Line(record.text, "warning", record.name) for record in warnings]),
+            warning_lines(warnings),
             Lines([Line(first.text, "verdict"), *(Line(record.text) for record in others)]),
             _table(condition),
             Lines([Line(design(case, plain_text=True), "small"), Line(_meaning(condition), "small")]),

@@ -30,6 +30,8 @@ from ballscrew.basis.output.sheet import (
     Share,
     Sheet,
     Table,
+    lines,
+    warning_lines,
     words,
 )
 from ballscrew.basis.quantities import Info, Quantity, fields_of
@@ -79,9 +81,9 @@ def sheet(report: DutyReport, bands: DutyBandReport | None = None) -> Sheet:
     return Sheet(
         title(report),
         [
-            Lines([Line(text, "small") for text in _assumptions(report)], detail=True),
-            Lines([Line(text, "verdict") for text in answers(report)]),
-            Lines([Line(record.text, "warning", record.name) for record in warnings(report)]),
+            lines(_assumptions(report), "small", detail=True),
+            lines(answers(report), "verdict"),
+            warning_lines(warnings(report)),
             _cycle(report, bands),
             _parts(report),
             *_charts(report),

@@ -32,10 +32,12 @@ from ballscrew.basis.output.sheet import (
     Sheet,
     Table,
     columns_of,
+    lines,
+    warning_lines,
 )
 from ballscrew.basis.output.sheet import words as words_of
 from ballscrew.basis.quantities import Info, Quantity, quantities_of
-from ballscrew.basis.records import Message, Named, Record
+from ballscrew.basis.records import Message, Named
 from ballscrew.cases.case_files.case_file import Case
 from ballscrew.cases.case_files.descriptions import design, model_text
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
@@ -77,11 +79,11 @@ def sheet(case: Case, report: FitReport) -> Sheet:
     return Sheet(
         f"{log_and_model(case, report)}: {len(log)} of {log.rows} rows used",
         [
-            Lines([Line(text, "verdict") for text in model.verdicts]),
-            Lines([Line(text, "small") for text in (*_rows(report), design(case, plain_text=True))], detail=True),
+            lines(model.verdicts, "verdict"),
+            lines((*_rows(report), design(case, plain_text=True)), "small", detail=True),
             _estimates(model),
-            Lines([Line(text) for text in _of_temperature(model)]),
-            Lines([Line(text, "warning", record.name) for text, record in _warnings(model)]),
+            lines(_of_temperature(model)),
+            warning_lines(model.warning_records),
             Lines([Line(units.filled(trade_off(model)))]),
             _scores(model),
             _trends(model),
@@ -96,10 +98,6 @@ def log_and_model(case: Case, report: FitReport) -> str:
     """The name of the log and the model."""
     name, _ = report.model.rows.log.source or ("log", "")
     return f"{name}, {model_text(case)}"
-
-
-def _warnings(model: CalibratedModel) -> Iterator[tuple[str, Record]]:
-    return zip(model.warnings, model.warning_records, strict=True)
 
 
 def _rows(report: FitReport) -> Iterator[str]:
@@ -438,9 +436,9 @@ def of_rows(reports: Mapping[str, FitReport]) -> Sheet:
             ),
             Lines(
                 [
-                    Line(f"{name}: {text}", "warning", record.name)
+                    Line(f"{name}: {record.text}", "warning", record.name)
                     for name, model in models.items()
-                    for text, record in _warnings(model)
+                    for record in model.warning_records
                 ]
             ),
         ],

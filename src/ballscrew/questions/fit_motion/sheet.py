@@ -26,6 +26,8 @@ from ballscrew.basis.output.sheet import (
     Sheet,
     Table,
     Vertical,
+    lines,
+    warning_lines,
 )
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.cases.case_files.case import Case
@@ -56,11 +58,11 @@ def sheet(case: Case, fit: MotionFit) -> Sheet:
     return Sheet(
         f"{name}: {equation.used.size} rows of {log.rows} used, {model_text(case)}",
         [
-            Lines([Line(text, "small") for text in _rows(fit)], detail=True),
-            Lines([Line(record.text, "warning", record.name) for record in warnings]),
+            lines(_rows(fit), "small", detail=True),
+            warning_lines(warnings),
             Lines([Line(f"note: {record.text}") for record in notes]),
             _estimates(fit),
-            Lines([Line(text) for text in _exponent(fit)]),
+            lines(_exponent(fit)),
             _models(fit),
             _filters(fit),
             *_charts(fit),

@@ -22,6 +22,7 @@ from ballscrew.basis.output.sheet import (
     Share,
     Sheet,
     Table,
+    warning_lines,
 )
 from ballscrew.basis.output.sheet import words as words_of
 from ballscrew.basis.quantities import quantities_of
@@ -49,7 +50,7 @@ def sheet(report: ReversalReport) -> Sheet:
         _title(report),
         [
             Lines([Line(record.text, "verdict") for record in report.verdicts]),
-            Lines([Line(record.text, "warning", record.name) for record in warnings]),
+            warning_lines(warnings),
             _mechanisms(report),
             _swing(report),
             _models(report),

@@ -23,6 +23,7 @@ from ballscrew.basis.output.sheet import (
     Sheet,
     Table,
     Vertical,
+    warning_lines,
 )
 from ballscrew.basis.quantities import Array, Info, Quantity, quantities_of
 from ballscrew.cases.case_files import descriptions
@@ -45,7 +46,7 @@ def sheet(report: RippleReport) -> Sheet:
         [
             Lines([Line(descriptions.design(report.case, plain_text=True), "small")], detail=True),
             Lines([Line(record.text, "verdict") for record in report.verdicts]),
-            Lines([Line(record.text, "warning", record.name) for record in report.case.implausible()]),
+            warning_lines(report.case.implausible()),
             _sizes(ripples),
             *_range(report),
             _orders(ripples),

@@ -7,7 +7,18 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ballscrew.basis import units
-from ballscrew.basis.output.sheet import Cell, Cells, Line, Lines, Number, Share, Sheet, Table, columns_of
+from ballscrew.basis.output.sheet import (
+    Cell,
+    Cells,
+    Line,
+    Lines,
+    Number,
+    Share,
+    Sheet,
+    Table,
+    columns_of,
+    warning_lines,
+)
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files import descriptions
@@ -30,18 +41,36 @@ if TYPE_CHECKING:  # loads xarray
 
 #: The first results, in this order; a nut has no contact load and entrainment speed of all its balls.
 SHOWN = (
-    "screw_torque", "nut_torque", "ideal_torque", "drive_torque", "holding_torque", "efficiency",
-    "back_driving_efficiency", "friction_coefficient", "friction_angle", "friction_power", "contact_load",
+    "screw_torque",
+    "nut_torque",
+    "ideal_torque",
+    "drive_torque",
+    "holding_torque",
+    "efficiency",
+    "back_driving_efficiency",
+    "friction_coefficient",
+    "friction_angle",
+    "friction_power",
+    "contact_load",
     "entrainment_speed",
-)  # fmt: skip
+)
 _FILM = (
-    "contact_load", "semi_major_axis", "semi_minor_axis", "maximum_pressure", "minimum_film_thickness",
-    "film_parameter", "friction_coefficient",
-)  # fmt: skip
+    "contact_load",
+    "semi_major_axis",
+    "semi_minor_axis",
+    "maximum_pressure",
+    "minimum_film_thickness",
+    "film_parameter",
+    "friction_coefficient",
+)
 _FORCES = (
-    "hydrodynamic_rolling_force", "sliding_force", "traction_limit", "tangential_force", "curvature_friction_moment",
+    "hydrodynamic_rolling_force",
+    "sliding_force",
+    "traction_limit",
+    "tangential_force",
+    "curvature_friction_moment",
     "elastic_resistance_moment",
-)  # fmt: skip
+)
 #: What is shown of a contact of a row of equal balls beside its film, and of that of the most loaded ball of a nut.
 _OF_CURVATURE, _OF_SPIN = ("pure_rolling_offset",), ("spin_parameter", "creep_speed", "lateral_slip_speed")
 #: Short labels of results.
@@ -59,9 +88,16 @@ _RIGIDITY = quantities_of(AxialRigidity)
 _TORQUE = _RESULT["screw_torque"]
 #: The results of each screw of a table, beside the nut without load.
 _OF_ROW = (
-    "axial_load", "screw_speed", "screw_torque", "nut_torque", "ideal_torque", "drive_torque", "efficiency",
-    "back_driving_efficiency", "friction_power",
-)  # fmt: skip
+    "axial_load",
+    "screw_speed",
+    "screw_torque",
+    "nut_torque",
+    "ideal_torque",
+    "drive_torque",
+    "efficiency",
+    "back_driving_efficiency",
+    "friction_power",
+)
 
 
 def sheet(run: Run, bands: Mapping[str, OutputBand] | None = None, heating: Sequence[Record] = ()) -> Sheet:
@@ -80,7 +116,7 @@ def sheet(run: Run, bands: Mapping[str, OutputBand] | None = None, heating: Sequ
             Lines([Line(record.text) for record in heating]),
             results_table(run, SHOWN, bands or {}),
             Lines([Line(record.text, "verdict") for record in run.verdicts]),
-            Lines([warning_line(record) for record in _warnings(run)]),
+            warning_lines(_warnings(run)),
             Lines([Line(text) for text in (descriptions.left_out(case), *descriptions.of_fit(case)) if text]),
             *parts(run),
             _quadrants(run),
@@ -93,11 +129,6 @@ def sheet(run: Run, bands: Mapping[str, OutputBand] | None = None, heating: Sequ
 def meaning(name: str) -> str:
     """The meaning of a result, short where there is little room."""
     return _SHORT.get(name, _RESULT[name].info.meaning)
-
-
-def warning_line(record: Record) -> Line:
-    """A condition that fails, with its name; the loss of the preload is a sentence of its own."""
-    return Line(record.text, "warning", record.name)
 
 
 def _warnings(run: Run) -> list[Record]:
@@ -124,9 +155,9 @@ def results_table(run: Run, names: Sequence[str], bands: Mapping[str, OutputBand
         for name in names
     ]
     if run.friction.starvation:
-        flooded = in_full_bath(run)
+        flooded = run.friction.in_full_bath
         for name, row in zip(names, rows, strict=True):
-            row.append(Number(flooded[name], run.quantities[name]) if name in flooded else "")
+            row.append(Number(float(getattr(flooded, name)), run.quantities[name]))
     for label, torque in unloaded_rows(run):
         rows.append([label, Number(torque, _TORQUE)])
     for name, value in ({} if run.nut is None else run.nut.drag_coefficients).items():
@@ -135,26 +166,6 @@ def results_table(run: Run, names: Sequence[str], bands: Mapping[str, OutputBand
     columns = ("", "value", *(["in a full bath of oil"] if run.friction.starvation else []))
     rows = [[*row, *[""] * (len(columns) - len(row))] for row in rows]
     return Table("results", "Torque and efficiency", columns, rows, rules_contradict(run))
-
-
-def in_full_bath(run: Run) -> dict[str, float]:
-    """What of the results of a starved screw depends on its friction, in a full bath of oil, by name.
-
-    By the ideal torque T_i and the friction T_f there: T_i ± T_f drives or holds, η = T_i / (T_i + T_f) and back
-    1 - T_f / T_i.
-    """
-    friction = run.friction
-    names = ("ideal_torque", "screw_torque", "flooded_torque", "drive_torque", "holding_torque", "friction_power")
-    ideal, starved, flooded, drive, holding, power = (float(getattr(friction, name)) for name in names)
-    more = flooded - starved
-    drive, holding = (torque + math.copysign(more, torque - ideal) for torque in (drive, holding))
-    values = {"screw_torque": flooded, "drive_torque": drive, "holding_torque": holding}
-    values["friction_power"] = power * flooded / starved
-    if math.isfinite(float(friction.efficiency)) and drive:
-        values["efficiency"] = ideal / drive
-    if math.isfinite(float(friction.back_driving_efficiency)):
-        values["back_driving_efficiency"] = holding / ideal
-    return values
 
 
 def unloaded_rows(run: Run) -> list[tuple[str, float]]:

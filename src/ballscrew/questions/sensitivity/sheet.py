@@ -6,7 +6,21 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 
 from ballscrew.basis import units
-from ballscrew.basis.output.sheet import Bar, Bars, Cell, Colour, Line, Lines, Number, Share, Sheet, Table, Vertical
+from ballscrew.basis.output.sheet import (
+    Bar,
+    Bars,
+    Cell,
+    Colour,
+    Line,
+    Lines,
+    Number,
+    Share,
+    Sheet,
+    Table,
+    Vertical,
+    lines,
+    warning_lines,
+)
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import design, title
@@ -60,9 +74,9 @@ def sheet(case: Case, report: SensitivityReport) -> Sheet:
         [
             Lines([Line(design(case, plain_text=True), "small"), Line(_mean_and_deviation(report.result), "small")]),
             Lines([Line(record.text, "verdict") for record in verdicts(report)]),
-            Lines([Line(record.text, "warning", record.name) for record in records]),
+            warning_lines(records),
             _table(report),
-            Lines([Line(text, "small") for text in _remarks(report)]),
+            lines(_remarks(report), "small"),
             *_bars(report),
         ],
     )

@@ -24,6 +24,8 @@ from ballscrew.basis.output.sheet import (
     Number,
     Sheet,
     Table,
+    lines,
+    warning_lines,
 )
 from ballscrew.basis.quantities import Info, Quantity, fields_of
 from ballscrew.basis.records import Message, Named, Value
@@ -73,9 +75,9 @@ def sheet(case: Case, report: ServiceReport) -> Sheet:
         [
             Lines([Line(first.text, "verdict")]),
             *([_preloads(case, report)] if has_change else []),
-            Lines([Line(text) for text in _logs(report)]),
+            lines(_logs(report)),
             Lines([Line(units.filled(cause)) for cause in causes(report)]),
-            Lines([Line(record.text, "warning", record.name) for record in warnings]),
+            warning_lines(warnings),
             Lines([Line(f"note: {record.text}") for record in remarks]),
             Lines([Line(f"with the preload of the {origin}: {record.text}") for record in others]),
             Lines([Line(design(case, plain_text=True), "small"), Line(_CURVES, "small")]),

@@ -25,6 +25,7 @@ from ballscrew.basis.output.sheet import (
     Number,
     Sheet,
     Table,
+    warning_lines,
 )
 from ballscrew.basis.quantities import Array, Info, Quantity
 from ballscrew.cases.case_files import descriptions
@@ -69,7 +70,7 @@ def sheet(report: WarmUpReport, bands: WarmUpBandReport | None = None) -> Sheet:
         [
             Lines([Line(descriptions.design(report.case, plain_text=True), "small")], detail=True),
             Lines([Line(record.text, "verdict") for record in verdicts(report)]),
-            Lines([Line(record.text, "warning", record.name) for record in records]),
+            warning_lines(records),
             _instants(report, "instants", "Over time"),
             *(() if bath is None else [_instants(bath, "instants in a full bath", f"Over time, {_BATH}")]),
             *_end_of_work(bands),
