@@ -86,18 +86,12 @@ def test_fit(post, folders, tmp_path):
     body = {"case": case, "free": ["boundary_friction_coefficient", "constant_torque"],
             "bounds": {"constant_torque": "0:1 N m"}}  # fmt: skip
     found = post("fit", {**body, "log": sent("C:\\logs/rig log.csv", text)})
-    extra = {name: found.pop(name) for name in ("words", "picture", "calibrated")}
+    extra = {name: found.pop(name) for name in ("sheet", "calibrated")}
     assert_same(found, expected)
+    assert extra["sheet"]["title"].startswith("rig log.csv, model corrected")
     assert tomllib.loads(extra["calibrated"]["toml"]) == extra["calibrated"]["case"] == tomllib.loads(to.read_text())
     one = found["estimates"]["boundary_friction_coefficient"]
     assert one["low"] < one["value"] < one["high"]
-    picture = extra["picture"]
-    assert len({len(values) for values in picture.values() if isinstance(values, list)}) == 1
-    assert picture["kinds"].count("held_out") == found["rows"]["held_out"]
-    words = extra["words"]
-    assert words["next_test"][0].startswith("next test: ")
-    assert words["trade_off"]
-    assert words["rows"]
 
 
 def test_columns(post, folders):
@@ -146,12 +140,9 @@ def test_service(post, folders, tmp_path):
     expected = document("service", *paths, "--case", written(case, tmp_path), "--json", "--tolerance", "0.2")
     files = {name: sent(f"{name}.csv", text) for name, text in texts.items()}
     found = post("service", {"case": case, "tolerance": 0.2, **files})
-    extra = {name: found.pop(name) for name in ("words", "picture")}
+    assert found.pop("sheet")["title"].startswith("new.csv, worn.csv")
     assert_same(found, expected)
     assert found["results"]["verdict"] == "lost"
-    assert set(extra["picture"]) == {"new", "worn"}
-    assert extra["words"]["title"] == "new.csv, worn.csv"
-    assert extra["words"]["causes"]
 
 
 @pytest.mark.parametrize(("target", "name"), [("c", "c.zip"), ("linuxcnc", "ballscrew.hal")])

@@ -7,6 +7,7 @@ import psutil
 
 from ballscrew.faces.web.request_queue import out_of_time
 
+from .shown_sheets import shows
 from .test_page_duty import case_of
 from .test_page_logs import DOUBLE_NUT, given_logs
 
@@ -36,11 +37,9 @@ def test_a_service_survives_a_reload(visit, server):
         here.page.locator("#service-start").click()
     for _ in range(2):
         here.page.reload()
-        here.page.wait_for_selector("#service [data-name=ratio]")
+        here.page.wait_for_selector("#service .sheet table")
         assert "before the page was reloaded" in here.text("#service .card-line")
-    ratio = here.page.locator("#service [data-name=ratio]").get_attribute("value")
-    found = server.post("service", {**body, "case": case_of(here), "tolerance": 0.1}).json()
-    assert float(ratio) == found["results"]["ratio"]["value"]
+    shows(here, "service", server.post("service", {**body, "case": case_of(here), "tolerance": 0.1}).json()["sheet"])
     assert starts(here) == 1
 
 

@@ -96,7 +96,7 @@ def test_a_fit_takes_elastic_bodies(visit, tmp_path):
     log.write_text("\n".join([heading, *rows[::40]]), encoding="utf-8")
     page.set_input_files("#calibrate-log", log)
     page.click("#calibrate-fit:enabled")
-    page.wait_for_selector("#calibration [data-name], #calibration .fault")
+    page.wait_for_selector("#calibration .sheet data, #calibration .fault")
     assert not page.locator("#calibration .fault").count()
 
 

@@ -242,27 +242,6 @@ def answered(here, card):
     here.page.wait_for_selector(f"#{card} .card-result[aria-busy=false]:not(.earlier)")
 
 
-def test_a_cycle_shows_the_numbers_and_the_parts_that_are_any(go, server):
-    """The cycle ends where it began: of what is stored only rounding is left. Its guides have no friction."""
-    here = go("#A=vertical-axis&band=0&view=duty.answer")
-    here.page.wait_for_selector("#duty .verdict")
-    answered(here, "duty")
-    known = server.get("vocabulary").json()
-    results = server.post("duty", {"case": known["starts"]["vertical-axis"]["case"]}).json()["results"]
-    of_cycle = known["of_cycle"]
-    none = {name for name, of in of_cycle.items() if of["if_any"] and abs(results[name]) < 1e-6}
-    shown = here.page.locator("#duty .numbers data").evaluate_all("all => all.map((one) => one.dataset.name)")
-    assert shown == [name for name in of_cycle if name not in none]
-    assert "energy_stored" in none
-    assert "energy_of_process" in shown
-    columns = [results[name] for name in ("torque_peak_by", "torque_rms_by", "energy_by")]
-    parts = [name for name in columns[2] if any(abs(column[name]) > 1e-6 for column in columns)]
-    rows = here.page.locator("#duty table:has(caption:has-text('by cause')) tbody tr")
-    assert rows.count() == len(parts) + 1  # their sum
-    assert not {"guides", "transmission"} & set(parts)
-    assert {"gravity", "process", "guide_seals"} <= set(parts)
-
-
 def test_what_fails_without_a_limit_has_no_multiple_of_it(go):
     """A screw that the load turns, where that must not be: torque is left, and no multiple of none of it."""
     rest = {"need": {"rows": "hiwin-40-20k4", "back_driving": "forbidden"}}
@@ -273,30 +252,6 @@ def test_what_fails_without_a_limit_has_no_multiple_of_it(go):
     here.page.locator("#choose-start").click()
     here.page.wait_for_selector("#choose [role=status]")
     assert here.text("#choose-result tbody tr summary strong") == "Fails: back driving."
-
-
-def test_warming_up_with_a_rest_and_without_starvation(go, server):
-    """The last instant of work is shown, and a full bath where oil comes back late, which it does not at 45 °C.
-
-    What moves the instant stands above the picture of the axis.
-    """
-    here = go("#A=warm-up&band=0&view=heat.end&hours=0.5&rest=0.5")
-    here.page.wait_for_selector("#warm-up [data-name=nut_temperature]")
-    answered(here, "warm-up")
-    case = server.get("vocabulary").json()["starts"]["warm-up"]["case"]
-    works = server.post("warm-up", {"case": case, "hours": 0.5, "cool_down": 0.5}).json()["results"]["works"]
-    slider = here.page.locator("#warm-instant")
-    last = max(place for place, one in enumerate(works) if one)
-    assert 0 < last < len(works) - 1
-    assert (slider.input_value(), slider.get_attribute("max")) == (str(last), str(len(works) - 1))
-    assert slider.evaluate("one => one.closest('p').nextElementSibling.id") == "warm-axis-chart"
-    legend = "#warm-torque-chart ul.legend"
-    assert "in a full bath of oil" in here.text(legend)
-    warm = {**case, "surroundings": {**case["surroundings"], "ambient": "45 degC"}}
-    steady = server.post("warm-up", {"case": warm, "hours": 0.5, "cool_down": 0.5}).json()["results"]["equilibrium"]
-    go("#A=warm-up&A.surroundings.ambient=45+degC&band=0&view=heat.end&hours=0.5&rest=0.5")
-    here.page.wait_for_selector(f"#warm-up [data-name=nut_temperature][value='{steady['nut_temperature']}']")
-    here.page.wait_for_function(f"() => !document.querySelector('{legend}').textContent.includes('full bath')")
 
 
 #: Words of the hover of some height above and below a place beside the diamond: how far they are moved, and the chart.

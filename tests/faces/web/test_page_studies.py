@@ -5,6 +5,7 @@ import json
 import urllib.parse
 
 from .conftest import ROOT
+from .shown_sheets import drawn, shows
 from .test_page_access import violations
 from .test_page_duty import answered, case_of, number
 
@@ -22,48 +23,37 @@ def with_need(need):
 
 
 def test_sources_of_the_band(visit, server):
-    """The bars are those of the answer, about its mean; a click on one, or on its name, goes to the field."""
+    """The bars are those of the answer; a click on the name of an input goes to its field."""
     here = visit()
     here.open("#A=paper&band=0&view=checks.sensitivity")
     page = here.page
     page.wait_for_selector("#sensitivity-start")
     page.locator("#sensitivity details.card-fields > summary").click()
     page.locator("#sensitivity-samples").fill("256")
-    page.locator("#sensitivity-method").select_option("sobol")
+    page.locator("#sensitivity-method").fill("sobol")
     page.wait_for_selector("#sensitivity code:has-text('--samples 256')")
     page.locator("#sensitivity-start").click()
     page.wait_for_selector("#sensitivity tbody tr")
     answered(here, "sensitivity")
     found = server.post("sensitivity", {"case": case_of(here), "samples": 256}).json()
-    indices = found["sensitivity"]
-    rows = page.locator("#sensitivity .card-result > div:last-child tbody tr")
-    assert rows.count() == len(indices["inputs"]) > 5
-    first = indices["inputs"][0]
-    spread = first["first_order"]["value"] ** 0.5 * indices["standard_deviation"]
-    assert abs(number(here, "sensitivity", f"'{first['name']}-1'") / spread - 1) < 1e-12
-    page.locator("#sensitivity-chart").scroll_into_view_if_needed()
-    page.wait_for_selector("#sensitivity-chart .main-svg")
+    shows(here, "sensitivity", found["sheet"])
+    chart = page.locator("#sensitivity .sheet .chart").first
+    plot = drawn(here, chart.get_attribute("id"))
     names = "all => all.map((one) => one.getBoundingClientRect()).sort((a, b) => a.top - b.top)"
-    boxes = page.eval_on_selector_all(
-        "#sensitivity-chart .ytick text", f"{names}.map(({{ top, bottom }}) => [top, bottom])"
-    )
-    assert len(boxes) == min(10, len(indices["inputs"]))
+    boxes = chart.locator(".ytick text").evaluate_all(f"{names}.map(({{ top, bottom }}) => [top, bottom])")
+    assert len(boxes) > 5
     assert all(above[1] <= below[0] + 1 for above, below in itertools.pairwise(boxes))  # no name lies over another
-    title, base, width = page.eval_on_selector(
-        "#sensitivity-chart .plot",
-        "({ layout, data }) => [layout.xaxis.title.text, data[1].base[0], data[1].x[0]]",
-    )
-    assert title == "friction torque (N\u00b7m)"
-    assert abs(base + width / 2 - indices["mean"]) < 1e-9
-    assert abs(width / 2 - spread) < 1e-9
+    first = found["sensitivity"]["inputs"][0]["first_order"]
+    width, end = plot.evaluate("({ data }) => [data[0].x[0], data[1].error_x.array[0] + data[1].x[0]]")
+    assert width == first["value"]
+    assert abs(end - first["high"]) < 1e-12
     assert violations(here) == []
-    at = next(place for place, one in enumerate(found["display"]["inputs"]) if one["name"] == "viscosity")
-    rows.nth(at).locator("button").click()
+    page.locator("#sensitivity .sheet tbody button:text-is('viscosity')").click()
     page.wait_for_function("document.activeElement?.id === 'f-lubricant-viscosity'")
-    page.locator("#sensitivity-method").select_option("local")
+    page.locator("#sensitivity-method").fill("local")
     page.locator("#sensitivity-samples").fill("")
     page.locator("#sensitivity-start").click()
-    page.wait_for_selector("#sensitivity ul.legend:has-text('medians')")
+    page.wait_for_selector("#sensitivity .sheet:has-text('at the medians of the inputs')")
     answered(here, "sensitivity")
 
 
@@ -113,17 +103,9 @@ def test_a_condition_over_time(visit, server):
     text = (ROOT / "examples" / "nut_over_years.csv").read_text(encoding="utf-8")
     tests = [{"name": "nut_over_years.csv", "text": text}]
     found = server.post("condition", {"case": case_of(here), "tests": tests}).json()
-    states = found["results"]["states"]
-    last = len(states) - 1
-    assert number(here, "condition", f"preload-{last}") == states[last]["preload"]["value"]
-    said = page.eval_on_selector_all("#condition [data-record]", "all => all.map((one) => one.dataset.record)")
-    assert said == [one["id"] for one in (*found["verdicts"], *found["warnings"])]
-    for id in ("condition-chart", "condition-sums-chart"):
-        page.locator(f"#{id}").scroll_into_view_if_needed()
-        page.wait_for_selector(f"#{id} .main-svg")
-    lines = page.eval_on_selector("#condition-chart .plot", "one => one.layout.shapes.map(({ x0 }) => x0)")
-    alarm = states[found["results"]["alarm"]]["time"]
-    assert lines == [0, alarm / 86400]
+    shows(here, "condition", found["sheet"])
+    for chart in page.locator("#condition .sheet .chart").all():
+        drawn(here, chart.get_attribute("id"))
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
     assert violations(here) == []
     # logs in the order of their names, moved by hand

@@ -13,7 +13,7 @@ MOVING = "#A=vertical-axis&band=0&view=duty"
 def test_one_verdict_where_a_cycle_is_given(visit):
     """Item 19: the headline failed the operating point for ever, the card of the cycle held all checks."""
     here = visit().open(MOVING)
-    here.page.wait_for_selector("#duty [data-check=motor_speed]", state="attached")
+    here.page.wait_for_selector("#duty .sheet tr:has-text('motor speed')", state="attached")
     assert "Over the cycle: All 11 checks hold." in here.text("#summary")
     assert "Fails" not in here.text("main")
     assert here.text("#checks .verdict") == "Over the cycle: All 11 checks hold."

@@ -34,19 +34,16 @@ def service():
 
 
 def test_a_sensitivity(server, paper, tmp_path):
-    """As the command; the interval of an input holds 95 % of its distribution, and its path is a field."""
+    """As the command; the rows of its sheet are of fields of the case."""
     options = {"samples": 32, "output": "efficiency", "seed": 3}
     found = server.post("sensitivity", {"case": paper, **options}).json()
-    display = found.pop("display")
-    flags = ["--samples", 32, "--output", "efficiency", "--seed", 3]
-    assert found == document("sensitivity", written(paper, tmp_path), *flags, "--json")
-    assert [one["name"] for one in display["inputs"]] == [one["name"] for one in found["sensitivity"]["inputs"]]
-    shown = {one["name"]: one for one in display["inputs"]}
-    assert shown["viscosity"]["path"] == "lubricant.viscosity"
-    spread = next(one["distribution"] for one in found["sensitivity"]["inputs"] if one["name"] == "viscosity")
-    assert spread["kind"] == "lognormal"
-    ends = [spread["median"] * spread["factor"] ** (sign * 1.959963984540054) for sign in (-1, 0, 1)]
-    assert [shown["viscosity"][end] for end in ("low", "median", "high")] == pytest.approx(ends)
+    sheet = found.pop("sheet")
+    case, flags = written(paper, tmp_path), ["--samples", 32, "--output", "efficiency", "--seed", 3]
+    assert found == document("sensitivity", case, *flags, "--json")
+    assert sheet == document("sensitivity", case, *flags, "--sheet")
+    (table,) = [block for block in sheet["blocks"] if block["kind"] == "table"]
+    assert len(table["fields"]) == len(table["rows"]) == len(found["sensitivity"]["inputs"])
+    assert "lubricant.viscosity" in table["fields"]
 
 
 def test_a_sensitivity_of_many_balls_has_fewer_samples(server, elastic):
@@ -129,11 +126,15 @@ def test_an_optimisation_is_refused(server, body, words):
 def test_a_condition(server, service, tmp_path):
     """As the command; the trend goes through as many tests above as below, with the slope that is said."""
     found = server.post("condition", {"case": service, "tests": sent_table()}).json()
-    trend = found.pop("picture")["trend"]
+    sheet = found.pop("sheet")
     table = ROOT / "examples" / "nut_over_years.csv"
-    assert found == document("condition", table, "--case", written(service, tmp_path), "--json")
-    states = found["results"]["states"]
+    words = ("condition", table, "--case", written(service, tmp_path))
+    assert found == document(*words, "--json")
+    assert sheet == document(*words, "--sheet")
     assert found["results"]["alarm"] is not None
+    chart = next(block for block in sheet["blocks"] if block.get("title") == "preload left")
+    trend = next(mark["y"] for mark in chart["marks"] if mark["name"] == "trend")
+    states = found["results"]["states"]
     span = states[-1]["time"] - states[0]["time"]
     assert math.log(trend[-1] / trend[0]) == pytest.approx(found["results"]["trend"]["slope"] * span)
     above = sum(one["preload"]["value"] > at for one, at in zip(states, trend, strict=True))
@@ -152,7 +153,7 @@ def test_a_condition_of_logs(server, service, tmp_path):
     answer = found.json()
     assert [one["log"] for one in answer["provenance"]["logs"]] == [path.name for path in paths]
     flags = ["--case", written(service, tmp_path), "--baseline", 3, "--keep-going", "--json"]
-    answer.pop("picture")
+    answer.pop("sheet")
     assert answer == document("condition", *paths, *flags)
 
 

@@ -97,6 +97,8 @@ class Table:
     detail: bool = False
     #: Numbers have no unit, it stands in the title.
     is_compact: bool = False
+    #: The fields of the case that its rows are of, for who edits it beside.
+    fields: Sequence[str] = ()
 
     def text_columns(self) -> list[int]:
         """Places of the columns that have texts in them."""

@@ -62,6 +62,7 @@ from ballscrew.faces.web.endpoint_parts import (
     own_site,
     queue_of,
     sent,
+    with_sheet,
 )
 from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import Deadline
@@ -71,6 +72,7 @@ from ballscrew.questions.axis import compute as chains
 from ballscrew.questions.axis import document as axis_documents
 from ballscrew.questions.axis.answer import ChainResults
 from ballscrew.questions.axis.options import AxisOptions
+from ballscrew.questions.axis.sheet import sheet as axis_sheet
 from ballscrew.questions.band import compute as bands
 from ballscrew.questions.band import response as band_answers
 from ballscrew.questions.band.options import BandOptions
@@ -83,6 +85,7 @@ from ballscrew.questions.compare.response import Compare
 from ballscrew.questions.duty import compute as duties
 from ballscrew.questions.duty import document as duty_documents
 from ballscrew.questions.duty.answer import DutyResults
+from ballscrew.questions.duty.sheet import sheet as duty_sheet
 from ballscrew.questions.optimise.need_schema import json_schema as schema_of_needs
 from ballscrew.questions.run import response as run_answers
 from ballscrew.questions.select import document as selection_documents
@@ -107,6 +110,7 @@ from ballscrew.questions.warm_up import document as warm_up_documents
 from ballscrew.questions.warm_up.answer import WarmUpResults
 from ballscrew.questions.warm_up.band_answer import BesideWarmUp
 from ballscrew.questions.warm_up.options import WarmUpOptions
+from ballscrew.questions.warm_up.sheet import sheet as warm_up_sheet
 
 #: Media types of a report, by its ``kind``.
 KINDS: Mapping[str, str] = {"pdf": "application/pdf", "html": "text/html; charset=utf-8"}
@@ -225,7 +229,8 @@ async def duty(request: Request) -> Response:
     def work(_: Deadline) -> Response:
         with written({} if body.trace is None else {"trace": body.trace}) as paths:
             case = case_of(body.case, moves=True, trace=paths.get("trace"))
-        return as_json(duty_documents.document(duties.duty(case)))
+        report = duties.duty(case)
+        return with_sheet(duty_documents.document(report), duty_sheet(report))
 
     return await heavy(request, work)
 
@@ -248,12 +253,12 @@ async def warm_up(request: Request) -> Response:
         limits.check_warm_up(case, options.samples)
         if not options.band:
             warmed = warm_ups.warmed_up(case, options.hours, options.cool_down)
-            return as_json(warm_up_documents.document(warmed))
+            return with_sheet(warm_up_documents.document(warmed), warm_up_sheet(warmed))
         found = warm_up_bands.band(
             case, options.hours, options.cool_down, samples=options.samples, level=options.level,
             only_given=options.only_given, done=done,
         )  # fmt: skip
-        return as_json(warm_up_documents.with_band(found))
+        return with_sheet(warm_up_documents.with_band(found), warm_up_sheet(found.report, found))
 
     return await heavy(request, work)
 
@@ -324,7 +329,8 @@ async def axis(request: Request) -> Response:
 
     def work(_: Deadline) -> Response:
         moves = "motion" in body.case and "axis" in body.case
-        return as_json(axis_documents.document(chains.chain_of(case_of(body.case, moves=moves), options.at)))
+        report = chains.chain_of(case_of(body.case, moves=moves), options.at)
+        return with_sheet(axis_documents.document(report), axis_sheet(report))
 
     return await heavy(request, work)
 

@@ -11,7 +11,6 @@ from typing import Any
 from ballscrew.basis import units
 from ballscrew.basis.records import Message
 from ballscrew.cases.case_files import case_file, case_messages
-from ballscrew.cases.case_files.uncertain_inputs import path_of
 from ballscrew.questions.band import compute as bands
 from ballscrew.questions.band import document as band_documents
 from ballscrew.questions.band.sheet import input_counts
@@ -23,13 +22,9 @@ from ballscrew.questions.run import compute as runs
 from ballscrew.questions.run import document as run_documents
 from ballscrew.questions.run import makers
 from ballscrew.questions.select.objectives import OBJECTIVES
-from ballscrew.questions.sensitivity import document as sensitivity_documents
-from ballscrew.questions.sensitivity.compute import SensitivityReport
 
 #: Runs that are kept: who has asked for the numbers of a case often asks for its drawing or its checks next.
 _MOST_RUNS = 4
-#: Shares of a distribution: the ends of 95 %, and its median between them.
-_INTERVAL = (0.025, 0.5, 0.975)
 _runs: OrderedDict[str, runs.Run] = OrderedDict()
 _runs_lock = threading.Lock()
 
@@ -91,30 +86,6 @@ def band(case: case_file.Case, found: bands.BandReport) -> dict[str, Any]:
             "inputs": units.filled(input_counts(found)),
         },
     }
-
-
-def sensitivity(case: case_file.Case, report: SensitivityReport) -> dict[str, Any]:
-    """The document of a sensitivity, and what people read of its inputs: meaning, field and interval."""
-    result = report.result
-    return {
-        **sensitivity_documents.document(case, report),
-        "display": {
-            "meaning": result.quantity.info.meaning,
-            "unit": result.quantity.unit,
-            "shown_in": result.quantity.shown_in,
-            "inputs": [_uncertain(case, report, name) for name in result.inputs],
-        },
-    }
-
-
-def _uncertain(case: case_file.Case, report: SensitivityReport, name: str) -> dict[str, Any]:
-    """An uncertain input: its field, and the interval that holds 95 % of it."""
-    _, quantity = report.known[name]
-    low, median, high = (float(report.uncertain[name].distribution.quantile(share)) for share in _INTERVAL)
-    return {
-        "name": name, "path": path_of(case, name), "meaning": report.describe(name), "unit": quantity.unit,
-        "shown_in": quantity.shown_in, "low": low, "median": median, "high": high,
-    }  # fmt: skip
 
 
 def optimisation(found: Optimisation) -> dict[str, Any]:

@@ -15,7 +15,9 @@ from starlette.datastructures import Headers
 from starlette.responses import Response
 
 from ballscrew.basis.errors import Fault, nearest, raise_if_any
+from ballscrew.basis.output import sheet as sheets
 from ballscrew.basis.output.json_text import plain
+from ballscrew.basis.output.sheet import Sheet
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.web import documents, limits, memory
 from ballscrew.faces.web.bodies import CaseBody, case_of, read
@@ -64,6 +66,11 @@ def as_bytes(document: Any) -> bytes:
 def as_json(document: Any) -> Response:
     """An answer with a document."""
     return sent(as_bytes(document))
+
+
+def with_sheet(document: Mapping[str, Any], sheet: Sheet) -> Response:
+    """An answer with a document, and the sheet that people read."""
+    return as_json({**document, "sheet": sheets.document(sheet)})
 
 
 def sent(document: bytes) -> Response:

@@ -17,7 +17,7 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.exports import requests
 from ballscrew.faces.web import limits, log_documents, openapi, sent_files, starts
 from ballscrew.faces.web.bodies import case_of, read
-from ballscrew.faces.web.endpoint_parts import as_bytes, as_json, heavy, kept
+from ballscrew.faces.web.endpoint_parts import as_bytes, as_json, heavy, kept, with_sheet
 from ballscrew.faces.web.log_bodies import (
     ConditionBody,
     FitBody,
@@ -31,20 +31,25 @@ from ballscrew.faces.web.log_bodies import (
 from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.files.torque_logs.preview import preview
 from ballscrew.questions.condition import compute as conditions
+from ballscrew.questions.condition import document as condition_documents
 from ballscrew.questions.condition import response as condition_answers
 from ballscrew.questions.condition.options import ConditionOptions
+from ballscrew.questions.condition.sheet import sheet as condition_sheet
 from ballscrew.questions.fit import compute as fits
 from ballscrew.questions.fit import log_answer
 from ballscrew.questions.fit import log_document as log_documents_of
 from ballscrew.questions.fit import response as fit_answers
 from ballscrew.questions.fit.log import read_options, steady_log
+from ballscrew.questions.fit.sheet import sheet as fit_sheet
 from ballscrew.questions.fit_motion.log import is_moving
 from ballscrew.questions.hand_over import answer as hand_over_answers
 from ballscrew.questions.hand_over import document as hand_over_documents
 from ballscrew.questions.hand_over.options import HandOverOptions
 from ballscrew.questions.service import compute as services
+from ballscrew.questions.service import document as service_documents
 from ballscrew.questions.service import response as service_answers
 from ballscrew.questions.service.options import ServiceOptions
+from ballscrew.questions.service.sheet import sheet as service_sheet
 from ballscrew.questions.shared import option_values
 
 router = APIRouter()
@@ -71,7 +76,7 @@ async def log(request: Request) -> Response:
     "/fit", openapi_extra=openapi.body(FitBody), response_model=fit_answers.Fit, responses=openapi.problems_of()
 )
 async def fit(request: Request) -> Response:
-    """A case fitted to a log of torques: the document of ``ballscrew fit --json``, with words, rows and the case."""
+    """A case fitted to a log of torques: the document of ``ballscrew fit --json``, its sheet and the fitted case."""
     body: LogBody = await read(request, FitBody)
 
     def work(done: Deadline) -> Response:
@@ -88,7 +93,7 @@ async def fit(request: Request) -> Response:
 
             steady, assumed = warm_log(case, steady, chosen.kind)
         report = dataclasses.replace(fits.fit(case, steady, chosen, done), assumed=assumed)
-        return as_json(log_documents.fit(case, body.case, report))
+        return with_sheet(log_documents.fit(case, body.case, report), fit_sheet(case, report))
 
     return await heavy(request, work)
 
@@ -100,7 +105,7 @@ async def fit(request: Request) -> Response:
     responses=openapi.problems_of(),
 )
 async def service(request: Request) -> Response:
-    """The preload left in a nut, by one log or two: the document of ``ballscrew service --json``, with curves."""
+    """The preload left in a nut, by one log or two: the document of ``ballscrew service --json``, with its sheet."""
     body: LogsBody = await read(request, ServiceBody)
 
     def work(done: Deadline) -> Response:
@@ -109,7 +114,7 @@ async def service(request: Request) -> Response:
         logs = {name: file for name, file in (("new", body.new), ("worn", body.worn)) if file is not None}
         with sent_files.written(logs) as paths:
             report = services.of_logs(case, list(paths.values()), chosen, done)
-        return as_json(log_documents.service(case, report))
+        return with_sheet(service_documents.document(case, report), service_sheet(case, report))
 
     return await heavy(request, work)
 
@@ -121,7 +126,7 @@ async def service(request: Request) -> Response:
     responses=openapi.problems_of(),
 )
 async def condition(request: Request) -> Response:
-    """The state of a nut over time: the document of ``ballscrew condition --json``, with the curve of its trend."""
+    """The state of a nut over time: the document of ``ballscrew condition --json``, with its sheet."""
     body: TestsBody = await read(request, ConditionBody)
     options = option_values.read(ConditionOptions, dict(body))
     conditions.check_kind(len(body.tests), dict(body))
@@ -130,7 +135,7 @@ async def condition(request: Request) -> Response:
         case = case_of(body.case)
         with sent_files.written({f"tests {number}": file for number, file in enumerate(body.tests, 1)}) as paths:
             found = conditions.of_files(case, list(paths.values()), options, done)
-        return as_json(log_documents.condition(case, found))
+        return with_sheet(condition_documents.document(case, found), condition_sheet(case, found))
 
     return await heavy(request, work)
 

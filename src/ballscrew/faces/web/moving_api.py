@@ -7,16 +7,18 @@ from starlette.responses import Response
 
 from ballscrew.faces.web import limits, openapi
 from ballscrew.faces.web.bodies import CaseBody, ReversalBody, RippleBody, case_of, read
-from ballscrew.faces.web.endpoint_parts import as_json, heavy
+from ballscrew.faces.web.endpoint_parts import heavy, with_sheet
 from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.questions.reversal import compute as reversals
 from ballscrew.questions.reversal import document as reversal_documents
 from ballscrew.questions.reversal.answer import ReversalResults
 from ballscrew.questions.reversal.options import ReversalOptions
+from ballscrew.questions.reversal.sheet import sheet as reversal_sheet
 from ballscrew.questions.ripple import compute as ripples
 from ballscrew.questions.ripple import document as ripple_documents
 from ballscrew.questions.ripple.answer import RippleResults
 from ballscrew.questions.ripple.options import RippleOptions
+from ballscrew.questions.ripple.sheet import sheet as ripple_sheet
 from ballscrew.questions.shared import option_values
 from ballscrew.questions.shared.answer_parts import Assumed
 from ballscrew.questions.shared.declared import response
@@ -38,7 +40,8 @@ async def reversal(request: Request) -> Response:
     def work(_: Deadline) -> Response:
         case = case_of(body.case)
         limits.check_reversal(case, options)
-        return as_json(reversal_documents.document(reversals.reversal(case, options)))
+        report = reversals.reversal(case, options)
+        return with_sheet(reversal_documents.document(report), reversal_sheet(report))
 
     return await heavy(request, work)
 
@@ -60,6 +63,7 @@ async def ripple(request: Request) -> Response:
     def work(done: Deadline) -> Response:
         case = case_of(body.case)
         limits.check_ripple(case, options)
-        return as_json(ripple_documents.document(ripples.ripple_of(case, options, done)))
+        report = ripples.ripple_of(case, options, done)
+        return with_sheet(ripple_documents.document(report), ripple_sheet(report))
 
     return await heavy(request, work)

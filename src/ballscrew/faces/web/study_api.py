@@ -10,15 +10,17 @@ from starlette.responses import Response
 
 from ballscrew.faces.web import documents, limits, openapi
 from ballscrew.faces.web.bodies import CaseBody, NeedOnly, OptimiseBody, SensitivityBody, case_of, read, refuse_paths
-from ballscrew.faces.web.endpoint_parts import as_json, heavy, queue_of
+from ballscrew.faces.web.endpoint_parts import as_json, heavy, queue_of, with_sheet
 from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.questions.optimise import response as optimise_answers
 from ballscrew.questions.optimise.compute import Plan, optimise, plan
 from ballscrew.questions.optimise.options import OptimiseOptions
 from ballscrew.questions.select.need import Need, need_of
 from ballscrew.questions.sensitivity import compute as sensitivities
+from ballscrew.questions.sensitivity import document as sensitivity_documents
 from ballscrew.questions.sensitivity import response as sensitivity_answers
 from ballscrew.questions.sensitivity.options import SensitivityOptions
+from ballscrew.questions.sensitivity.sheet import sheet as sensitivity_sheet
 from ballscrew.questions.shared import option_values
 
 router = APIRouter()
@@ -39,7 +41,7 @@ async def sensitivity(request: Request) -> Response:
         case = case_of(body.case)
         samples = limits.samples_of_sensitivity(case, options)
         report = sensitivities.sensitivity(case, dataclasses.replace(options, samples=samples), done)
-        return as_json(documents.sensitivity(case, report))
+        return with_sheet(sensitivity_documents.document(case, report), sensitivity_sheet(case, report))
 
     return await heavy(request, work)
 

@@ -36,14 +36,14 @@ from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.physics.sizing.installation import Installation, Limits
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.condition.options import ConditionOptions
-from ballscrew.questions.duty.compute import CAUSES, IF_ANY, NUMBERS, slug_of
+from ballscrew.questions.duty.compute import NUMBERS
 from ballscrew.questions.fit.options import FitOptions
 from ballscrew.questions.optimise.options import OptimiseOptions
 from ballscrew.questions.reversal.options import ReversalOptions
 from ballscrew.questions.ripple.options import RippleOptions
 from ballscrew.questions.sensitivity.options import SensitivityOptions
 from ballscrew.questions.service.options import ServiceOptions
-from ballscrew.questions.shared.chart_colours import CAUSE_COLOURS, MECHANISM_COLOURS
+from ballscrew.questions.shared.chart_colours import MECHANISM_COLOURS
 from ballscrew.questions.shared.options import Kind, vocabulary_of
 from ballscrew.questions.warm_up.compute import SERIES
 
@@ -79,12 +79,6 @@ class ResultQuantity(_Table):
     symbol: str
     unit: str
     shown_in: str
-
-
-class CycleQuantity(ResultQuantity):
-    """A number of a cycle; ``if_any`` where it is shown only where it is not zero."""
-
-    if_any: bool
 
 
 class Mechanism(_Table):
@@ -139,9 +133,6 @@ class Vocabulary(_Table):
     systems: dict[str, dict[str, str]]
     symbols: dict[str, str]
     results: dict[str, ResultQuantity]
-    of_cycle: dict[str, CycleQuantity]
-    of_warm_up: dict[str, ResultQuantity]
-    causes: dict[str, Mechanism]
     mechanisms: dict[str, Mechanism]
     reasons: dict[str, str]
     models: list[str]
@@ -164,9 +155,6 @@ def vocabulary() -> dict[str, Any]:
         "systems": {"metric": {}, "inch": dict(_INCHES)},
         "symbols": _symbols(),
         "results": _results(),
-        "of_cycle": {name: _described(quantity) | {"if_any": name in IF_ANY} for name, quantity in NUMBERS.items()},
-        "of_warm_up": {name: _described(quantity) for name, quantity in SERIES.items()},
-        "causes": {slug_of(name): {"words": name, "colour": CAUSE_COLOURS[name]} for name in CAUSES},
         "mechanisms": _mechanisms(),
         "reasons": dict(NUT_REASONS),
         "models": list(MODELS),

@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from ballscrew.questions.shared.answer_parts import Closed, Number, Record, Tables, field
+from ballscrew.questions.shared.answer_parts import Closed, Number, Record, Shown, Tables, field
 
 
 class Interval(Closed):
@@ -71,13 +71,7 @@ class ConditionResults(Closed):
     temperatures: int = Field(description="tests whose temperature is used")
 
 
-class ConditionPicture(Closed):
-    """What is drawn besides the states."""
-
-    trend: list[Number] | None = Field(description="preload by the trend at each test; null where there is none")
-
-
-class Condition(Closed):
+class Condition(Shown):
     """The state of a nut over time."""
 
     inputs: Tables
@@ -87,4 +81,3 @@ class Condition(Closed):
     verdicts: list[Record]
     checks: list[Record]
     provenance: Tables
-    picture: ConditionPicture

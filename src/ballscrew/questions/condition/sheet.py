@@ -30,10 +30,10 @@ from ballscrew.basis.output.sheet import (
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import design, model_text, nut_text
+from ballscrew.evidence.calibration.robust import Vector
 from ballscrew.evidence.service.condition_values import Condition
 from ballscrew.files.torque_logs.torque_series import quantities
 from ballscrew.physics.components.materials import TEMPERATURE
-from ballscrew.questions.condition.points import trend_of
 
 #: More tests than these are not all listed: the baseline, those about the alarm and the last ones are.
 _MOST_ROWS = 40
@@ -115,6 +115,20 @@ def _shown_rows(condition: Condition) -> list[int]:
     return sorted(row for row in rows if 0 <= row < count)
 
 
+def _trend(condition: Condition) -> Vector | None:
+    """The preload by the trend at the time of each test, over that of the first tests; None where there is no trend.
+
+    Of the slope b of the logarithm of the preload it is exp(a + b t), with the a that has as many tests above the curve
+    as below.
+    """
+    if not math.isfinite(condition.trend.slope):
+        return None
+    times = np.array([state.time for state in condition.states])
+    preload = np.array([state.preload for state in condition.states])
+    middle = float(np.nanmedian(np.log(preload) - condition.trend.slope * times))
+    return np.exp(middle + condition.trend.slope * times)
+
+
 def _charts(condition: Condition) -> Iterator[Block]:
     """Torque, preload and sums over the time."""
     axis, times = _time(condition)
@@ -135,7 +149,7 @@ def _charts(condition: Condition) -> Iterator[Block]:
         ],
     )
     preload, low, high = (_values(condition, name) for name in ("preload", "preload_low", "preload_high"))
-    trend = trend_of(condition)
+    trend = _trend(condition)
     yield Chart(
         "preload left",
         axis,

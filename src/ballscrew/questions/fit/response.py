@@ -5,17 +5,8 @@ from __future__ import annotations
 from pydantic import Field
 
 from ballscrew.questions.fit.answer import FitResults
-from ballscrew.questions.shared.answer_parts import Closed, Record, Tables, field
+from ballscrew.questions.shared.answer_parts import Closed, Record, Shown, Tables, field
 from ballscrew.questions.shared.declared import schema
-
-
-class FitWords(Closed):
-    """What a fit says in words."""
-
-    title: str
-    trade_off: str = Field(description="numbers that make up for each other")
-    next_test: list[str]
-    rows: list[str] = Field(description="rows left out and why, notes of the log, and what its torque was read as")
 
 
 class Calibrated(Closed):
@@ -25,7 +16,7 @@ class Calibrated(Closed):
     case: Tables
 
 
-class Fit(schema(FitResults)):
+class Fit(schema(FitResults), Shown):
     """A case fitted to a log."""
 
     units: Tables
@@ -35,6 +26,4 @@ class Fit(schema(FitResults)):
     inputs: Tables
     provenance: Tables
     assumed: list[str] = field(optional=True)
-    words: FitWords
-    picture: Tables
     calibrated: Calibrated

@@ -49,9 +49,8 @@ from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.fit.answer import results
 from ballscrew.questions.fit.compute import FitReport
 from ballscrew.questions.fit.log import CONDITIONS
-from ballscrew.questions.fit.points import KINDS, measured_and_predicted
 from ballscrew.questions.shared.declared import cells
-from ballscrew.questions.shared.log_points import some
+from ballscrew.questions.shared.log_points import Numbers, some
 from ballscrew.questions.shared.text_tables import spoken
 
 _TORQUE = quantities_of(FrictionResult)["screw_torque"]
@@ -69,6 +68,8 @@ _WIDEST = 5
 _ERROR_LEFT = Message("{percent}% of the error of the {name}")
 _SPREAD_LEFT = Message("{percent}% of the spread assumed for the {name} (not identified)")
 _FIFTHS = ("lowest", "lower", "middle", "higher", "highest")
+#: Kinds of rows of a fit.
+KINDS = ("fitted", "held_out", "outlier")
 _COLOURS: Mapping[str, Colour] = {"fitted": "sky", "held_out": "orange", "outlier": "grey"}
 
 
@@ -308,10 +309,9 @@ def _charts(report: FitReport) -> Iterator[Block]:
     model = report.model
     shown = some(np.arange(len(model.rows.log)), _MOST_POINTS)
     yield _against(model, shown)
-    for name in [name for name in ("screw_speed", "axial_load", "temperature", "time") if name in model.rows.trends][
-        :3
-    ]:
-        yield _residuals(model, shown, name)
+    for name in ("screw_speed", "axial_load", "temperature", "time"):
+        if name in model.rows.trends:
+            yield _residuals(model, shown, name)
     yield _errors(model)
     if report.next_test is not None:
         yield _places_of_next_test(model, report.next_test, shown)
@@ -329,6 +329,13 @@ def _dots(model: CalibratedModel, shown: NDArray[np.int64], x: NDArray[Any], y: 
         chosen = shown[kinds[shown] == place]
         if chosen.size:
             yield Curve(kind.replace("_", " "), x[chosen], y[chosen], _COLOURS[kind], "dots")
+
+
+def measured_and_predicted(model: CalibratedModel) -> tuple[Numbers, Numbers]:
+    """The friction torque of each row as it was measured, and by the calibrated model, N m."""
+    rows = model.rows
+    predicted = rows.friction + model.constant_torque
+    return predicted - rows.residuals * rows.direction, predicted
 
 
 def _against(model: CalibratedModel, shown: NDArray[np.int64]) -> Chart:

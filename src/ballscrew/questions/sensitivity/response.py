@@ -7,7 +7,7 @@ from typing import Any
 from pydantic import Field
 
 from ballscrew.engine.uncertainty.sensitivity import METHODS
-from ballscrew.questions.shared.answer_parts import Closed, Number, Provenance, Record, Tables, field
+from ballscrew.questions.shared.answer_parts import Closed, Number, Provenance, Record, Shown, Tables, field
 
 
 class Estimated(Closed):
@@ -59,29 +59,7 @@ class Indices(Closed):
     seed: int
 
 
-class ShownInput(Closed):
-    """An uncertain input for people: what it is, its field, and its interval."""
-
-    name: str
-    path: str = Field(description="section.field")
-    meaning: str
-    unit: str = Field(description="SI")
-    shown_in: str
-    low: Number = Field(description="2.5 % quantile, SI")
-    median: Number = Field(description="SI")
-    high: Number = Field(description="97.5 % quantile, SI")
-
-
-class SensitivityDisplay(Closed):
-    """What stands beside the indices for people."""
-
-    meaning: str = Field(description="of the output")
-    unit: str = Field(description="of the output, SI")
-    shown_in: str
-    inputs: list[ShownInput] = Field(description="in the order of the indices")
-
-
-class Sensitivity(Closed):
+class Sensitivity(Shown):
     """What the band of a result comes from, and what to find out to halve it."""
 
     inputs: Tables
@@ -91,4 +69,3 @@ class Sensitivity(Closed):
     checks: list[Record]
     warnings: list[Record]
     provenance: Provenance
-    display: SensitivityDisplay

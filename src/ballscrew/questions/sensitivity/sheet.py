@@ -25,6 +25,7 @@ from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import design, title
 from ballscrew.cases.case_files.spelling import THOUSANDS
+from ballscrew.cases.case_files.uncertain_inputs import path_of
 from ballscrew.engine.uncertainty.sensitivity import HALF, MEASURES, Method, Sensitivity
 from ballscrew.engine.uncertainty.sobol import Estimate
 from ballscrew.physics.friction.plausibility import IMPLAUSIBLE
@@ -75,7 +76,7 @@ def sheet(case: Case, report: SensitivityReport) -> Sheet:
             Lines([Line(design(case, plain_text=True), "small"), Line(_mean_and_deviation(report.result), "small")]),
             Lines([Line(record.text, "verdict") for record in verdicts(report)]),
             warning_lines(records),
-            _table(report),
+            _table(case, report),
             lines(_remarks(report), "small"),
             *_bars(report),
         ],
@@ -115,7 +116,7 @@ def _method_and_effort(result: Sensitivity) -> str:
     )
 
 
-def _table(report: SensitivityReport) -> Table:
+def _table(case: Case, report: SensitivityReport) -> Table:
     result = report.result
     shown = _SHOWN[result.method]
     left = ["left"] if result.first_order else []
@@ -125,7 +126,7 @@ def _table(report: SensitivityReport) -> Table:
         known = [Share(result.left_if_known(name), bar=False)] if left else []
         rows.append([report.describe(name), *cells, *known, _distribution(report, name)])
     headings = ("", *(_HEADINGS[measure] for measure in shown), *left, "distribution")
-    return Table("inputs", "Inputs", headings, rows)
+    return Table("inputs", "Inputs", headings, rows, fields=[path_of(case, name) for name in result.inputs])
 
 
 def _cell(result: Sensitivity, measure: str, estimate: Estimate) -> Cell:

@@ -1,4 +1,4 @@
-"""Points of the picture of a service, as the figure and the page draw them; SI."""
+"""Curves of a service: the model with the preload that was found, and the rows of its logs; SI."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ballscrew.evidence.calibration.fit_result import Rows
 from ballscrew.evidence.calibration.oil_temperature import torque_of_model
 from ballscrew.evidence.service.preload_estimate import PreloadEstimate
 from ballscrew.questions.service.compute import ServiceReport
-from ballscrew.questions.shared.log_points import MOST_POINTS, Numbers, short, some
+from ballscrew.questions.shared.log_points import Numbers, some
 
 #: Points of a curve.
 CURVE_POINTS = 80
@@ -46,14 +46,6 @@ def curves(report: ServiceReport, most: int) -> dict[str, Curve]:
         places = some(np.flatnonzero(~rows.outlying), most)
         found[label] = Curve(along, curve, x[places], measured[places])
     return found
-
-
-def of_service(report: ServiceReport) -> dict[str, Any]:
-    """The curves and the rows of the logs of a service."""
-    return {
-        label: {name: short(values) for name, values in one._asdict().items()}
-        for label, one in curves(report, MOST_POINTS).items()
-    }
 
 
 def _usual(rows: Rows) -> dict[str, Any]:

@@ -3,18 +3,11 @@
 from __future__ import annotations
 
 from ballscrew.questions.service.answer import ServiceResults
-from ballscrew.questions.shared.answer_parts import Closed, Record, Tables
+from ballscrew.questions.shared.answer_parts import Record, Shown, Tables
 from ballscrew.questions.shared.declared import with_answers
 
 
-class ServiceWords(Closed):
-    """What a service says beside its verdicts."""
-
-    title: str
-    causes: list[str]
-
-
-class Service(with_answers(results=ServiceResults)):
+class Service(with_answers(results=ServiceResults), Shown):
     """The preload that is left in a nut."""
 
     inputs: Tables
@@ -23,5 +16,3 @@ class Service(with_answers(results=ServiceResults)):
     verdicts: list[Record]
     checks: list[Record]
     provenance: Tables
-    words: ServiceWords
-    picture: Tables

@@ -72,7 +72,13 @@ class Problem(Closed):
     faults: list[FaultLine]
 
 
-class Assumed(Closed):
+class Shown(Closed):
+    """What people read of the results."""
+
+    sheet: Tables = Field(description="the sheet, as the command prints it with --sheet")
+
+
+class Assumed(Shown):
     """What is assumed, in words."""
 
     assumed: list[str]

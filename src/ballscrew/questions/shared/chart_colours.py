@@ -42,14 +42,6 @@ _OF_MECHANISMS: Mapping[str, Colour] = {
     "chain_braking": "yellow",
 }
 MECHANISM_COLOURS: Mapping[str, str] = {name: SHADES[colour] for name, colour in _OF_MECHANISMS.items()}
-#: The same for a cause of the torque of a motor, as :data:`ballscrew.questions.duty.compute.CAUSES` names them.
-CAUSE_COLOURS: Mapping[str, str] = {
-    "acceleration": BLUE,
-    "gravity": GREEN,
-    "process": ORANGE,
-    "friction of the balls": RED,
-    "other friction": PURPLE,
-}
 
 
 def colour_of(mechanism: str) -> Colour:

@@ -299,7 +299,7 @@ def response(cls: type, name: str, *, judged: bool = False, beside: type | None 
     return parts.model(
         name,
         _first_line(cls),
-        parts.Closed if beside is None else beside,
+        parts.Shown if beside is None else beside,
         inputs=(parts.Tables, ...),
         results=(schema(cls), ...),
         units=(parts.Tables, ...),

@@ -18,9 +18,9 @@ const SCRIPTS = {
   duty: "./cards/duty.js",
   "warm-up": "./cards/warm_up.js",
   choose: "./cards/choose.js",
-  reversal: "./cards/reversal.js",
-  ripple: "./cards/ripple.js",
-  sensitivity: "./cards/sensitivity.js",
+  reversal: "./cards/asked_by_button.js",
+  ripple: "./cards/asked_by_button.js",
+  sensitivity: "./cards/asked_by_button.js",
   calibration: "./cards/calibrate.js",
   service: "./cards/service.js",
   condition: "./cards/condition.js",
@@ -34,9 +34,9 @@ const HOMES = {
   axis: ["duty", "duty.axis"],
   motion: ["duty", "duty.motion"],
   motor: ["duty", "duty.axis"],
-  surroundings: ["warm-up", "heat.state"],
-  bearings: ["axis", "axis.parts"],
-  guides: ["axis", "axis.parts"],
+  surroundings: ["warm-up", "heat"],
+  bearings: ["axis", "axis.chain"],
+  guides: ["axis", "axis.chain"],
 };
 
 /** The place of a card, whose script is loaded when it is first seen. */

@@ -71,7 +71,7 @@ export function table(caption, headings, rows, { beside = true } = {}) {
       "tr",
       {},
       ...cells.map((cell, place) =>
-        place === 0 && beside ? element("th", { scope: "row" }, cell) : element("td", {}, cell),
+        place === 0 && beside && cell !== "" ? element("th", { scope: "row" }, cell) : element("td", {}, cell),
       ),
     ),
   );

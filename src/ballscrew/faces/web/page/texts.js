@@ -37,3 +37,8 @@ export function textOr(key, other, values = {}) {
 function filledIn(pattern, value) {
   return pattern.replace(PLACEHOLDER, (placeholder, name) => String(value(name) ?? placeholder));
 }
+
+/** A sentence with its capital letter and its full stop. @param {string} words */
+export function sentence(words) {
+  return `${words.charAt(0).toUpperCase()}${words.slice(1)}${words.endsWith(".") ? "" : "."}`;
+}

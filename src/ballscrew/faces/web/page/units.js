@@ -307,3 +307,28 @@ export function heading(name, words) {
   const unit = unitOf(name);
   return unit ? `${words} (${symbol(unit)})` : words;
 }
+
+/** What the server says of a number beside its value. @typedef {{ unit: string, shown_in: string }} Quantity */
+
+/** The metric unit in which a number is shown; that of its value where the page cannot convert it. @param {Quantity} quantity */
+export function metricOf({ unit, shown_in: metric }) {
+  return choices(unit).some((one) => one.unit === metric) ? metric : unit;
+}
+
+/**
+ * A value in SI in the unit in which it is displayed; a text is itself.
+ *
+ * @template {number | string | null} Value
+ * @param {Value} value
+ * @param {Quantity | null} quantity
+ * @returns {Value | number}
+ */
+export function converted(value, quantity) {
+  if (typeof value !== "number" || !quantity || quantity.unit === "1") return value;
+  return fromSI(value, inSystem(metricOf(quantity)), quantity.unit);
+}
+
+/** A name with the unit in which its values are displayed. @param {string} words @param {Quantity} quantity */
+export function titled(words, quantity) {
+  return quantity.unit === "1" ? words : `${words} (${symbol(inSystem(metricOf(quantity)))})`.trimStart();
+}

@@ -39,12 +39,12 @@ function viewOf(pane) {
 }
 
 /**
- * The pane of an address: a view stands for its first pane; nothing where there is none.
+ * The pane of an address: a view stands for its first pane, as does a pane that it had once; nothing where there is none.
  *
  * @param {string} address
  */
 export function paneAt(address) {
-  return panes().find((one) => one === address || viewOf(one) === address);
+  return panes().find((one) => one === address) ?? panes().find((one) => viewOf(one) === viewOf(address));
 }
 
 /** Test whether the form is on the page. */

@@ -2,25 +2,18 @@
 
 import * as designs from "../designs.js";
 import { namedButton, primaryButton } from "../controls.js";
-import { element, redraw, scrollingTable } from "../dom.js";
-import { watch } from "../plot.js";
+import { element, redraw } from "../dom.js";
 import { save } from "../saving.js";
 import { linesOf, Problem } from "../server.js";
 import { askPatiently, sendPatiently } from "../long_work.js";
 import { text } from "../texts.js";
-import * as units from "../units.js";
 import { vocabulary } from "../vocabulary.js";
-import * as charts from "./calibrate_charts.js";
-import { choices, columns, meaningOf } from "./log_columns.js";
+import { choices, columns } from "./log_columns.js";
 import { caseFile, commandLine, dropZone, exampleButton, faultLines } from "./log_parts.js";
 import { flags, optionFields } from "./option_fields.js";
-import { quantity, TORQUE } from "./quantities.js";
+import { TORQUE } from "./quantities.js";
 import { question } from "./question.js";
-import { lines } from "./records.js";
 
-/** Numbers of a sensor that the table leaves out: how its zero wanders over hours. */
-const WANDER = "torque_wander";
-const DIGITS = 4;
 /** Milliseconds after the last key until the server is asked about a log, which may be long. */
 const REST = 400;
 /** Options that have a place of their own. */
@@ -41,15 +34,10 @@ export function setUp(holder) {
   let free = [];
   /** @type {LogAnswer | undefined} */
   let seen;
-  /** What may be fitted to the log. @type {LogAnswer["free"]} */
-  let known = [];
-  /** @type {FitAnswer | undefined} */
-  let answer;
   /** @type {import("../state.js").Tables} */
   let tables = {};
   /** What the columns were asked with, as text. */
   let asked = "";
-  let system = "";
   /**
    * Whether what is said beside the button is no longer so of a design: that it was given a calibration which is gone,
    * or that it is another one than was fitted. @type {(design: import("../state.js").Tables) => boolean}
@@ -70,21 +58,17 @@ export function setUp(holder) {
   const command = element("div");
   const inspected = element("div", { class: "card-inputs" });
   const problems = element("div");
-  const words = element("div");
-  const rest = element("div");
-  const places = charts.PLACES.map((id) => element("div", { id, class: "chart low", hidden: true }));
-  const result = element("div", { class: "card-result" }, words, ...places, rest);
+  const actions = element("div");
   const fit = question({
     address: "fit",
-    result,
-    show: (found) => show(found),
+    show: (found) => showActions(found),
     place: (faults) => {
       problems.replaceChildren(...faultLines(faults));
-      result.hidden = faults.length > 0; // what another log told is no answer below a fault
+      for (const one of [fit.result, actions]) one.hidden = faults.length > 0; // what another log told is no answer below a fault
       return undefined;
     },
     isLarge: () => true,
-    about: () => ({ fitted: fittedCase, free: known }),
+    about: () => ({ fitted: fittedCase }),
   });
   const drop = dropZone("calibrate-log", text("calibrate.drop"), (file) => {
     log = file;
@@ -96,11 +80,9 @@ export function setUp(holder) {
     drop.use(logs[0]);
     free = numbers; // the log has friction that the balls alone do not explain
   });
-  holder.replaceChildren(drop.zone, example, inspected, fit.line, problems, result);
-  for (const place of places) watch(place);
+  holder.replaceChildren(drop.zone, example, inspected, fit.line, problems, actions, fit.result);
   fit.resume((about) => {
     fittedCase = about.fitted;
-    known = about.free;
   });
 
   function body() {
@@ -122,7 +104,6 @@ export function setUp(holder) {
       const found = await sendPatiently("log", question);
       if (asked !== key) return;
       seen = found;
-      known = found.free;
       if (!free.length) free = [found.free[0].name];
       problems.replaceChildren();
       showColumns();
@@ -171,30 +152,11 @@ export function setUp(holder) {
     command.replaceChildren(commandLine(words));
   }
 
-  /** @param {FitAnswer} found */
-  function show(found) {
-    answer = found;
-    system = units.currentSystem();
-    const { rows, words: texts } = found;
-    words.replaceChildren(
-      ...lines(found.verdicts, []),
-      element("p", {}, text("calibrate.rows", { used: rows.used, read: rows.read, held: rows.held_out })),
-      element("p", { class: "small" }, texts.rows.join("; ")),
-      estimates(found),
-      ...lines([], found.warnings),
-      element("p", {}, texts.trade_off),
-      ...(texts.next_test.length ? [element("h3", {}, text("calibrate.next"))] : []),
-      ...texts.next_test.map((line) => element("p", {}, line)),
-    );
-    charts.show(found);
-    const untold = Object.entries(found.estimates)
-      .filter(([, one]) => !one.identified)
-      .map(([name]) => meaningOf(name, known));
+  /** What may be done with the numbers that were found. @param {FitAnswer} found */
+  function showActions(found) {
     const used = element("p", { id: "calibrate-used", role: "status" });
-    rest.replaceChildren(
-      ...(untold.length
-        ? [element("p", { class: "warning" }, text("calibrate.untold", { names: untold.join(", ") }))]
-        : []),
+    actions.hidden = false;
+    actions.replaceChildren(
       element(
         "p",
         { class: "card-start" },
@@ -250,31 +212,7 @@ export function setUp(holder) {
     await designs.setTables(Object.fromEntries(changed.map((name) => [name, fitted[name]])));
   }
 
-  /** Values before and after, with their intervals. @param {FitAnswer} found */
-  function estimates({ estimates: numbers, sensor, residual_rms: rms, holdout_rms: held }) {
-    const shown = Object.entries({ ...numbers, ...sensor }).filter(([name]) => !name.startsWith(WANDER));
-    const rows = shown.map(([name, one]) => {
-      const { text: written } = quantity(one.unit, metricOf(name, one.unit));
-      const ends = `${written(one.low, DIGITS)} – ${written(one.high, DIGITS)}`;
-      return [
-        meaningOf(name, known),
-        written(one.start, DIGITS),
-        element("data", { value: String(one.value), "data-name": name }, written(one.value, DIGITS)),
-        one.identified && one.low !== null ? ends : text("calibrate.not_told"),
-      ];
-    });
-    const caption = text("calibrate.values", { rms: TORQUE.text(rms), held: TORQUE.text(held) });
-    const headings = ["", text("calibrate.before"), text("calibrate.after"), text("calibrate.interval")];
-    return scrollingTable(caption, headings, rows);
-  }
-
-  /** @param {string} name @param {string} si */
-  function metricOf(name, si) {
-    return known.find((one) => one.name === name)?.shown_in ?? si;
-  }
-
   function follow() {
-    if (answer && system !== units.currentSystem()) show(answer);
     clearTimeout(timer);
     timer = setTimeout(inspect, REST);
   }

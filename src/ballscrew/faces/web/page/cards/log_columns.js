@@ -127,7 +127,7 @@ function lined(boxes) {
  * @param {string} name
  * @param {LogAnswer["free"]} free
  */
-export function meaningOf(name, free) {
+function meaningOf(name, free) {
   const last = name.split(".").at(-1) ?? name;
   const known = free.find((one) => one.name === name);
   return textOr(`fit.number.${last}`, known?.meaning ?? last.replaceAll("_", " "));

@@ -38,18 +38,8 @@ export function quantity(si, metric) {
   };
 }
 
-export const TIME = quantity("s", "s");
-export const HOURS = quantity("s", "h");
 export const POSITION = quantity("m", "mm");
-export const GROWTH = quantity("m", "um");
-export const SPEED = quantity("m/s", "m/min");
-export const TURNING = quantity("rad/s", "rpm");
-export const ANGLE = quantity("rad", "deg");
 export const TORQUE = quantity("N m", "N m");
-export const FORCE = quantity("N", "N");
-export const ENERGY = quantity("J", "J");
-export const POWER = quantity("W", "W");
-export const TEMPERATURE = quantity("K", "degC");
 
 /**
  * An exact number for programs, as text for people.

@@ -7,7 +7,9 @@ import { element } from "../dom.js";
 import { inWords, labelOf } from "../messages.js";
 import { answerOfKept, keptJob, runJob } from "../jobs.js";
 import { ask, linesOf, Problem } from "../server.js";
+import { sheetPlace } from "../sheet.js";
 import { text } from "../texts.js";
+import * as units from "../units.js";
 
 /** Milliseconds after the last key, and until it is said that something is computed. */
 const REST = 400;
@@ -18,13 +20,14 @@ const NOT_FOUND = 404;
 const RESUMED = "job ";
 
 /**
- * A question and where its answer goes. ``show`` shows an answer. ``place`` puts faults beside their fields and returns
- * those of no field of the card; nothing where it has shown all of them in a place of its own.
+ * A question and where its answer goes: its sheet into a place that is made for it, or all of it into one that is given.
+ * ``show`` shows what no sheet has. ``place`` puts faults beside their fields and returns those of no field of the card;
+ * nothing where it has shown all of them in a place of its own.
  *
  * @typedef {object} Parts
  * @property {"axis" | "duty" | "warm-up" | "reversal" | "ripple" | "fit" | "service" | "hand-over" | "sensitivity" | "optimise" | "condition"} address
- * @property {HTMLElement} result
- * @property {(answer: any) => void} show
+ * @property {HTMLElement} [result]
+ * @property {(answer: any) => void} [show]
  * @property {(faults: FaultLine[]) => FaultLine[] | undefined} place
  * @property {(body: object) => boolean} [isLarge] tests whether a body is too large to keep answers by it
  * @property {boolean} [isShort] tests whether it takes so short that no job is needed
@@ -36,7 +39,12 @@ const RESUMED = "job ";
  *
  * @param {Parts} parts
  */
-export function question({ address, result, show, place, isLarge = () => false, isShort = false, about }) {
+export function question({ address, result: own, show, place, isLarge = () => false, isShort = false, about }) {
+  const sheet = own ? undefined : sheetPlace(address);
+  const result = own ?? element("div", { class: "card-result", hidden: true }, sheet?.place);
+  /** @type {any} */
+  let answer;
+  let system = "";
   const line = element("div", { class: "card-line" });
   let request = new AbortController();
   /** @type {ReturnType<typeof setTimeout> | undefined} */
@@ -48,6 +56,20 @@ export function question({ address, result, show, place, isLarge = () => false, 
   /** Bodies that are answered, and that are asked about, as text. */
   let answered = "";
   let asked = "";
+
+  /** Show an answer in the units of the page. @param {any} found */
+  function shown(found) {
+    answer = found;
+    system = units.currentSystem();
+    result.hidden = false;
+    sheet?.show(found.sheet);
+    show?.(found);
+  }
+
+  /** Show the answer again where the units of the page have changed. */
+  function showAgain() {
+    if (answer && system !== units.currentSystem()) shown(answer);
+  }
 
   function stop() {
     clearTimeout(timer);
@@ -122,6 +144,7 @@ export function question({ address, result, show, place, isLarge = () => false, 
    * @param {number} rest milliseconds to wait for more keys
    */
   function follow(body, rest = REST) {
+    showAgain();
     const key = JSON.stringify(body);
     if (key === asked) return;
     stop();
@@ -170,7 +193,7 @@ export function question({ address, result, show, place, isLarge = () => false, 
       stop();
       place([]);
       answered = key;
-      show(found);
+      shown(found);
       line.replaceChildren();
       mark(false, false);
     } catch (error) {
@@ -215,11 +238,12 @@ export function question({ address, result, show, place, isLarge = () => false, 
    * @param {object} body
    */
   function compare(body) {
+    showAgain();
     if (!answered || asked || answered.startsWith(RESUMED)) return;
     const isEarlier = JSON.stringify(body) !== answered;
     result.classList.toggle("earlier", isEarlier);
     line.replaceChildren(...(isEarlier ? [element("p", {}, earlier())] : []));
   }
 
-  return { line, follow, compare, resume, stop };
+  return { line, result, follow, compare, resume, stop };
 }

@@ -1,7 +1,7 @@
 // Verdicts and warnings of a card.
 
 import { element } from "../dom.js";
-import { text } from "../texts.js";
+import { sentence, text } from "../texts.js";
 
 /**
  * Verdicts, and below them what to beware of.
@@ -39,9 +39,4 @@ export function lines(verdicts, warnings) {
 /** Records without those that say the same again. @param {VerdictRecord[]} records */
 export function once(records) {
   return [...new Map(records.map((record) => [record.text, record])).values()];
-}
-
-/** A sentence with its capital letter and its full stop. @param {string} words */
-function sentence(words) {
-  return `${words.charAt(0).toUpperCase()}${words.slice(1)}.`;
 }

@@ -1,21 +1,15 @@
 // The card of warming up: temperatures, preload, torque and growth over hours, and the state in which it ends.
 
 import * as designs from "../designs.js";
-import { box, framed, labelled, opened, textField } from "../controls.js";
-import { element, redraw, table } from "../dom.js";
-import { watch } from "../plot.js";
+import { box, framed, opened, textField } from "../controls.js";
+import { element, redraw } from "../dom.js";
 import * as schema from "../schema.js";
 import * as states from "../state.js";
 import { store } from "../store.js";
 import { text, textOr } from "../texts.js";
 import * as units from "../units.js";
-import { inPanes } from "../views.js";
-import { vocabulary } from "../vocabulary.js";
 import { fieldset, placeFaults, showValues } from "./case_fields.js";
-import { data, FORCE, GROWTH, HOURS, POWER, quantity, TEMPERATURE, TORQUE } from "./quantities.js";
 import { question } from "./question.js";
-import { lines } from "./records.js";
-import * as charts from "./warm_up_charts.js";
 
 /** @typedef {import("../state.js").Tables} Tables */
 
@@ -32,61 +26,29 @@ const FIRST = [
   "bearing_conductance",
   "bracing",
 ];
-/** Numbers of the state in which it ends. @type {[string, ReturnType<typeof quantity>][]} */
-const STEADY = [
-  ["nut_temperature", TEMPERATURE],
-  ["oil_temperature", TEMPERATURE],
-  ["shaft_temperature", TEMPERATURE],
-  ["preload", FORCE],
-  ["screw_torque", TORQUE],
-  ["growth", GROWTH],
-  ["power", POWER],
-];
-/** Series that have the meaning of a number of the steady state. @type {Record<string, string>} */
-const SERIES = { growth: "shaft_growth", power: "friction_power" };
-
 /**
  * @param {HTMLElement} holder
  * @returns {import("../cards.js").Card}
  */
 export function setUp(holder) {
-  const note = inPanes(element("p", { class: "small" }), "heat.state");
-  const editor = inPanes(element("div", { class: "card-inputs" }), "heat.state");
-  const words = inPanes(element("div"), "heat.end");
-  const rest = element("div");
-  const slider = element("input", { type: "range", id: "warm-instant", min: "0", max: "1", step: "1" });
-  const at = labelled(slider, text("warm_up.instant"));
-  const places = Object.entries(charts.PLACES).map(([id, pane]) =>
-    inPanes(element("div", { id, class: "chart low", hidden: true }), pane),
-  );
-  const half = (/** @type {HTMLElement[]} */ ...parts) =>
-    inPanes(element("div", { class: "half" }, ...parts), "heat.temperatures");
-  const pictures = places.flatMap((place) =>
-    place.id === "warm-axis-chart" ? [half(at, place), half(rest)] : [place],
-  );
-  const result = element("div", { class: "card-result", hidden: true }, words, ...pictures);
+  const note = element("p", { class: "small" });
+  const editor = element("div", { class: "card-inputs" });
   const asked = question({
     address: "warm-up",
-    result,
-    show: (found) => show(found),
+    show: ({ inputs: found }) => {
+      effective = found;
+      showValues(editor, found);
+    },
     place: (faults) => placeFaults(editor, faults),
   });
-  holder.replaceChildren(note, editor, asked.line, result);
-  for (const place of places) watch(place);
+  holder.replaceChildren(note, editor, asked.line, asked.result);
 
   /** @type {Tables} */
   let tables = {};
   /** What the inputs show, as text. */
   let shown = "";
-  /** @type {WarmUpAnswer | undefined} */
-  let answer;
-  let system = "";
-  slider.addEventListener("input", () => {
-    if (!answer) return;
-    sayInstant(answer);
-    charts.axis(answer.results, Number(slider.value));
-  });
-
+  /** What counted in the answer. @type {Tables | undefined} */
+  let effective;
   function keyOf(heat = store.state.heat) {
     const { fields, show: design } = store.state;
     return JSON.stringify([tables[SECTION], heat, fields, design, units.currentSystem()]);
@@ -117,9 +79,8 @@ export function setUp(holder) {
       shown = keyOf();
       const isOpen = editor.querySelector("details")?.open ?? false;
       redraw(editor, ...inputs(isOpen));
-      if (answer) showValues(editor, answer.inputs);
+      if (effective) showValues(editor, effective);
     }
-    if (answer && system !== units.currentSystem()) show(answer);
     const hours = hoursOf(heat.hours);
     const cool = heat.rest ? hoursOf(heat.rest) : 0;
     const found = { case: tables, hours: hours ?? 0, cool_down: cool ?? -1 };
@@ -182,72 +143,6 @@ export function setUp(holder) {
         box(words, heat.band, (band) => changeHeat({ band }), { id: "warm-band" }),
       ),
     );
-  }
-
-  /** @param {WarmUpAnswer} found */
-  function show(found) {
-    const isFirst = !answer;
-    answer = found;
-    system = units.currentSystem();
-    const { results, warnings, verdicts, band } = found;
-    result.hidden = false;
-    showValues(editor, found.inputs);
-    const last = results.time.length - 1;
-    slider.max = String(last);
-    if (isFirst || Number(slider.value) > last) slider.value = String(results.works.lastIndexOf(true));
-    sayInstant(found);
-    words.replaceChildren(...lines(verdicts, warnings), steady(found), margin(found));
-    charts.show(results, band, vocabulary, Number(slider.value));
-    rest.replaceChildren(compensation(results), assumptions(found));
-  }
-
-  /** @param {WarmUpAnswer} found */
-  function sayInstant({ results }) {
-    slider.setAttribute("aria-valuetext", HOURS.text(results.time[Number(slider.value)]));
-  }
-
-  /** The state in which it ends, with its band. @param {WarmUpAnswer} found */
-  function steady({ results, band }) {
-    const end = /** @type {Record<string, any>} */ (results.equilibrium);
-    const ends = /** @type {Record<string, any>} */ (band?.equilibrium ?? {});
-    const known = STEADY.filter(([name]) => typeof end[name] === "number");
-    const rows = known.map(([name, { text: inUnits, within }]) => {
-      const meaning = charts.meaning(SERIES[name] ?? name, vocabulary);
-      const found = within(end[name], ends[name]?.low, ends[name]?.high);
-      const shown = data(name, end[name], found?.text ?? inUnits(end[name]));
-      const interval = found ? text("warm_up.interval", { low: found.low, high: found.high }) : "";
-      const beside = element("span", { class: "interval" }, interval);
-      return element("div", {}, element("dt", {}, meaning), element("dd", {}, shown, beside));
-    });
-    return element("div", { class: "numbers" }, element("h3", {}, text("warm_up.ends")), element("dl", {}, ...rows));
-  }
-
-  /** How far the loop of heat is from running away. @param {WarmUpAnswer} found */
-  function margin({ results: { equilibrium, stopped, heat } }) {
-    const sentences = [text("warm_up.margin", { margin: units.digits(equilibrium.margin, units.DIGITS) })];
-    if (stopped !== null) sentences.push(text("warm_up.stopped", { time: HOURS.text(stopped) }));
-    const energy = quantity("J", "kJ");
-    const { generated, stored, lost } = heat;
-    sentences.push(
-      text("warm_up.heat", { generated: energy.text(generated), stored: energy.text(stored), lost: energy.text(lost) }),
-    );
-    sentences.push(text("warm_up.growth_note"));
-    return element("p", { class: "small" }, sentences.join(" "));
-  }
-
-  /** @param {WarmUpAnswer["results"]} results */
-  function compensation({ compensation: found }) {
-    const { place, growth } = /** @type {{ place: number[], growth: (number | null)[] }} */ (found);
-    const { text: inPlace } = quantity("m", "mm");
-    const rows = place.map((one, row) => [inPlace(one), GROWTH.text(growth[row])]);
-    const content = table(text("warm_up.compensation_caption"), [text("warm_up.place"), text("warm_up.growth")], rows);
-    return opened(text("warm_up.compensation"), content);
-  }
-
-  /** @param {WarmUpAnswer} found */
-  function assumptions({ assumed }) {
-    const list = element("ul", {}, ...assumed.map((one) => element("li", {}, one)));
-    return opened(text("warm_up.assumed"), list);
   }
 
   return { follow };

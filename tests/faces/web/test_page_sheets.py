@@ -1,0 +1,165 @@
+"""The renderer of sheets on the page, on a sheet that is made for it: each kind of block, in both systems of units."""
+
+from pathlib import Path
+
+import pytest
+
+TORQUE, LENGTH, PLAIN = ({"unit": unit, "shown_in": shown} for unit, shown in (("N m", "N m"), ("m", "mm"), ("1", "1")))
+
+
+def number(value, quantity, digits=4, **more):
+    return {"value": value, **quantity, "digits": digits, **more}
+
+
+def share(value, *, bar=False, is_change=False, **more):
+    return {"share": value, "bar": bar, "is_change": is_change, **more}
+
+
+def axis(name, quantity, **more):
+    return {"name": name, "quantity": quantity, "log": False, "least": None, **more}
+
+
+def curve(name, x, y, style="line", **more):
+    return {"name": name, "x": x, "y": y, "colour": "blue", "style": style, "second": False, "labels": [], **more}
+
+
+LINES = [("the motor suffices", "verdict", ""), ("it is hot", "warning", "warm"), ("as usual", "small", "")]
+TABLE = {
+    "kind": "table", "name": "sizes", "title": "Sizes", "columns": ["", "value", "share", "words"],
+    "rows": [
+        ["a heading", "", "", ""],
+        ["<b>", number(0.0123456, LENGTH, band=[0.012, 0.0130001]), share(0.255, bar=True), "x"],
+        ["nothing", None, share(0.1, is_change=True, band=[0.0991, 0.1009]), "y"],
+    ],
+    "notes": ["below it."], "detail": False, "is_compact": False, "fields": [],
+}  # fmt: skip
+CHART = {
+    "kind": "chart", "title": "torque over length", "x": axis("length", LENGTH), "y": axis("torque", TORQUE, least=0.0),
+    "second": axis("ratio", PLAIN), "detail": False,
+    "marks": [
+        curve("model", [0.001, 0.002], [0.1, 0.2]),
+        curve("tests", [0.001, 0.002], [0.1, None], "dots", labels=["A"]),
+        curve("ratio", [0.001, 0.002], [1.0, 2.0], "dashed", second=True),
+        {"name": "band", "x": [0.001, 0.002], "low": [0.0, 0.1], "high": [0.2, 0.3], "colour": "grey", "solid": False},
+        {"name": "limit", "y": 0.25, "colour": "red"},
+        {"name": "end", "x": 0.002, "colour": "ink"},
+    ],
+}  # fmt: skip
+BARS = {
+    "kind": "bars", "title": "parts", "quantity": TORQUE, "origin": 0.1, "detail": False,
+    "marks": [{"name": "half", "x": 0.2, "colour": "ink"}],
+    "bars": [
+        {"name": "one", "parts": [["spin", 0.1, "red"], ["other", -0.05, "blue"]], "band": [0.1, 0.3], "text": "t",
+         "hatched": False, "start": None},
+        {"name": "heading", "parts": [], "band": None, "text": "", "hatched": False, "start": None},
+    ],
+}  # fmt: skip
+MAP = {
+    "kind": "map", "title": "a map", "x": axis("length", LENGTH), "y": axis("torque", TORQUE),
+    "value": axis("ratio", PLAIN), "places": [[0.001, 0.002, 0.003], [0.1, 0.2]],
+    "values": [[1.0, 2.0, 3.0], [2.0, None, 4.0]], "marks": [{"name": "", "y": 0.15, "colour": "ink"}], "detail": False,
+}  # fmt: skip
+COLUMNS = {
+    "kind": "columns", "name": "long table",
+    "columns": [{"name": "at", "values": [0.001, 0.002], "quantity": LENGTH},
+                {"name": "what", "values": ["p", "q"], "quantity": None}],
+}  # fmt: skip
+SHEET = {
+    "title": "a sheet",
+    "blocks": [
+        {"kind": "lines", "detail": False, "lines": [{"text": t, "kind": k, "name": n} for t, k, n in LINES]},
+        {"kind": "lines", "detail": True, "lines": [{"text": "an assumption", "kind": "small", "name": ""}]},
+        TABLE, CHART, BARS, MAP, COLUMNS,
+    ],
+}  # fmt: skip
+SHOW = """async (sheet) => {
+  const { sheetPlace } = await import("/page/sheet.js");
+  globalThis.made ??= sheetPlace("made");
+  document.querySelector("#results").prepend(globalThis.made.place);
+  globalThis.made.show(sheet);
+}"""
+
+
+@pytest.fixture
+def page(visit):
+    here = visit().open("#A=paper&band=0")
+    here.page.evaluate(SHOW, SHEET)
+    return here.page
+
+
+def test_lines_and_tables(page):
+    assert page.locator("#made-sheet h3").inner_text() == "A sheet."
+    assert page.locator("#made-sheet .verdict").inner_text() == "The motor suffices."
+    assert page.locator("#made-sheet .warning[data-record=warm]").inner_text() == "Beware: It is hot."
+    assert not page.locator("#made-sheet details >> text=An assumption.").is_visible()
+    rows = page.locator("#made-sheet > div table tbody tr")
+    texts = [[cell.inner_text() for cell in row.locator("th, td").all()] for row in rows.all()]
+    # ends of bands are rounded outward, texts are texts
+    assert texts == [
+        ["a heading", "", "", ""],
+        ["<b>", "12.35\u00a0mm (12 to 13.01)", "25.5\u00a0%", "x"],
+        ["nothing", "\u2013", "+10.0\u00a0% (9.9\u00a0% to 10.1\u00a0%)", "y"],
+    ]
+    assert page.locator("#made-sheet > div .small >> text=Below it.").count() == 1
+    values = page.locator("#made-sheet > div table data").evaluate_all("all => all.map((one) => Number(one.value))")
+    assert values == [0.0123456, 0.255, 0.1]
+
+
+def plot(page, name):
+    page.locator(f"#made-{name}").scroll_into_view_if_needed()
+    page.wait_for_selector(f"#made-{name} .main-svg")
+    return page.locator(f"#made-{name} .plot")
+
+
+def test_charts(page):
+    found = plot(page, "torque-over-length").evaluate(
+        """({ data, layout }) => ({
+          traces: data.map(({ name, x, y, yaxis, mode }) => [name ?? "", x, y, yaxis ?? "y", mode]),
+          titles: [layout.xaxis, layout.yaxis, layout.yaxis2].map(({ title }) => title.text),
+          shapes: layout.shapes.length,
+          least: layout.yaxis.range[0] })"""
+    )
+    assert found["titles"] == ["length (mm)", "torque (N\u00b7m)", "ratio"]
+    assert (found["shapes"], found["least"]) == (2, 0)
+    assert ["model", [1, 2], [0.1, 0.2], "y", "lines"] in found["traces"]
+    assert ["ratio", [1, 2], [1, 2], "y2", "lines"] in found["traces"]
+    legend = page.locator("#made-torque-over-length ul.legend li").all_inner_texts()
+    assert legend == ["band", "model", "tests", "ratio", "limit", "end"]
+    page.locator("#made-torque-over-length summary").click()
+    headings = page.locator("#made-torque-over-length thead th").all_inner_texts()
+    assert headings == [
+        "length (mm)", "model (N\u00b7m)", "tests (N\u00b7m)", "ratio", "band lower end (N\u00b7m)",
+        "band upper end (N\u00b7m)",
+    ]  # fmt: skip
+    assert page.locator("#made-torque-over-length tbody tr").count() == 2
+
+
+def test_bars_and_maps(page):
+    bars = plot(page, "parts").evaluate(
+        "({ data }) => [data.slice(0, 2).map(({ x, base }) => [x[0], base[0]]), data[2].error_x.array[0], data[2].x[0]]"
+    )
+    (spin, other), above, end = bars
+    assert spin == [0.1, 0.1]
+    assert other == [-0.05, 0.1]  # to the left of the origin
+    assert end == pytest.approx(0.15)
+    assert above == pytest.approx(0.15)
+    (grid, x) = plot(page, "a-map").evaluate("({ data }) => [data[0].z, data[0].x]")
+    assert grid == MAP["values"]
+    assert x == [1, 2, 3]
+
+
+def test_columns_are_saved_and_units_change(page):
+    with page.expect_download() as saved:
+        page.locator("#made-sheet [data-columns='long table']").click()
+    text = Path(saved.value.path()).read_text(encoding="utf-8")
+    assert text.split() == ["at", "(mm),what", "1,p", "2,q"]
+    plot(page, "torque-over-length")
+    page.locator("#system").select_option("inch")
+    page.evaluate(SHOW, SHEET)
+    assert page.locator("#made-sheet > div table data").first.inner_text() == "0.486\u00a0in (0.4724 to 0.5119)"
+    page.wait_for_function(
+        "() => document.querySelector('#made-torque-over-length .plot').layout.xaxis.title.text === 'length (in)'"
+    )
+    # a chart that is no more is gone
+    page.evaluate(SHOW, {**SHEET, "blocks": SHEET["blocks"][:3]})
+    assert page.locator("#made-sheet .chart").count() == 0
