@@ -11,6 +11,7 @@ from pathlib import Path
 from accuracy_table import printed
 from ballscrew.evidence.validation.entries import DESCRIPTORS, Conditions, trends
 from ballscrew.evidence.validation.rows import ACCURACY_FACTOR
+from ballscrew.faces.sheets import pictures, terminal
 from ballscrew.physics.components.nut import DoubleNut, OversizeBallNut
 from ballscrew.physics.friction.calibrations import calibrated, calibration, calibrations
 from ballscrew.physics.friction.model import FrictionModel
@@ -18,9 +19,8 @@ from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.physics.sizing.rules import RULES
 from ballscrew.questions.shared import chart_files as files
 from ballscrew.questions.validate import compute as validation
-from ballscrew.questions.validate import figure as figures
+from ballscrew.questions.validate import sheet as sheets
 from ballscrew.questions.validate import summary as summaries
-from ballscrew.questions.validate import text as text_of
 
 SYMBOLS = {"boundary_friction_coefficient": "µ₀", "share_of_load": "F_B/Q"}
 #: Largest error of a rating in the standard's own tests.
@@ -54,11 +54,11 @@ def write(folder: Path) -> None:
         "rules.md": rules_table(),
         "rule_sources.md": sources_table(),
         "rule_scatter.md": residuals_after_rules(),
-        "rows.txt": "\n\n".join(text_of.text_of(entries, asked) for entries in sets) + "\n",
+        "rows.txt": "\n\n".join(terminal.text(sheets.sheet(entries, asked)) for entries in sets) + "\n",
     }
     for name, text in pages.items():
         (folder / name).write_text(text, encoding="utf-8")
-    files.draw(lambda: figures.picture(sets, asked), folder / "validation.svg")
+    files.draw(lambda: pictures.picture(sheets.picture(sets, asked)), folder / "validation.svg")
 
 
 def summary() -> str:
@@ -112,7 +112,7 @@ def groups_table(name: str) -> str:
     definitions = list(dict.fromkeys(one for group in entries[0].groups.values() for one in group.mean_definitions))
     heading = ["rows of", "model", "n", "mean ratio"]
     heading += ["in the band", "middle in its own 95 % band", "high / low of that"] if entries[0].rules else []
-    lines = [[*heading, *(text_of.WORDS[one] for one in definitions)]]
+    lines = [[*heading, *(sheets.WORDS[one] for one in definitions)]]
     lines.append(["---"] * len(lines[0]))
     for entry in entries:
         for group, one in entry.groups.items():
@@ -133,7 +133,7 @@ def rules_table() -> str:
             continue
         name = entries[0].data.name
         own = [(entry, f"**model, {entry.calibration or 'uncalibrated'}**") for entry in entries]
-        rules = [(rule, text_of.WORDS[rule.rule]) for rule in entries[0].rules]
+        rules = [(rule, sheets.WORDS[rule.rule]) for rule in entries[0].rules]
         for one, words in [*own, *rules]:
             mean = f"{one.mean_ratio:.2f}"
             scatter = "–" if math.isnan(one.std_ratio) else f"{one.std_ratio:.2f}"
@@ -160,7 +160,7 @@ def residuals_after_rules() -> str:
             continue
         name = entries[0].data.name
         columns = [(f"**model, {e.calibration or 'uncalibrated'}**", [p.ratio for p in e.points]) for e in entries]
-        columns += [(text_of.WORDS[r.rule], [p.laws[r.rule] for p in points]) for r in entries[0].rules]
+        columns += [(sheets.WORDS[r.rule], [p.laws[r.rule] for p in points]) for r in entries[0].rules]
         for words, ratios in columns:
             factor = math.exp(sum(map(math.log, ratios)) / len(ratios))
             left = math.sqrt(sum((math.log(r / factor)) ** 2 for r in ratios) / (len(ratios) - 1))
@@ -333,7 +333,7 @@ def definitions_table() -> str:
                     _mean(entry),
                 ]
             )
-            lines += [["", text_of.WORDS[name], f"{value:.3f}"] for name, value in entry.mean_definitions.items()]
+            lines += [["", sheets.WORDS[name], f"{value:.3f}"] for name, value in entry.mean_definitions.items()]
     return _table(lines)
 
 
