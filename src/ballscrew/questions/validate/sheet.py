@@ -146,15 +146,13 @@ def _label(entry: Entry) -> str:
 
 
 def _ratios(entries: Sequence[Entry]) -> Table:
-    """Statistics of models, also by kind of rows, and of rules of one line; means of other definitions."""
-    first, rows = entries[0], list[list[Cell]]()
+    """Statistics of each model, also by kind of rows, with the means of other definitions, and of rules of one line."""
+    data, rows = entries[0].data, list[list[Cell]]()
     for entry in entries:
-        rows.append(_statistics(_label(entry), entry, first.data))
+        rows += [_statistics(_label(entry), entry, data), *_definitions(entry, "  ")]
         for name, group in entry.groups.items() if len(entry.groups) > 1 else ():
-            rows.append(_statistics(f"  {name}", group, first.data))
-            rows += _definitions(group, "    ") if entry is first else []
-    rows += [_statistics(f"rule: {WORDS[rule.rule]}", rule, first.data) for rule in first.rules]
-    return _filled("ratios", [*rows, *_definitions(first)])
+            rows += [_statistics(f"  {name}", group, data), *_definitions(group, "    ")]
+    return _filled("ratios", [*rows, *(_statistics(f"rule: {WORDS[r.rule]}", r, data) for r in entries[0].rules)])
 
 
 def of_sets(entries: Sequence[Entry]) -> Table:
@@ -180,7 +178,7 @@ def _statistics(name: str, found: Entry | RuleEntry, data: ValidationSet) -> lis
     return [name, _number(n), *mean, *ends, _share(found.share_in_band), _share(own), _number(width, 2)]
 
 
-def _definitions(entry: Entry, indent: str = "") -> list[list[Cell]]:
+def _definitions(entry: Entry, indent: str) -> list[list[Cell]]:
     nothing = [None] * (len(_STATISTICS) - 3)
     n = _number(len(entry.points))
     return [[f"{indent}{WORDS[name]}", n, _number(mean), *nothing] for name, mean in entry.mean_definitions.items()]
