@@ -9,8 +9,11 @@ import textwrap
 from pathlib import Path
 
 from accuracy_table import printed
+from ballscrew.basis.output.sheet import Table
+from ballscrew.basis.output.sheet import words as written
 from ballscrew.evidence.validation.entries import DESCRIPTORS, Conditions, trends
 from ballscrew.evidence.validation.rows import ACCURACY_FACTOR
+from ballscrew.faces.sheets import pictures, terminal
 from ballscrew.physics.components.nut import DoubleNut, OversizeBallNut
 from ballscrew.physics.friction.calibrations import calibrated, calibration, calibrations
 from ballscrew.physics.friction.model import FrictionModel
@@ -18,9 +21,8 @@ from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.physics.sizing.rules import RULES
 from ballscrew.questions.shared import chart_files as files
 from ballscrew.questions.validate import compute as validation
-from ballscrew.questions.validate import figure as figures
+from ballscrew.questions.validate import sheet as sheets
 from ballscrew.questions.validate import summary as summaries
-from ballscrew.questions.validate import text as text_of
 
 SYMBOLS = {"boundary_friction_coefficient": "µ₀", "share_of_load": "F_B/Q"}
 #: Largest error of a rating in the standard's own tests.
@@ -54,11 +56,11 @@ def write(folder: Path) -> None:
         "rules.md": rules_table(),
         "rule_sources.md": sources_table(),
         "rule_scatter.md": residuals_after_rules(),
-        "rows.txt": "\n\n".join(text_of.text_of(entries, asked) for entries in sets) + "\n",
+        "rows.txt": "\n\n".join(terminal.text(sheets.sheet(entries, asked)) for entries in sets) + "\n",
     }
     for name, text in pages.items():
         (folder / name).write_text(text, encoding="utf-8")
-    files.draw(lambda: figures.picture(sets, asked), folder / "validation.svg")
+    files.draw(lambda: pictures.picture(sheets.picture(sets, asked)), folder / "validation.svg")
 
 
 def summary() -> str:
@@ -81,21 +83,15 @@ def _of_makers():
     return summaries.summary(asked, sets)[0]
 
 
+def _of_sheet(table: Table) -> str:
+    """A table of a sheet as Markdown, where a dot takes the place of an indent."""
+    rows = [[written(cell, with_unit=not table.is_compact).replace("  ", "· ") for cell in row] for row in table.rows]
+    return _table([table.columns, ["---"] * len(table.columns), *rows])
+
+
 def makers_table() -> str:
     """No-load torques by maker and kind of nut: the model, its calibrations, and rules."""
-    lines = [["maker", "nut", "what", "n", "mean ratio", "scatter", "in the band", "over d₀", "over P_h", "rows"]]
-    lines.append(["---"] * len(lines[0]))
-    last = ("", "")
-    for row in _of_makers():
-        place = (row.maker, row.nut)
-        who = f"rule: {RULES[row.name].title}" if row.kind == summaries.RULE else f"**{row.name}**"
-        scatter = "–" if math.isnan(row.std_ratio) else f"{row.std_ratio:.2f}"
-        exponents = [_signed(row.exponents[name]) if name in row.exponents else "–" for name in ("size", "lead")]
-        numbers = [str(row.n), f"{row.mean_ratio:.2f}", scatter, _percent(row.share_in_band), *exponents]
-        used = "chosen on" if row.chosen_on else "never used"
-        lines.append([*(["", ""] if place == last else place), who, *numbers, used])
-        last = place
-    return _table(lines)
+    return _of_sheet(next(sheets.of_makers(_of_makers()).of_kind(Table)))
 
 
 def used_table() -> str:
@@ -108,21 +104,9 @@ def used_table() -> str:
 
 def groups_table(name: str) -> str:
     """The kinds of nut, or the makers, of a set: the model as it is and calibrated, and other definitions."""
-    entries = next(entries for entries in found()[1] if entries[0].data.name == name)
-    definitions = list(dict.fromkeys(one for group in entries[0].groups.values() for one in group.mean_definitions))
-    heading = ["rows of", "model", "n", "mean ratio"]
-    heading += ["in the band", "middle in its own 95 % band", "high / low of that"] if entries[0].rules else []
-    lines = [[*heading, *(text_of.WORDS[one] for one in definitions)]]
-    lines.append(["---"] * len(lines[0]))
-    for entry in entries:
-        for group, one in entry.groups.items():
-            cells = [group, entry.calibration or "uncalibrated", str(len(one.counted)), _spread(one)]
-            if one.rules:
-                cells += [_percent(one.share_in_band), _percent(one.share_in_uncertainty_band)]
-                cells.append(f"{one.uncertainty_width:.1f}")
-            means = one.mean_definitions
-            lines.append([*cells, *(f"{means[key]:.2f}" if key in means else "–" for key in definitions)])
-    return _table(lines)
+    asked, sets = found()
+    entries = next(entries for entries in sets if entries[0].data.name == name)
+    return _of_sheet(next(sheets.sheet(entries, asked).of_kind(Table)))
 
 
 def rules_table() -> str:
@@ -133,7 +117,7 @@ def rules_table() -> str:
             continue
         name = entries[0].data.name
         own = [(entry, f"**model, {entry.calibration or 'uncalibrated'}**") for entry in entries]
-        rules = [(rule, text_of.WORDS[rule.rule]) for rule in entries[0].rules]
+        rules = [(rule, sheets.WORDS[rule.rule]) for rule in entries[0].rules]
         for one, words in [*own, *rules]:
             mean = f"{one.mean_ratio:.2f}"
             scatter = "–" if math.isnan(one.std_ratio) else f"{one.std_ratio:.2f}"
@@ -160,7 +144,7 @@ def residuals_after_rules() -> str:
             continue
         name = entries[0].data.name
         columns = [(f"**model, {e.calibration or 'uncalibrated'}**", [p.ratio for p in e.points]) for e in entries]
-        columns += [(text_of.WORDS[r.rule], [p.laws[r.rule] for p in points]) for r in entries[0].rules]
+        columns += [(sheets.WORDS[r.rule], [p.laws[r.rule] for p in points]) for r in entries[0].rules]
         for words, ratios in columns:
             factor = math.exp(sum(map(math.log, ratios)) / len(ratios))
             left = math.sqrt(sum((math.log(r / factor)) ** 2 for r in ratios) / (len(ratios) - 1))
@@ -333,7 +317,7 @@ def definitions_table() -> str:
                     _mean(entry),
                 ]
             )
-            lines += [["", text_of.WORDS[name], f"{value:.3f}"] for name, value in entry.mean_definitions.items()]
+            lines += [["", sheets.WORDS[name], f"{value:.3f}"] for name, value in entry.mean_definitions.items()]
     return _table(lines)
 
 
@@ -479,10 +463,6 @@ def _relative_scatter(ratios) -> str:
     mean = sum(ratios) / len(ratios)
     scatter = math.sqrt(sum((ratio - mean) ** 2 for ratio in ratios) / (len(ratios) - 1)) / mean
     return f"{100 * scatter:.1f} %"
-
-
-def _signed(number: float) -> str:
-    return f"{number:+.2f}".replace("-", "−")
 
 
 def _percent(share: float) -> str:

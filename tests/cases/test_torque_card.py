@@ -14,7 +14,7 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.cases.torque_cards import torque_card, torque_card_log
 from ballscrew.questions.validate import compute as validation
 from ballscrew.questions.validate import document as documents
-from ballscrew.questions.validate import text
+from ballscrew.questions.validate.sheet import sheet
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "torque_cards" / "synthetic_40x10.toml"
 TEXT = EXAMPLE.read_text(encoding="utf-8")
@@ -123,7 +123,7 @@ def test_a_card_against_the_model():
     rule = next(rule for rule in before["rules"] if rule["rule"] == "rexroth")
     torques = [point.torque for point in card.points]
     assert rule["mean_ratio"] == pytest.approx(sum(0.004 * 3605 * 0.04 / t for t in torques) / len(torques))
-    assert "SYNTHETIC" in text.text_of(entries, request)
+    assert "SYNTHETIC" in sheet(entries, request).title
 
 
 def test_cards_go_with_no_set():

@@ -1,25 +1,24 @@
 """``ballscrew validate``: text, JSON and picture; rows of one's own, good and bad."""
 
 import json
+import math
 import re
-from pathlib import Path
 
 import pytest
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.text import Text
 
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.json_text import plain
+from ballscrew.basis.output.sheet import Chart, Curve, Lines
 from ballscrew.basis.output.wrapping import WIDTH
 from ballscrew.cases.case_files import case_file
 from ballscrew.evidence.validation.sets import SETS
+from ballscrew.faces.sheets import pictures
 from ballscrew.physics.friction.calibrations import calibration
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.questions.shared import charts
+from ballscrew.questions.shared.charts import house_style
 from ballscrew.questions.validate import compute as validation
 from ballscrew.questions.validate import document as validation_documents
-from ballscrew.questions.validate import figure as figures
-from ballscrew.questions.validate import text as validation_text
+from ballscrew.questions.validate import sheet as sheets
 from support.documents import assert_same
 from support.validation_sets import every_set
 
@@ -314,22 +313,26 @@ def test_text(ballscrew):
     double, single = process.stdout.split("\n\nrexroth-single-nut: ")
     words = " ".join(double.split())
     assert "100 rpm, ISO VG 100 at 25 degC, no load, no wipers" in words
-    found = r"uncalibrated \(reference\) n = 24, mean ratio 0\.86\d ± 0\.09\d, 96% of rows in their band"
-    assert re.search(found, words)
-    assert re.search(r"calibrated \(rexroth-2006\) n = 24, mean ratio 1\.0\d\d ± 0\.09\d, 96% of rows", words)
-    assert words.index("uncalibrated") < words.index(" calibrated (")
+    assert "n mean scatter least greatest in band own band high / low uncalibrated (reference)" in words
+    assert re.search(r"uncalibrated \(reference\) 24 0\.86\d+ 0\.09\d+ 0\.75\d 1\.1\d 95\.8% 100\.0% 3\.\d", words)
+    assert re.search(r" calibrated \(rexroth-2006\) 24 1\.0\d\d 0\.09\d+ 0\.88\d 1\.2\d 95\.8% 100\.0% 2\.\d", words)
+    assert re.search(r"rule: Rexroth's rule 24 0\.99\d+ ", words)
     rows = [line for line in double.splitlines() if re.search(r" at (7|10) %", line)]
     assert len(rows) == 24
-    assert sum(line.count("outside") for line in rows) == 1 + 1
-    assert "apart, with a maximum only, which is in no mean:" in single
+    assert sorted(line.split()[-1] for line in rows if line.endswith(("model", "calibrated"))) == [
+        "calibrated",
+        "model",
+    ]
+    assert re.search(r"  16x5x3-4 at 7 % +0\.055 \(0\.03 to 0\.08\) +0\.0550\d? +1", rows[0])
+    assert "apart, with a maximum only, which is in no mean\n" in single
     assert len(re.findall(r" at 2 %", single)) >= 18
 
 
 def test_warnings_of_the_model_are_told(ballscrew):
     process = ballscrew("validate", "thk-jis", "--speed", "100000 rpm")
     assert process.returncode == 0, process.stderr
-    assert re.search(r"beware, uncalibrated \(reference\), \d+ rows?: \w+: ", process.stdout)
-    assert "beware" not in ballscrew("validate", "thk-jis").stdout
+    assert re.search(r"warning  \w+: uncalibrated \(reference\), 1 rows: ", process.stdout)
+    assert "warning" not in ballscrew("validate", "thk-jis").stdout
 
 
 def test_picture(ballscrew, tmp_path):
@@ -340,61 +343,69 @@ def test_picture(ballscrew, tmp_path):
     assert (tmp_path / "a.svg").read_bytes() == (tmp_path / "b.svg").read_bytes()
 
 
-def test_picture_shows_axes_case_and_all_ratios():
+def test_picture_shows_all_ratios_with_their_bands():
     asked = validation.request()
     found = [list(entries) for entries in every_set()]
-    with charts.house_style():
-        figure = figures.ratios(
-            found,
-            validation_text.caption(found, asked),
-            [validation_text.source_and_fit(data, asked) for data in asked.sets],
-        )
-        canvas = FigureCanvasAgg(figure)
-        figure.draw_without_rendering()
-        page = figure.bbox.padded(1.0)
-        for text in figure.findobj(Text):
-            if text.get_text() and text.get_visible() and text not in _tick_labels(figure):
-                box = text.get_window_extent(canvas.get_renderer())
-                inside = page.x0 <= box.x0 and box.x1 <= page.x1 and page.y0 <= box.y0 and box.y1 <= page.y1
-                assert inside, text.get_text()
-        # rings of two sizes of balls, and a single worked example, have no panel of their own for it
-        drawn = [entries for entries in found for axis in entries[0].data.axes if _values(entries, axis) > 2]
-        assert len(figure.axes) == len(drawn) == 2 * len(SETS) - 3
-        for panel, entries in zip(figure.axes, drawn, strict=True):
-            data, legend = entries[0].data, panel.get_legend()
-            assert panel.get_ylabel() == "model / stated"
-            assert panel.get_title(loc="left").replace("\n", " ") == data.title
-            fitted = "fitted: rexroth-2006" if data.name in FITTED else "not fitted"
-            assert legend.get_title().get_text() == f"{data.source}; {fitted}"
-            assert not legend.get_window_extent().overlaps(panel.get_window_extent())
-            _, top = panel.get_ylim()
-            assert all(0 < point.ratio < top for entry in entries for point in entry.points)
-        places = {panel.get_xlabel() for panel in figure.axes}
-        of_screws = {"nominal diameter (mm)", "lead / nominal diameter", "lead (mm)", "film parameter at the screw"}
-        assert places == {*of_screws, "speed (rpm)", "bore (mm)", "preload (N)"}
-    words = " ".join(" ".join(text.get_text() for text in figure.texts).split())
+    seen = sheets.picture(found, asked)
+    charts = list(seen.of_kind(Chart))
+    # rings of two sizes of balls, and a single worked example, show no trend over it
+    names = [(data.name, name) for data in SETS.values() for name in data.axes if _values(found, data.name, name) > 2]
+    assert len(names) == 2 * len(SETS) - 3
+    shown = {(chart.title, chart.x.quantity.name): chart for chart in charts}
+    assert [*shown] == [*names[:6], ("thk-jis", "size"), *names[6:]]
+    for (set_name, name), chart in shown.items():
+        (entries,) = (entries for entries in found if entries[0].data.name == set_name)
+        bands, level, *curves = chart.marks
+        assert (level.y, chart.y.name, chart.y.least) == (1.0, "model / stated", 0.0)
+        for entry, curve in zip(entries, curves, strict=True):
+            fitted = ", fitted" if set_name in FITTED else ""
+            assert curve.name == (f"{entry.calibration}{fitted}" if entry.calibration else "uncalibrated")
+            assert curve.x == [point.descriptors[name] for point in entry.points]
+            assert curve.y == [point.ratio for point in entry.points]
+        ends = [(p.band.low / p.band.middle, p.band.high / p.band.middle) for p in entries[0].points if p.band.high]
+        assert isinstance(bands, Curve)
+        assert list(zip(bands.y[::3], bands.y[1::3], strict=True)) == ends
+        assert all(math.isnan(gap) for gap in bands.y[2::3])
+        assert bands.name == ("stated band" if ends else "")
+    words = " ".join(line.text for block in seen.of_kind(Lines) for line in block.lines)
     for said in (
-        "No-load torques: 100 rpm, ISO VG 100 at 25 degC",
-        "; hiwin-stock: 100 rpm, ISO VG 68 at 25 degC, no load",
-        "Model reference",
-        "boundary friction 0.143",
-        "0.011 of the load",
-        "Not drawn, too few sizes: thk-jis (as it is: 0.54",
+        "model reference",
+        "calibration rexroth-2006: boundary friction 0.143, ball force 0.011 of the load",
+        "rexroth-double-nut: no-load torque of double nuts",
+        "stated: Bosch Rexroth R310RU 3301 (2006.02); 100 rpm, ISO VG 100 at 25 degC, no load, no wipers",
+        "stated: HIWIN S99TE20-1610; 100 rpm, ISO VG 68 at 25 degC, no load, no wipers",
     ):
         assert said in words
+    with house_style():
+        panels = pictures.picture(seen).axes
+    for panel, chart in zip(panels, charts, strict=True):
+        _, top = panel.get_ylim()
+        assert all(0 < ratio < top for curve in chart.marks[2:] for ratio in curve.y)
 
 
-def _values(entries, axis):
-    return len({point.descriptors[axis] for point in entries[0].points})
+def _values(found, set_name, name):
+    (points,) = (entries[0].points for entries in found if entries[0].data.name == set_name)
+    return len({point.descriptors[name] for point in points})
+
+
+def test_sheets_as_json(ballscrew):
+    both = documents(ballscrew("validate", "thk-jis", "hiwin-ratings", "--sheet"))
+    assert [sheet["title"].partition(":")[0] for sheet in both] == ["thk-jis", "hiwin-ratings"]
+    _, ratios, rows, *_ = both[0]["blocks"]
+    assert (ratios["name"], rows["name"]) == ("ratios", "rows")
+    (example,) = documents(ballscrew("validate", "thk-jis", "--json"))[0]["rows"]
+    stated, model = rows["rows"][0][1:3]
+    assert (stated["value"], stated["band"], model["value"]) == (example["middle"], example["band"], example["value"])
+    (makers,) = documents(ballscrew("validate", "thk-jis", "--summary", "--sheet"))
+    assert [block["name"] for block in makers["blocks"] if block["kind"] == "table"] == ["makers"]
 
 
 def test_own_rows_are_not_the_vendors(ballscrew, own):
     process = ballscrew("validate", "rexroth-single-nut", "--rows", own(GOOD, OTHER))
     assert process.returncode == 0, process.stderr
-    assert process.stdout.splitlines()[2].startswith("  rows of own.csv; 100 rpm")
+    assert "stated: rows of own.csv; 100 rpm" in process.stdout
+    assert "chosen on these rows: nothing of the model" in process.stdout
     assert "Rexroth R310" not in process.stdout
-    asked = validation.request(["rexroth-single-nut"], rows=Path("own.csv"))
-    assert validation_text.source_and_fit(asked.sets[0], asked) == "rows of own.csv; not fitted"
 
 
 def test_no_line_is_wider_than_the_widest(ballscrew):
@@ -402,19 +413,6 @@ def test_no_line_is_wider_than_the_widest(ballscrew):
     process = ballscrew("validate", *names, "--speed", "100000 rpm")
     assert process.returncode == 0, process.stderr
     assert max(map(len, process.stdout.splitlines())) <= WIDTH
-
-
-def test_rows_side_by_side_where_nothing_else_differs():
-    asked = validation.request(["thk-jis"])
-    found = [entries for entries, _ in validation.evaluate(asked)]
-    with charts.house_style():
-        (panel,) = figures.ratios(found, "caption", ["a vendor"]).axes
-    assert panel.get_xlabel() == "row"
-    assert [label.get_text() for label in panel.get_xticklabels()] == ["BNFN4010-5"]
-
-
-def _tick_labels(figure):
-    return {label for panel in figure.axes for axis in (panel.xaxis, panel.yaxis) for label in axis.get_ticklabels()}
 
 
 def test_help_is_instant(ballscrew):

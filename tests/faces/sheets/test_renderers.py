@@ -136,6 +136,13 @@ def test_terminal():
     ]
 
 
+def test_a_compact_table_has_its_unit_in_its_title():
+    cells = ["first", Number(0.25, LENGTH, band=(0.21234, 0.29876))]
+    table = Table("t", "Strokes, mm", ("", "stroke"), [cells], is_compact=True)
+    assert terminal.text(Sheet("s", [table])).splitlines()[-1] == "  first      250 (212.3 to 298.8)"
+    assert report_blocks.table(table).rows == [["first", "250 (212.3 to 298.8)"]]
+
+
 def test_bars_on_the_terminal():
     table = Table("t", "T", ("", "share"), [["half", Share(0.5)], ["none", Share(0.0)], ["beyond", Share(1.5)]])
     lines = terminal.text(Sheet("s", [table])).splitlines()
@@ -222,6 +229,9 @@ def test_axes_of_a_picture():
     _, second, *_ = pictures.picture(SHEET).axes
     assert second.get_yscale() == "log"
     assert second.get_ylim()[0] == pytest.approx(1e-3)
+    curve = Curve("", [1.0, 2.0], [0.99, 1.01], style="circles")
+    (high,) = pictures.picture(Sheet("s", [Chart("c", Axis("x", TURNS), Axis("y", TURNS, least=0.0), [curve])])).axes
+    assert high.get_ylim() == pytest.approx((0.0, 1.01 * 1.05))  # no circle is cut by the frame
 
 
 def test_json():

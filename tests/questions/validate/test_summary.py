@@ -5,9 +5,11 @@ import pytest
 
 from ballscrew.evidence.validation.entries import Band, Point, exponents
 from ballscrew.evidence.validation.sets import SETS
+from ballscrew.faces.sheets import terminal
 from ballscrew.physics.friction.calibrations import calibrations
 from ballscrew.questions.validate import compute as validation
 from ballscrew.questions.validate import summary as summaries
+from ballscrew.questions.validate.sheet import of_makers
 
 
 @pytest.fixture(scope="module")
@@ -109,12 +111,14 @@ def test_entries_computed_before_are_used(asked, table):
 
 
 def test_lines_for_people(table):
-    text = summaries.text_of(table)
-    assert "Rexroth" in text
-    head, *lines = [line for line in text.splitlines() if line.startswith("  ")]
-    assert head.split() == ["maker", "nut", "what", "n", "mean", "ratio", "scatter", "in", "band", "d0^", "Ph^", "rows"]
+    text = terminal.text(of_makers(table))
+    head, *lines = text.split("\n\n")[1].splitlines()
+    assert head.split() == ["Model", "/", "middle", "n", "mean", "scatter", "in", "band", "d0^", "Ph^", "rows"]
+    assert [line for line in lines if line in {"  Rexroth, single", "  THK, double"}] == [lines[0], lines[9]]
     told = [line for line in lines if line.endswith(("chosen on", "never used"))]
     assert len(told) == len(table)
     for line, row in zip(told, table, strict=True):
-        assert f"{row.mean_ratio:.2f}" in line
+        assert f" {row.n} " in line
+        assert f"{float(f'{row.mean_ratio:.3g}'):g}" in line
         assert line.endswith("chosen on" if row.chosen_on else "never used")
+    assert "chosen on rexroth-single-nut: " in text

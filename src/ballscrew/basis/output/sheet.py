@@ -284,14 +284,12 @@ class Sheet:
 def words(cell: Cell, *, with_unit: bool = True) -> str:
     """A cell as people write it: numbers in display units, ends of a band rounded outward, a dash for nothing."""
     match cell:
-        case Number(value, quantity, digits) if not with_unit:
-            return plain(units.rounded(value + 0.0, quantity, digits)) if math.isfinite(value) else "–"
         case None:
             return "–"
         case Number(value, quantity, digits, band, toward):
             has_band = band is not None and math.isfinite(value)
             ends = _band_in_words(band, lambda end, to: plain(units.rounded(end, quantity, digits, to))) * has_band
-            return f"{_in_words(value, quantity, digits, toward)}{ends}"
+            return f"{_in_words(value, quantity, digits, toward, with_unit)}{ends}"
         case Share(value, is_change=True):
             return f"{value:+.1%}" if math.isfinite(value) and round(value, 3) else words(Share(value))
         case Share(value, _, band):
@@ -313,9 +311,10 @@ def _percent(end: float, toward: int) -> str:
     return f"{(math.ceil(tenths) if toward > 0 else math.floor(tenths)) / 10 + 0.0:.1f}%"
 
 
-def _in_words(value: float, quantity: Quantity, digits: int, toward: int) -> str:
+def _in_words(value: float, quantity: Quantity, digits: int, toward: int, with_unit: bool) -> str:
     if math.isfinite(value):
-        return plain(units.shown(value + 0.0, quantity, digits, toward))  # adding zero: no "-0"
+        written = units.shown if with_unit else units.rounded
+        return plain(written(value + 0.0, quantity, digits, toward))  # adding zero: no "-0"
     return "infinite" if value > 0 else "–"
 
 

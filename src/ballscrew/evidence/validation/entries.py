@@ -381,14 +381,6 @@ class Entry:
         """The values with a maximum only, of all points."""
         return [apart for point in self.points for apart in point.upper_limits]
 
-    @property
-    def warnings(self) -> dict[str, int]:
-        """The model's warnings, each in the words of the first point that has it, and for how many points."""
-        every = [record for point in self.points for record in point.warnings]
-        ids = [record.id for record in every]
-        first = {record.id: record for record in reversed(every)}
-        return {f"{first[id].name}: {first[id].text}": ids.count(id) for id in dict.fromkeys(ids)}
-
 
 def mean(numbers: Sequence[float]) -> float:
     """Mean; NaN of nothing."""

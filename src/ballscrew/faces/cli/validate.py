@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+if TYPE_CHECKING:
+    from ballscrew.basis.output.sheet import Sheet
+    from ballscrew.evidence.validation.entries import Entry
+    from ballscrew.questions.validate.summary import SummaryRow
 
 
 def validate(
@@ -24,6 +29,9 @@ def validate(
         bool, typer.Option("--summary", help="Drag torques by maker and kind of nut in one table, without their rows.")
     ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON list, SI units; of --summary one object.")] = False,
+    as_sheet: Annotated[
+        bool, typer.Option("--sheet", help="What people see as one JSON list, a sheet for each set.")
+    ] = False,
     to: Annotated[
         Path | None, typer.Option("--to", "-o", metavar="FILE", help="Also draw the ratios: .png, .svg or .pdf.")
     ] = None,
@@ -59,11 +67,13 @@ def validate(
     people use in place of a model.
     """
     from ballscrew.basis.output import json_text
+    from ballscrew.basis.output import sheet as sheets
+    from ballscrew.faces.sheets import terminal
     from ballscrew.questions.shared import chart_files as files
     from ballscrew.questions.validate import compute as validation
     from ballscrew.questions.validate import document as documents
+    from ballscrew.questions.validate import sheet as seen
     from ballscrew.questions.validate import summary as summaries
-    from ballscrew.questions.validate import text
 
     request = validation.request(
         sets or [],
@@ -87,30 +97,37 @@ def validate(
         check_kind("--report", report)
     for note in request.notes:
         typer.echo(note, err=True)
-    found = []
+    found: list[list[Entry]] = []
+    shown: list[Sheet] = []
+    quiet = as_json or as_sheet
     for entries, notes in validation.evaluate(request) if not summary else ():
         found.append(entries)
+        shown.append(seen.sheet(entries, request))
         for note in notes:
             typer.echo(note, err=True)
-        if not as_json:
-            typer.echo(("\n" if len(found) > 1 else "") + text.text_of(entries, request))
+        if not quiet:
+            typer.echo(("\n" if len(found) > 1 else "") + terminal.text(shown[-1]))
+    table: list[SummaryRow] = []
     if summary or (request.everything and not as_json):
         table, notes = summaries.summary(request, found)
+        shown.append(seen.of_makers(table))
         for note in notes:
             typer.echo(note, err=True)
-        if found:
-            typer.echo("")
-        typer.echo(json_text.as_json(summaries.document(table)) if as_json else summaries.text_of(table))
+        if not quiet:
+            typer.echo(("\n" if found else "") + terminal.text(shown[-1]))
+    if as_sheet:
+        typer.echo(json_text.as_json([sheets.document(one) for one in shown]))
     elif as_json:
-        typer.echo(json_text.as_json(documents.documents([entry for entries in found for entry in entries])))
+        every = [entry for entries in found for entry in entries]
+        typer.echo(json_text.as_json(summaries.document(table) if summary else documents.documents(every)))
     if report is not None:
         from ballscrew.faces.report.files import written
-        from ballscrew.questions.validate.report import report as report_of
+        from ballscrew.faces.report.validation import report as report_of
 
         whole = report_of(request, found, summaries.summary(request, found)[0])
-        typer.echo(f"{report}: report, {written('--report', report, whole) // 1000} kB", err=as_json)
+        typer.echo(f"{report}: report, {written('--report', report, whole) // 1000} kB", err=quiet)
     if to is not None:
-        from ballscrew.questions.validate import figure as figures  # matplotlib is slow to import
+        from ballscrew.faces.sheets import pictures  # matplotlib is slow to import
 
-        files.draw(lambda: figures.picture(found, request), to)
-        typer.echo(f"{to}: {len(found)} sets", err=as_json)
+        files.draw(lambda: pictures.picture(seen.picture(found, request)), to)
+        typer.echo(f"{to}: {len(found)} sets", err=quiet)

@@ -153,7 +153,10 @@ def _axes(panel: Axes, block: Chart | Map) -> None:
     if block.x.least is not None:
         panel.set_xlim(left=float(_shown(block.x.least, block.x)))
     if block.y.least is not None:
-        panel.set_ylim(bottom=float(_shown(block.y.least, block.y)))
+        least = float(_shown(block.y.least, block.y))
+        panel.update_datalim([(0.0, least)], updatex=False)  # the margin above is one of the whole axis
+        panel.autoscale_view()
+        panel.set_ylim(bottom=least)
 
 
 def _shown(values: Any, axis: Axis) -> Any:

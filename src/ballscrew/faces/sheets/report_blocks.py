@@ -52,7 +52,7 @@ def table(block: SheetTable) -> Table:
     """A table of a report; shares with a bar have one beside them."""
     bars, texts = block.bars(), tuple(block.text_columns())
     note = " ".join(f"{sentence(note.removesuffix('.'))}." for note in block.notes)
-    rows: list[list[str | Bar]] = [list(map(words, row)) for row in block.rows]
+    rows: list[list[str | Bar]] = [[words(cell, with_unit=not block.is_compact) for cell in row] for row in block.rows]
     if not any(share is not None for share in bars):
         return Table(block.title, block.columns, rows, texts, texts[-1], note)
     for row, share in zip(rows, bars, strict=True):

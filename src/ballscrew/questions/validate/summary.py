@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from ballscrew.basis.output.wrapping import aligned, wrapped
 from ballscrew.evidence.validation.entries import Entry, RuleEntry, may_be_fitted
 from ballscrew.physics.friction.calibrations import calibrated, calibrations
 from ballscrew.physics.friction.model import FrictionModel
-from ballscrew.physics.sizing.rules import DRAG_RULES, RULES
+from ballscrew.physics.sizing.rules import DRAG_RULES
 from ballscrew.questions.validate.compute import Request, entries_of
 
 #: What the rows of the table are of.
 MODEL, CALIBRATION, RULE = "model", "calibration", "rule"
 _CHOSEN_MODEL = FrictionModel.reference().name
 _BEHIND = "rule {rule}: the values stated are computed by it"
-_HEADINGS: Sequence[str] = ("maker", "nut", "what", "n", "mean ratio", "scatter", "in band", "d0^", "Ph^", "rows")
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -117,34 +114,3 @@ def _row(entry: Entry, group: str, kind: str, name: str, of: Entry | RuleEntry, 
 def document(rows: Sequence[SummaryRow]) -> dict[str, Any]:
     """The table as a document."""
     return {"summary": [dataclasses.asdict(row) for row in rows]}
-
-
-def text_of(rows: Sequence[SummaryRow]) -> str:
-    """The table for people, and what was chosen on the rows of each maker."""
-    lines: list[list[str]] = [[*_HEADINGS]]
-    last = ("", "")
-    for row in rows:
-        place = (row.maker, row.nut)
-        words = ["", ""] if place == last else [row.maker, row.nut]
-        lines.append([*words, *_cells(row)])
-        last = place
-    head = "no-load torques by maker and kind of nut: model / middle of the band; exponents of one fit over d0 and Ph"
-    table = [f"  {line}" for line in aligned(lines, of_text=(0, 1, 2, 9))]
-    return "\n".join([head, "", *table, "", *map(wrapped, _choices(rows))])
-
-
-def _choices(rows: Sequence[SummaryRow]) -> list[str]:
-    """A line for each set that something was chosen on."""
-    chosen: dict[str, dict[str, None]] = {}
-    for row in rows:
-        chosen.setdefault(row.set, {}).update(dict.fromkeys(row.chosen_on))
-    return [f"  chosen on {name}: {'; '.join(words)}" for name, words in chosen.items() if words]
-
-
-def _cells(row: SummaryRow) -> list[str]:
-    who = f"rule: {RULES[row.name].title}" if row.kind == RULE else row.name
-    share = "–" if row.share_in_band is None else f"{row.share_in_band:.0%}"
-    exponents = [f"{row.exponents[name]:+.2f}" if name in row.exponents else "–" for name in ("size", "lead")]
-    scatter = f"{row.std_ratio:.2f}" if math.isfinite(row.std_ratio) else "–"
-    used = "chosen on" if row.chosen_on else "never used"
-    return [who, str(row.n), f"{row.mean_ratio:.2f}", scatter, share, *exponents, used]

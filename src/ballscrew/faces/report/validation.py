@@ -9,19 +9,17 @@ import dataclasses
 import math
 from collections.abc import Sequence
 
-import numpy as np
 from matplotlib.figure import Figure
 
-from ballscrew.basis import units
 from ballscrew.basis.version import __version__
-from ballscrew.evidence.validation.entries import Entry, Point, fitted_rows, may_be_fitted
-from ballscrew.physics.sizing.rules import RULES
+from ballscrew.evidence.validation.entries import Entry, fitted_rows, may_be_fitted
+from ballscrew.faces.sheets import report_blocks
 from ballscrew.questions.shared import charts
 from ballscrew.questions.shared.chart_svg import named, svg_of
-from ballscrew.questions.shared.report_blocks import Block, Bullets, Paragraph, Picture, Report, Section, Table
+from ballscrew.questions.shared.report_blocks import Bullets, Paragraph, Picture, Report, Section, Table
+from ballscrew.questions.validate import sheet as sheets
 from ballscrew.questions.validate.compute import Request
 from ballscrew.questions.validate.summary import CALIBRATION, MODEL, RULE, SummaryRow
-from ballscrew.questions.validate.text import WORDS
 
 _TITLE = "What friction models of ball screws are worth"
 _PAGES = 16
@@ -56,10 +54,10 @@ def report(request: Request, found: Sequence[Sequence[Entry]], table: Sequence[S
     sections = [
         Section("In short", [Paragraph(text, strong=not place) for place, text in enumerate(_in_short(plain, table))]),
         *(_of_makers(plain, table) if table else ()),
-        Section("Other statements", [_others(plain)]),
+        Section("Each set", [report_blocks.table(sheets.of_sets(plain))]),
         Section("What nobody has measured", [Bullets(NOT_MEASURED)]),
         Section("The experiment that would settle it", [Bullets(EXPERIMENT), _CALL]),
-        *(Section(entry.data.name, _rows(entry)) for entry in plain),
+        *(Section(e.data.name, report_blocks.blocks(sheets.sheet([e], request), e.data.name)) for e in plain),
     ]
     subtitle = [f"model {request.model.label}; ratios are model / middle of what is stated"]
     return Report(_TITLE, subtitle, sections, f"ballscrew {__version__}", _PAGES)
@@ -67,13 +65,19 @@ def report(request: Request, found: Sequence[Sequence[Entry]], table: Sequence[S
 
 def _of_makers(entries: Sequence[Entry], table: Sequence[SummaryRow]) -> list[Section]:
     """The sections on torques without load that makers state."""
+    _, statistics, chosen = report_blocks.blocks(sheets.of_makers(table), "makers")
     return [
-        Section("All makers", [_makers(table), _picture(table)]),
+        Section("All makers", [statistics, _picture(table)]),
         Section("Does the band hold them?", [_coverage(entries)]),
-        Section("What is circular", [Bullets([*_circular(table), _OF_BAND])]),
+        Section("What is circular", [chosen, _OF_BAND]),
     ]
 
 
+#: The band, too, was made with rows in sight.
+_OF_BAND = Paragraph(
+    "The band: it draws the calibrations that were fitted to rows of Rexroth, of HIWIN and to the rule of THK, and the "
+    "factor of the force between balls was chosen with all of these rows in sight."
+)
 _CALL = Paragraph(
     "Whoever has such torques: a torque card (ballscrew card) holds what was measured and on what, is checked "
     "by a command, and is compared with all laws by ballscrew validate --card. Twenty of them would decide more than "
@@ -113,28 +117,6 @@ def _in_short(entries: Sequence[Entry], table: Sequence[SummaryRow]) -> list[str
 
 def _of(row: SummaryRow) -> str:
     return f"{row.mean_ratio:.2f} ({row.maker}, {row.nut})"
-
-
-def _makers(table: Sequence[SummaryRow]) -> Table:
-    rows = [
-        [
-            row.maker,
-            row.nut,
-            RULES[row.name].title if row.kind == RULE else row.name,
-            str(row.n),
-            f"{row.mean_ratio:.2f}" + (f" ± {row.std_ratio:.2f}" if math.isfinite(row.std_ratio) else ""),
-            "–" if row.share_in_band is None else f"{100 * row.share_in_band:.0f} %",
-            *(f"{row.exponents[name]:+.2f}" if name in row.exponents else "–" for name in ("size", "lead")),
-            "chosen on" if row.chosen_on else "never used",
-        ]
-        for row in table
-    ]
-    heads = ["maker", "nut", "model, calibration or rule", "n", "ratio", "in band", "d0^", "Ph^", "rows"]
-    note = (
-        "In band: share of the rows in the maker's own band. Exponents of one fit of the ratio over diameter "
-        "and lead. Rows on which something was chosen are no evidence for it."
-    )
-    return Table("No-load torque, model / middle of the band", heads, rows, texts=(0, 1, 2, 8), wide=2, note=note)
 
 
 def _picture(table: Sequence[SummaryRow]) -> Picture:
@@ -197,65 +179,3 @@ def _half(entry: Entry, fitted: bool) -> Entry:
     """The points of an entry that may be fitted, or those that are kept aside."""
     points = [point for point in entry.points if may_be_fitted(entry.data.name, point) == fitted]
     return dataclasses.replace(entry, points=points)
-
-
-#: The band, too, was made with rows in sight.
-_OF_BAND = (
-    "The band: it draws the calibrations that were fitted to rows of Rexroth, of HIWIN and to the rule of THK, and the "
-    "factor of the force between balls was chosen with all of these rows in sight."
-)
-
-
-def _circular(table: Sequence[SummaryRow]) -> list[str]:
-    """What was chosen with which rows in sight."""
-    chosen: dict[str, dict[str, None]] = {}
-    for row in table:
-        chosen.setdefault(row.set, {}).update(dict.fromkeys(row.chosen_on))
-    return [
-        f"{name}: {'; '.join(words) if words else 'nothing was chosen on these rows'}."
-        for name, words in chosen.items()
-    ]
-
-
-def _others(entries: Sequence[Entry]) -> Table:
-    """What is stated beside torques without load, in a line each."""
-    rows: list[list[str]] = []
-    for entry in entries:
-        if entry.data.alternatives or entry.data.bound:
-            low, high = entry.range_ratio
-            ratio = f"{low:.2f} to {high:.2f}"
-        else:
-            scatter = f" ± {entry.std_ratio:.2f}" if math.isfinite(entry.std_ratio) else ""
-            ratio = f"{entry.mean_ratio:.2f}{scatter}"
-        rows.append([entry.data.name, entry.data.title, entry.data.source, str(len(entry.counted)), ratio])
-        rows += [
-            ["", WORDS.get(name, name.replace("_", " ")), "", "", f"{value:.2f}"]
-            for name, value in entry.mean_definitions.items()
-        ]
-    heads = ["set", "stated", "source", "n", "model / stated"]
-    return Table("Each set of data, uncalibrated", heads, rows, texts=(0, 1, 2), wide=1)
-
-
-def _rows(entry: Entry) -> list[Block]:
-    """Every row of a set."""
-    quantity = entry.data.quantity
-
-    def shown(value: float | None) -> str:
-        return "–" if value is None or not math.isfinite(value) else units.rounded(value, quantity)
-
-    def line(point: Point) -> list[str]:
-        low, high = point.band.low, point.band.high
-        ends = point.uncertainty
-        return [
-            point.name,
-            "–" if low is None else f"{shown(low)} to {shown(high)}",
-            shown(point.band.middle),
-            shown(point.value),
-            "–" if not np.isfinite(point.ratio) else f"{point.ratio:.2f}",
-            "–" if ends is None else f"{shown(ends[0])} to {shown(ends[1])}",
-        ]
-
-    heads = ["row", "stated band", "middle", "model", "ratio", "band of the model"]
-    title = f"{entry.data.title}, {quantity.shown_in}"
-    words = Paragraph(f"{entry.data.description}. Source: {entry.data.source}.")
-    return [words, Table(title, heads, [line(point) for point in entry.points], texts=(0,), wide=0)]
