@@ -214,13 +214,13 @@ def test_a_start_is_found_by_its_size_and_the_code_of_another_maker_is_not_taken
     here = visit().open()
     here.page.locator("#start").fill("40×10")
     here.page.locator("#start").press("Enter")
-    here.page.wait_for_function("window.ballscrew.case.screw.catalogue === 'rexroth-40x10x6-6-double'")
+    here.page.wait_for_function("() => window.ballscrew.case.screw.catalogue === 'rexroth-40x10x6-6-double'")
     here.page.locator("#start").fill("BNF2005-5")
     here.page.locator("#start").press("Enter")
     assert here.page.locator("#start-matches").inner_text().startswith("BNF2005-5 is not in the list")
     assert here.state()["case"]["screw"]["catalogue"] == "rexroth-40x10x6-6-double"
     here.page.locator("#start-matches button", has_text="rexroth-20x5x3-5-single").click()
-    here.page.wait_for_function("window.ballscrew.case.screw.catalogue === 'rexroth-20x5x3-5-single'")
+    here.page.wait_for_function("() => window.ballscrew.case.screw.catalogue === 'rexroth-20x5x3-5-single'")
 
 
 def test_what_no_case_may_have_is_refused_in_words(visit):

@@ -192,7 +192,7 @@ def test_the_example_of_a_fit_frees_what_its_log_has(visit, server):
     page.locator("#calibrate-fit").click()
     page.wait_for_selector("#calibrate-use")
     page.wait_for_selector("#calibration .sheet table")
-    words = here.text("#calibration .card-result")
+    words = here.text("#calibration .card-result").casefold()
     assert "with the constant torque free, too" not in words
     assert "within" in words or "of the loads and speeds that the log has" in words
 

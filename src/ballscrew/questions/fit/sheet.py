@@ -258,9 +258,10 @@ def describe_next_test(test: NextTest, model: CalibratedModel) -> list[Message]:
     """Recommended next test, and the reduction of uncertainty it would give."""
     known: Mapping[str, Quantity] = {name: quantity for name, (_, quantity) in model.subject.inputs.items()}
     where = [Message("{value}", {"value": units.shown(value, known[name], 3)}) for name, value in test.best.items()]
-    message = Message("next test: {where}; {readings} readings")
-    if model.rows.log.forward.any() and model.rows.log.backward.any():
-        message = Message("next test: {where}; {readings} readings, half of them in each direction")
+    readings = "one reading" if test.readings == 1 else f"{test.readings} readings"
+    message = Message("next test: {where}; {readings}")
+    if model.rows.log.forward.any() and model.rows.log.backward.any() and test.readings > 1:
+        message = Message("next test: {where}; {readings}, half of them in each direction")
     errors = [
         (_ERROR_LEFT if model.estimates[name].identified else _SPREAD_LEFT).of(
             percent=_percent(share), name=Named(name)
@@ -269,7 +270,7 @@ def describe_next_test(test: NextTest, model: CalibratedModel) -> list[Message]:
     ]
     left = Message("it would leave {percent}% of the uncertainty of all together (a random test {random}%), {errors}")
     return [
-        message.of(where=where, readings=str(test.readings)),
+        message.of(where=where, readings=readings),
         left.of(percent=_percent(test.best_volume), random=_percent(test.random_volume), errors=errors),
         *_beside_the_log(test, model, known),
     ]
