@@ -7,11 +7,13 @@ import tomllib
 import pytest
 
 from ballscrew.basis.output.json_text import plain
+from ballscrew.basis.output.sheet import document as document_of_sheet
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.web import limits
 from ballscrew.faces.web.log_bodies import MOST_LOGS
 from ballscrew.questions.optimise.compute import optimise
 from ballscrew.questions.optimise.document import document as of_optimisation
+from ballscrew.questions.optimise.sheet import sheet as sheet_of
 from ballscrew.questions.sensitivity.options import SensitivityOptions
 
 from .conftest import ROOT
@@ -78,11 +80,9 @@ def test_an_optimisation(server):
     """The document of the command; each design is a case with the numbers of its member."""
     need = {**NEED, "optimise": {"elastic_generations": 1}}
     found = server.post("optimise", {"need": need, **FEW, "objectives": ["loss", "drive-torque"]}).json()
-    front = found.pop("picture")["front"]
-    assert {name: len(values) for name, values in front.items()} == dict.fromkeys(
-        ("loss", "drive_torque"), found["search"]["front"]
-    )
+    sheet = found.pop("sheet")
     expected = optimise(need, objectives=["loss", "drive_torque"], **FEW)
+    assert sheet == json.loads(json.dumps(plain(document_of_sheet(sheet_of(expected)))))
     assert found == json.loads(json.dumps(plain(of_optimisation(expected))))
     for member in found["candidates"]:
         run = server.post("run", {"case": member["case"]}).json()["results"]

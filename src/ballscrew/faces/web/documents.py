@@ -16,12 +16,9 @@ from ballscrew.questions.band import document as band_documents
 from ballscrew.questions.band.sheet import input_counts
 from ballscrew.questions.check import compute as checks
 from ballscrew.questions.check import document as check_documents
-from ballscrew.questions.optimise import document as optimise_documents
-from ballscrew.questions.optimise.compute import Optimisation
 from ballscrew.questions.run import compute as runs
 from ballscrew.questions.run import document as run_documents
 from ballscrew.questions.run import makers
-from ballscrew.questions.select.objectives import OBJECTIVES
 
 #: Runs that are kept: who has asked for the numbers of a case often asks for its drawing or its checks next.
 _MOST_RUNS = 4
@@ -85,16 +82,4 @@ def band(case: case_file.Case, found: bands.BandReport) -> dict[str, Any]:
             "sentences": [verdict.text for verdict in band_documents.verdicts(case, found)],
             "inputs": units.filled(input_counts(found)),
         },
-    }
-
-
-def optimisation(found: Optimisation) -> dict[str, Any]:
-    """The document of an optimisation, and all designs of the front by the search."""
-    costs = {
-        name: [OBJECTIVES[name].sign * float(one) for one in found.front.costs[:, place]]
-        for place, name in enumerate(found.space.objectives)
-    }
-    return {
-        **optimise_documents.document(found),
-        "picture": {"front": costs},
     }

@@ -8,13 +8,15 @@ from typing import Any
 from fastapi import APIRouter, Request
 from starlette.responses import Response
 
-from ballscrew.faces.web import documents, limits, openapi
+from ballscrew.faces.web import limits, openapi
 from ballscrew.faces.web.bodies import CaseBody, NeedOnly, OptimiseBody, SensitivityBody, case_of, read, refuse_paths
 from ballscrew.faces.web.endpoint_parts import as_json, heavy, queue_of, with_sheet
 from ballscrew.faces.web.request_queue import Deadline
+from ballscrew.questions.optimise import document as optimise_documents
 from ballscrew.questions.optimise import response as optimise_answers
 from ballscrew.questions.optimise.compute import Plan, optimise, plan
 from ballscrew.questions.optimise.options import OptimiseOptions
+from ballscrew.questions.optimise.sheet import sheet as optimise_sheet
 from ballscrew.questions.select.need import Need, need_of
 from ballscrew.questions.sensitivity import compute as sensitivities
 from ballscrew.questions.sensitivity import document as sensitivity_documents
@@ -62,7 +64,8 @@ async def optimised(request: Request) -> Response:
 
     def work(done: Deadline) -> Response:
         need, _ = _planned(body, options)
-        return as_json(documents.optimisation(optimise(need, **_asked(options), seed=options.seed, done=done)))
+        found = optimise(need, **_asked(options), seed=options.seed, done=done)
+        return with_sheet(optimise_documents.document(found), optimise_sheet(found))
 
     return await heavy(request, work)
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pydantic import Field
 
 from ballscrew.questions.select.answer import OneObjective
-from ballscrew.questions.shared.answer_parts import Closed, Numbers, Open, Provenance, Record, Tables
+from ballscrew.questions.shared.answer_parts import Closed, Numbers, Open, Provenance, Record, Shown, Tables
 from ballscrew.questions.shared.declared import with_answers
 
 
@@ -47,13 +47,7 @@ class Search(Closed):
     largest_change: Numbers = Field(description="of each objective from the search to the full model, over the former")
 
 
-class OptimisePicture(Closed):
-    """What is drawn besides the candidates."""
-
-    front: dict[str, list[float]] = Field(description="the objectives of all designs of the front, by the search, SI")
-
-
-class Optimise(with_answers(objectives=Sequence[OneObjective])):
+class Optimise(with_answers(objectives=Sequence[OneObjective]), Shown):
     """Free geometries for a need: the front of the best."""
 
     need: Tables
@@ -66,7 +60,6 @@ class Optimise(with_answers(objectives=Sequence[OneObjective])):
     warnings: list[Record]
     units: Tables
     provenance: Provenance | None
-    picture: OptimisePicture
 
 
 class OptimisePlan(Closed):

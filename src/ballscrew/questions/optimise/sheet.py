@@ -172,16 +172,16 @@ def _cells(member: Member) -> Cells:
 
 
 def _charts(optimisation: Optimisation) -> Iterator[Chart]:
-    """The front by its first two objectives, and the free variables along the first."""
+    """The other objectives and the free variables along the first objective."""
     names = optimisation.space.objectives
-    x = names[0]
-    y = names[1] if len(names) > 1 else x
+    x, *others = names
     axis = Axis(OBJECTIVES[x].quantity.info.meaning, OBJECTIVES[x].quantity)
     places = {name: OBJECTIVES[name].sign * optimisation.front.costs[:, i] for i, name in enumerate(names)}
-    search = Curve("search", places[x], places[y], "sky", "dots")
-    up = Axis(OBJECTIVES[y].quantity.info.meaning, OBJECTIVES[y].quantity)
-    members = list(_members(optimisation, x, lambda member: member.objectives[y]))
-    yield Chart(f"{LABELS[y]} against {LABELS[x]}", axis, up, [search, *members])
+    for name in others or [x]:
+        search = Curve("search", places[x], places[name], "sky", "dots")
+        up = Axis(OBJECTIVES[name].quantity.info.meaning, OBJECTIVES[name].quantity)
+        members = list(_members(optimisation, x, lambda member, n=name: member.objectives[n]))
+        yield Chart(f"{LABELS[name]} against {LABELS[x]}", axis, up, [search, *members])
     for name in optimisation.space.bounds:
         quantity = _PRELOAD if name == "preload" else VARIABLES[name]
         along = Axis(quantity.info.meaning, quantity)

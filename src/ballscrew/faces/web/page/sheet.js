@@ -22,6 +22,7 @@ import * as units from "./units.js";
 /** @typedef {{ name: string, values: (number | string | null)[], quantity: Quantity | null }} Column */
 /** @typedef {{ kind: string } & Record<string, any>} Block */
 /** @typedef {{ title: string, blocks: Block[] }} Sheet */
+/** A control beside a row of a table, by their name and place. @typedef {(table: string, row: number) => HTMLElement | undefined} Beside */
 
 /** Kinds of blocks that are charts. */
 const CHARTS = ["chart", "bars", "map"];
@@ -35,8 +36,9 @@ const CLASSES = { plain: "", verdict: "verdict", warning: "warning", small: "sma
  * next.
  *
  * @param {string} id begins the ids of its charts
+ * @param {Beside} [beside]
  */
-export function sheetPlace(id) {
+export function sheetPlace(id, beside = () => undefined) {
   /** Charts with their titles, by the ids of their places. @type {Map<string, HTMLElement>} */
   let figures = new Map();
   const place = element("div", { class: "sheet", id: `${id}-sheet` });
@@ -58,7 +60,7 @@ export function sheetPlace(id) {
     figures = new Map(charts.map((block) => [idOf(block), before.get(idOf(block)) ?? figureOf(block)]));
     for (const name of before.keys()) if (!figures.has(name)) hide(name);
     const contents = blocks.flatMap((block) =>
-      CHARTS.includes(block.kind) ? (figures.get(idOf(block)) ?? []) : contentOf(block),
+      CHARTS.includes(block.kind) ? (figures.get(idOf(block)) ?? []) : contentOf(block, beside),
     );
     place.replaceChildren(element("h3", {}, sentence(title)), ...contents);
     for (const block of charts) {
@@ -71,15 +73,15 @@ export function sheetPlace(id) {
   return { place, show };
 }
 
-/** What is shown of a block that is no chart. @param {Block} block @returns {HTMLElement[]} */
-function contentOf(block) {
+/** What is shown of a block that is no chart. @param {Block} block @param {Beside} beside @returns {HTMLElement[]} */
+function contentOf(block, beside) {
   switch (block.kind) {
     case "lines": {
       const lines = block.lines.map(lineOf);
       return [block.detail ? opened(text("sheet.details"), ...lines) : element("div", {}, ...lines)];
     }
     case "table":
-      return [tableOf(/** @type {any} */ (block))];
+      return [tableOf(/** @type {any} */ (block), beside)];
     default:
       return [columnsOf(block.name, block.columns)];
   }
@@ -97,24 +99,27 @@ function lineOf({ text: words, kind, name }) {
   );
 }
 
-/** @param {Table} table */
-function tableOf({ title, columns, rows, notes, fields }) {
+/** @param {Table} table @param {Beside} beside */
+function tableOf({ name, title, columns, rows, notes, fields }, beside) {
+  const controls = rows.map((_, row) => beside(name, row));
+  const hasControls = controls.some(Boolean);
   const contents = rows.map((cells, row) => {
     const isHeading = cells.slice(1).every((cell) => cell === "");
-    return cells.map((cell, column) => {
-      const shown = cellOf(cell);
-      if (column) return shown;
+    const shown = cells.map((cell, column) => {
+      if (column) return cellOf(cell);
       const path = fields[row];
-      if (path) return element("button", { type: "button", class: "sort", onclick: () => jump(path) }, shown);
-      return isHeading ? element("strong", {}, shown) : shown;
+      if (path) return element("button", { type: "button", class: "sort", onclick: () => jump(path) }, cellOf(cell));
+      return isHeading ? element("strong", {}, cellOf(cell)) : cellOf(cell);
     });
+    return hasControls ? [...shown, controls[row]] : shown;
   });
   const below = notes.map((one) => element("p", { class: "small" }, sentence(one)));
   const width = columns.length > NARROW ? "" : "half";
-  const content = scrollingTable(title, columns, contents);
+  const headings = hasControls ? [...columns, text("files.actions")] : columns;
+  const content = scrollingTable(title, headings, contents);
   const isText = columns.map((_, column) => rows.every((cells) => typeof cells[column] === "string" || !cells[column]));
   for (const row of content.querySelectorAll("tr")) {
-    for (const [column, cell] of [...row.children].entries()) cell.classList.toggle("words", isText[column]);
+    for (const [column, cell] of [...row.children].entries()) cell.classList.toggle("words", isText[column] ?? false);
   }
   return element("div", { class: width }, content, ...below);
 }

@@ -78,13 +78,13 @@ function valueIn(candidate, name) {
  * @param {Candidate} candidate
  * @param {string} name
  */
-export function numberOf(candidate, name) {
+function numberOf(candidate, name) {
   const value = valueIn(candidate, name);
   return value === null || value === undefined ? null : units.fromSI(value, unitOf(name), OBJECTIVES[name]);
 }
 
 /** @param {string} name */
-export function heading(name) {
+function heading(name) {
   const unit = unitOf(name);
   return unit ? `${objective(name)} (${units.symbol(unit)})` : objective(name);
 }
@@ -324,7 +324,7 @@ function multiple(share) {
  *
  * @param {Candidate} candidate
  */
-export function verdictOf({ fails, checks, holds, valid, complete, starved, rigid_lift_off_load: limit }) {
+function verdictOf({ fails, checks, holds, valid, complete, starved, rigid_lift_off_load: limit }) {
   const open = checks.filter((check) => check.holds === null).length;
   const failing = fails.map((check) => `${nameOf(check)}${multiple(check.utilisation)}`).join(", ");
   const fail = complete ? "checks.fail" : "choose.cannot";

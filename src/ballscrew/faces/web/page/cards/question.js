@@ -27,6 +27,7 @@ const RESUMED = "job ";
  * @typedef {object} Parts
  * @property {"axis" | "duty" | "warm-up" | "reversal" | "ripple" | "fit" | "service" | "hand-over" | "sensitivity" | "optimise" | "condition"} address
  * @property {HTMLElement} [result]
+ * @property {import("../sheet.js").Beside} [beside] controls beside the rows of its tables
  * @property {(answer: any) => void} [show]
  * @property {(faults: FaultLine[]) => FaultLine[] | undefined} place
  * @property {(body: object) => boolean} [isLarge] tests whether a body is too large to keep answers by it
@@ -39,8 +40,8 @@ const RESUMED = "job ";
  *
  * @param {Parts} parts
  */
-export function question({ address, result: own, show, place, isLarge = () => false, isShort = false, about }) {
-  const sheet = own ? undefined : sheetPlace(address);
+export function question({ address, result: own, beside, show, place, isLarge = () => false, isShort = false, about }) {
+  const sheet = own ? undefined : sheetPlace(address, beside);
   const result = own ?? element("div", { class: "card-result", hidden: true }, sheet?.place);
   /** @type {any} */
   let answer;
