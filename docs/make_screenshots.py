@@ -35,9 +35,11 @@ OF_PAGE = {
 
 #: Tall enough that all charts of a card are near the viewport, and drawn.
 TALL = {"width": 1360, "height": 6000}
+#: Pixels of a card that a picture shows, from its top.
+HIGHEST = 2000
 OF_CARDS = {
-    "app_duty.png": ("duty", "#A=vertical-axis&band=0&view=duty.time"),
-    "app_warm_up.png": ("warm-up", "#A=warm-up&band=0&view=heat.temperatures&rest=1&heat=band"),
+    "app_duty.png": ("duty", "#A=vertical-axis&band=0&view=duty"),
+    "app_warm_up.png": ("warm-up", "#A=warm-up&band=0&view=heat&rest=1&heat=band"),
 }
 
 
@@ -79,7 +81,10 @@ def of_cards(browser: Browser, address: str) -> None:
             chart.scroll_into_view_if_needed()
             chart.locator(".main-svg").first.wait_for()
         page.wait_for_timeout(2000)
-        save(name, page.locator(f"section[aria-labelledby={card}-title]").screenshot())
+        box = page.locator(f"section[aria-labelledby={card}-title]").bounding_box()
+        assert box
+        page.evaluate("scrollTo(0, 0)")
+        save(name, page.screenshot(clip={**box, "height": min(box["height"], HIGHEST)}))
         page.close()
 
 

@@ -126,6 +126,7 @@ function secondAxis(axis, { line }) {
     ...scale(axis),
     title: { text: heading(axis), standoff: 6 },
     overlaying: "y",
+    tickmode: "auto",
     side: "right",
     showgrid: false,
     zeroline: false,
