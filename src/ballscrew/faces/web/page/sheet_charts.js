@@ -62,6 +62,11 @@ export function slug(words) {
   return words.toLowerCase().replaceAll(/[^a-z0-9]+/g, "-");
 }
 
+/** A text for plotly, which reads markup in what it draws. @param {string} words */
+function asText(words) {
+  return words.replaceAll("&", "&amp;").replaceAll("<", "&lt;");
+}
+
 /** @param {string} colour @param {Colours} colours */
 function shade(colour, { ink }) {
   return SHADES[colour] ?? ink;
@@ -140,7 +145,7 @@ function secondAxis(axis, { line }) {
 function curveOf(curve, x, y, colours) {
   const colour = shade(curve.colour, colours);
   const style = /** @type {Record<string, any>} */ (STYLES[curve.style]);
-  const points = { x: all(curve.x, x), y: all(curve.y, y), name: curve.name, yaxis: curve.second ? "y2" : "y" };
+  const points = { x: all(curve.x, x), y: all(curve.y, y), name: asText(curve.name), yaxis: curve.second ? "y2" : "y" };
   const trace = {
     ...points,
     ...style,
@@ -152,7 +157,7 @@ function curveOf(curve, x, y, colours) {
   };
   if (!curve.labels.length) return [trace];
   const few = curve.labels.length;
-  const labels = { x: points.x.slice(0, few), y: points.y.slice(0, few), text: curve.labels };
+  const labels = { x: points.x.slice(0, few), y: points.y.slice(0, few), text: curve.labels.map(asText) };
   return [trace, { ...labels, mode: "text", textposition: "top right", hoverinfo: "skip" }];
 }
 
@@ -243,7 +248,7 @@ function barsOf(block) {
   const axis = { name: "", quantity, log: false, least: null };
   const x = titled("", quantity);
   const count = Math.max(0, ...bars.map(({ parts }) => parts.length));
-  const names = bars.map(({ name }) => inLines(name));
+  const names = bars.map(({ name }) => inLines(asText(name)));
   const letters = Math.max(0, ...names.flatMap((name) => name.split("<br>").map(({ length }) => length)));
   return {
     description: text("sheet.bars", { title, count: bars.length }),
@@ -322,7 +327,8 @@ function errorOf(band, end, row, quantity, { ink }) {
 function wordsOf({ name, parts, text: beside }, part, quantity) {
   const [words, value] = parts[part] ?? ["", null];
   const [number, unit] = [digits(Number(converted(value, quantity))), titled("", quantity)];
-  return [[name, words].filter(Boolean).join(", "), `${number} ${unit}`.trim(), beside].filter(Boolean).join(": ");
+  const read = [[name, words].filter(Boolean).join(", "), `${number} ${unit}`.trim(), beside];
+  return asText(read.filter(Boolean).join(": "));
 }
 
 /** A name in lines, for an axis. @param {string} name */
