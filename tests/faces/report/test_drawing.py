@@ -14,7 +14,6 @@ import pytest
 from matplotlib.font_manager import FontProperties, findfont
 from matplotlib.ft2font import FT2Font
 
-from ballscrew.basis.records import Message
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.descriptions import title as title_of
 from ballscrew.faces.report import drawing_contact, svg
@@ -393,8 +392,8 @@ def test_the_same_input_gives_the_same_bytes_in_all_processes():
 
 
 def test_all_words_are_escaped():
-    title, description = Message("<script>&\x00"), Message("\"quoted\" 'too'")
-    drawn = svg.Document(1, 1, title, description, [svg.text((0, 0), Message("</text><b>"), anchor='"')])
+    title, description = "<script>&\x00", "\"quoted\" 'too'"
+    drawn = svg.Document(1, 1, title, description, [svg.text((0, 0), "</text><b>", anchor='"')])
     tree = ElementTree.fromstring(drawn.text())
     assert tree[0].text == "<script>&\N{REPLACEMENT CHARACTER}"
     assert tree[2].text == "</text><b>"

@@ -6,11 +6,10 @@ The page and the report show the same drawing. What is physics in it is in
 
 from __future__ import annotations
 
-from ballscrew.basis.records import Message
+from ballscrew.basis import units
 from ballscrew.cases.case_files import case_messages
 from ballscrew.faces.report import drawing_contact, drawing_section, svg
 from ballscrew.faces.report.contact_geometry import drawn_ball
-from ballscrew.faces.report.drawing_contact import sentences
 from ballscrew.questions.run.compute import Run
 
 WIDTH = 600.0
@@ -23,17 +22,10 @@ def drawing(run: Run) -> str:
 
     What the result does not hold is left out, and the drawing says why.
     """
-    return document(run).text()
-
-
-def document(run: Run) -> svg.Document:
-    """The drawing of a run, whose words are messages."""
     ball = drawn_ball(run)
-    title = Message("A ball between screw and nut: {case}")
-    if ball.most_loaded:
-        title = Message("The most loaded ball between screw and nut: {case}")
-    words = [*drawing_section.in_words(ball), *drawing_contact.in_words(ball)]
+    what = "The most loaded ball" if ball.most_loaded else "A ball"
+    title = f"{what} between screw and nut: {units.filled(case_messages.title(run.case))}"
+    words = " ".join([*drawing_section.in_words(ball), *drawing_contact.in_words(ball)])
     panels = drawing_section.section(ball), drawing_contact.contact(ball)
     height = max(panel.bottom for panel in panels) + _MARGIN
-    parts = [part for panel in panels for part in panel.parts]
-    return svg.Document(WIDTH, height, title.of(case=case_messages.title(run.case)), sentences(words), parts)
+    return svg.Document(WIDTH, height, title, words, [part for panel in panels for part in panel.parts]).text()

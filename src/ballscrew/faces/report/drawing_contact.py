@@ -7,9 +7,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import both, chained
 from ballscrew.basis.quantities import quantities_of
-from ballscrew.basis.records import Measured, Message
 from ballscrew.faces.report import svg
 from ballscrew.faces.report.contact_geometry import DrawnBall, DrawnContact, SlipField
 from ballscrew.faces.report.svg import BLUE, FAINT, GREEN, RED, TEXT, TITLE, Panel, Point
@@ -28,10 +26,10 @@ _SLIP = _CONTACT["creep_speed"]
 
 def contact(ball: DrawnBall) -> Panel:
     """The ellipse to scale, the lines of pure rolling, the slip as arrows, and what is to be said of them."""
-    parts: list[svg.Part] = [svg.text((_LEFT, 20), Message("Contact of ball and screw"), TITLE, font_weight="bold")]
+    parts: list[str] = [svg.text((_LEFT, 20), "Contact of ball and screw", TITLE, font_weight="bold")]
     if ball.contact is None:
-        lines = svg.Paragraph((_LEFT, 60), Message(ball.missing), _CHARACTERS)
-        return Panel([*parts, lines], lines.bottom)
+        lines = svg.Paragraph((_LEFT, 60), ball.missing, _CHARACTERS)
+        return Panel([*parts, lines.element()], lines.bottom)
     touching = ball.contact
     place = Place.of(touching)
     outline = (place.middle, place.across, place.along)
@@ -43,8 +41,8 @@ def contact(ball: DrawnBall) -> Panel:
         parts += _arrows(touching, touching.slip, place)
     bottom = place.middle[1] + place.along + 74
     at = _LEFT, bottom + (0 if touching.slip is None else 22)
-    lines = svg.Paragraph(at, sentences(in_words(ball)[1:]), _CHARACTERS)
-    parts += [*_axes(touching, place), *_legend(touching, bottom), lines]
+    lines = svg.Paragraph(at, " ".join(in_words(ball)[1:]), _CHARACTERS)
+    parts += [*_axes(touching, place), *_legend(touching, bottom), lines.element()]
     return Panel(parts, lines.bottom)
 
 
@@ -111,20 +109,20 @@ def _arrow_scale(grid: Sequence[Point], slips: Sequence[Point], step: Point) -> 
     return min(limits, default=0.0)
 
 
-def _axes(contact: DrawnContact, place: Place) -> list[svg.Part]:
+def _axes(contact: DrawnContact, place: Place) -> list[str]:
     """Both semi-axes with their lengths, outside the ellipse, and which of its ends is where in the groove."""
     (x, y), across, along = place.middle, place.across, place.along
     below, left, right = y + along + 15, x - across - 14, x + across + 8
     a, b = (_of_contact(contact, name) for name in ("semi_major_axis", "semi_minor_axis"))
     return [
         *_measure((x, below), (x + across, below)),
-        svg.text((x + across / 2, below + 15), Message("a {length}", {"length": a}), TEXT, "middle"),
+        svg.text((x + across / 2, below + 15), f"a {a}", TEXT, "middle"),
         *_measure((right, y - along), (right, y)),
-        svg.text((right + 4, y - along - 8), Message("b {length}", {"length": b}), TEXT, "end"),
+        svg.text((right + 4, y - along - 8), f"b {b}", TEXT, "end"),
         svg.arrow((left, y + 18), (left, y - 18), 7, "currentColor", 1.4),
-        svg.text((left - 6, y - along - 8), Message("path"), TEXT),
-        svg.text((x - across, below + 15), Message("← groove bottom"), TEXT),
-        svg.text((right + 4, below + 32), Message("groove edge →"), TEXT, "end"),
+        svg.text((left - 6, y - along - 8), "path", TEXT),
+        svg.text((x - across, below + 15), "← groove bottom", TEXT),
+        svg.text((right + 4, below + 32), "groove edge →", TEXT, "end"),
     ]
 
 
@@ -145,62 +143,50 @@ def _measure(start: Point, end: Point) -> list[str]:
     ]
 
 
-def _legend(contact: DrawnContact, y: float) -> list[svg.Part]:
+def _legend(contact: DrawnContact, y: float) -> list[str]:
     if contact.slip is None:
         return []
-    x, parts = _LEFT, list[svg.Part]()
-    for colour, words, wide in ((BLUE, Message("screw ahead of ball"), 170), (RED, Message("behind"), 88)):
+    x, parts = _LEFT, list[str]()
+    for colour, words, wide in ((BLUE, "screw ahead of ball", 170), (RED, "behind", 88)):
         parts += [svg.arrow((x, y - 4), (x + 18, y - 4), 6, colour, 1.6), svg.text((x + 23, y), words, TEXT)]
         x += wide
     if contact.slip.lines:
         parts += [
             svg.line((x, y - 4), (x + 18, y - 4), stroke_dasharray="5 3", stroke_width=1.4),
-            svg.text((x + 22, y), Message("neither"), TEXT),
+            svg.text((x + 22, y), "neither", TEXT),
         ]
     return parts
 
 
-def sentences(said: Sequence[Message]) -> Message:
-    """Sentences one after another."""
-    return chained(Message("{others} {last}"), said)
-
-
-def in_words(ball: DrawnBall) -> Sequence[Message]:
+def in_words(ball: DrawnBall) -> list[str]:
     """Alternative text of the picture of the contact, with its numbers."""
     contact = ball.contact
     if contact is None:
-        return [Message(ball.missing)]
-    axes = Message(
-        "Right: contact ellipse of ball and screw, semi-axes a = {a} across the path and b = {b} along it.",
-        {"a": _of_contact(contact, "semi_major_axis"), "b": _of_contact(contact, "semi_minor_axis")},
-    )
-    words = [axes, Message("Greatest pressure {pressure}.", {"pressure": _of_contact(contact, "maximum_pressure")})]
+        return [ball.missing]
+    a, b, pressure = (_of_contact(contact, name) for name in ("semi_major_axis", "semi_minor_axis", "maximum_pressure"))
+    words = [
+        f"Right: contact ellipse of ball and screw, semi-axes a = {a} across the path and b = {b} along it.",
+        f"Greatest pressure {pressure}.",
+    ]
     if contact.slip is not None:
         words += _slip_in_words(contact, contact.slip)
     stretched = Place.of(contact).stretched
     if stretched > 1:
-        times = {"times": f"{stretched:g}"}
-        words.append(Message("The ellipse is stretched {times} times along the path.", times))
-    return [*words, *([Message(contact.missing)] if contact.missing else [])]
+        words.append(f"The ellipse is stretched {stretched:g} times along the path.")
+    return [*words, *([contact.missing] if contact.missing else [])]
 
 
-def _slip_in_words(contact: DrawnContact, field: SlipField) -> list[Message]:
-    slip = {
-        "slip": units.shown(field.largest(contact.axes_ratio), _SLIP),
-        "speed": units.shown(field.entrainment_speed, _SLIP),
-    }
-    words = [Message("Largest slip {slip}, at a rolling speed of {speed}.", slip)]
-    lines = [
-        Message("{place} a", {"place": Measured(round(t, 3), digits=12, written=f"{t:+.3f}".replace("-", "−"))})
-        for t in field.lines
-    ]
+def _slip_in_words(contact: DrawnContact, field: SlipField) -> list[str]:
+    slip, speed = (units.shown(v, _SLIP) for v in (field.largest(contact.axes_ratio), field.entrainment_speed))
+    words = [f"Largest slip {slip}, at a rolling speed of {speed}."]
+    places = [f"{place:+.3f} a".replace("-", "−") for place in field.lines]
     words.append(
-        Message("Nothing slips along the path at {places}.", {"places": both(lines)})
-        if lines
-        else Message("The screw slips the same way along the path all over the contact.")
+        f"Nothing slips along the path at {' and '.join(places)}."
+        if places
+        else "The screw slips the same way along the path all over the contact."
     )
     if field.along_only:
-        words.append(Message("The model has no slip across the path."))
+        words.append("The model has no slip across the path.")
     elif field.lateral:
-        words.append(Message("Drawn as the screw drives."))
+        words.append("Drawn as the screw drives.")
     return words

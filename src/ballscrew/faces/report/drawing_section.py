@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import both, chained
 from ballscrew.basis.quantities import fields_of, quantities_of
-from ballscrew.basis.records import Message
 from ballscrew.faces.report import svg
 from ballscrew.faces.report.contact_geometry import DrawnBall
 from ballscrew.faces.report.svg import FAINT, GREEN, LINE, TEXT, TITLE, Panel, Point
@@ -22,28 +19,6 @@ BALL, RADIUS = (122.0, 158.0), 78.0
 _HALF_WIDTH, _BODY = 116.0, 44.0
 
 
-class _Words(NamedTuple):
-    """The sizes of ball and grooves."""
-
-    ball: Message
-    groove: Message
-    screw_groove: Message
-    nut_groove: Message
-
-
-#: Where there is little room, and in the alternative text.
-_SHORT = _Words(
-    Message("ball ⌀ {diameter}"),
-    Message("groove radius {radius}, {factor} ⌀"),
-    Message("screw groove r {radius}, {factor} ⌀"),
-    Message("nut groove r {radius}, {factor} ⌀"),
-)
-_LONG = _Words(
-    Message("ball diameter {diameter}"),
-    Message("groove radius {radius}, {factor} diameter"),
-    Message("screw groove radius {radius}, {factor} diameter"),
-    Message("nut groove radius {radius}, {factor} diameter"),
-)
 _SCREW = fields_of(BallScrew)
 _LENGTH, _ANGLE, _LOAD = _SCREW["ball_diameter"], _SCREW["contact_angle"], quantities_of(RaceState)["contact_load"]
 
@@ -82,11 +57,11 @@ def section(ball: DrawnBall) -> Panel:
     """The ball, its grooves, its contacts and their angle, a scale, and the sizes in words."""
     flanks = {flank.side: flank for flank in ball.flanks}
     main = max(ball.flanks, key=lambda flank: flank.load)
-    parts: list[svg.Part] = [svg.text((8, 20), Message("Section across the path"), TITLE, font_weight="bold")]
+    parts: list[str] = [svg.text((8, 20), "Section across the path", TITLE, font_weight="bold")]
     land = float(land_height(RADIUS, max(flank.angle for flank in ball.flanks)))
     for conformity, down, name in (
-        (ball.nut_conformity, -1, Message("nut")),
-        (ball.screw_conformity, 1, Message("screw")),
+        (ball.nut_conformity, -1, "nut"),
+        (ball.screw_conformity, 1, "screw"),
     ):
         grooves = {side: Groove(conformity, flanks.get(side, main).angle, side, down) for side in (1, -1)}
         left, right = sorted(grooves.values(), key=lambda groove: groove.normal[0])
@@ -102,7 +77,7 @@ def section(ball: DrawnBall) -> Panel:
     for flank in ball.flanks:
         parts += _normal(ball, flank)
     parts += [*_angle(main, has_both=len(ball.flanks) > 1), *_scale_bar(ball)]
-    notes, y = _sizes(ball, _SHORT), BALL[1] + RADIUS + _BODY + 22
+    notes, y = _sizes(ball, short=True), BALL[1] + RADIUS + _BODY + 22
     parts += [svg.text((8, y + LINE * i), words) for i, words in enumerate(notes)]
     return Panel(parts, y + LINE * (len(notes) - 1))
 
@@ -157,12 +132,12 @@ def _scale(ball: DrawnBall) -> float:
     return 2 * RADIUS / ball.ball_diameter
 
 
-def _angle(flank: Touching, *, has_both: bool) -> list[svg.Part]:
+def _angle(flank: Touching, *, has_both: bool) -> list[str]:
     """The contact angle against the radius."""
     radius, side = 0.5 * RADIUS, flank.side
     start = (BALL[0], BALL[1] - radius)
     end = (BALL[0] + side * radius * math.sin(flank.angle), BALL[1] - radius * math.cos(flank.angle))
-    words = Message("α {angle}", {"angle": _degrees(flank)})
+    words = f"α {_degrees(flank)}"
     # beside the arc where there is room: between the normals with two, else on the far side of the radius
     middle = (BALL[0] - side * 6, BALL[1] - radius + 4) if not has_both else (BALL[0], BALL[1] + 0.62 * RADIUS)
     anchor = "middle" if has_both else "end" if side > 0 else "start"
@@ -178,7 +153,7 @@ def _degrees(flank: Touching) -> str:
     return units.shown(flank.angle, _ANGLE).replace(" deg", "°")
 
 
-def _scale_bar(ball: DrawnBall) -> list[svg.Part]:
+def _scale_bar(ball: DrawnBall) -> list[str]:
     """One, two or five times a power of ten millimetres, about a third of the ball."""
     wanted = 0.42 * ball.ball_diameter * 1e3
     power = 10 ** math.floor(math.log10(wanted))
@@ -190,48 +165,47 @@ def _scale_bar(ball: DrawnBall) -> list[svg.Part]:
         *(svg.line((end[0], y - 4), (end[0], y + 4), stroke_width=1.2) for end in ends),
         svg.text(
             (x - wide / 2, y - 7),
-            Message("{length}", {"length": units.shown(length * 1e-3, _LENGTH)}),
+            units.shown(length * 1e-3, _LENGTH),
             TEXT,
             "middle",
         ),
     ]
 
 
-def _sizes(ball: DrawnBall, words: _Words) -> list[Message]:
-    """The sizes of ball and grooves, and the loads."""
-    conformities = ball.screw_conformity, ball.nut_conformity
-    factors = [f"{f:.4g}" for f in conformities]
+def _sizes(ball: DrawnBall, *, short: bool) -> list[str]:
+    """The sizes of ball and grooves, and the loads; ``short`` where there is little room."""
+    diameter, radius = ("⌀", "r") if short else ("diameter", "radius")
     screw, nut = (
-        {"radius": units.shown(f * ball.ball_diameter, _LENGTH), "factor": factor}
-        for f, factor in zip(conformities, factors, strict=True)
+        (units.shown(conformity * ball.ball_diameter, _LENGTH), f"{conformity:.4g}")
+        for conformity in (ball.screw_conformity, ball.nut_conformity)
     )
-    same = factors[0] == factors[1]
-    grooves = [words.groove.of(**screw)] if same else [words.screw_groove.of(**screw), words.nut_groove.of(**nut)]
-    return [words.ball.of(diameter=units.shown(ball.ball_diameter, _LENGTH)), *grooves, *_loads(ball)]
+    if screw[1] == nut[1]:
+        grooves = [f"groove radius {screw[0]}, {screw[1]} {diameter}"]
+    else:
+        grooves = [
+            f"{name} groove {radius} {size}, {factor} {diameter}"
+            for name, (size, factor) in (("screw", screw), ("nut", nut))
+        ]
+    return [f"ball {diameter} {units.shown(ball.ball_diameter, _LENGTH)}", *grooves, *_loads(ball)]
 
 
-def _loads(ball: DrawnBall) -> list[Message]:
+def _loads(ball: DrawnBall) -> list[str]:
     if ball.load == 0:
-        return [Message("no load on the ball")]
-    whose = Message("load of this ball") if ball.most_loaded else Message("load of each ball")
+        return ["no load on the ball"]
+    whose = "load of this ball" if ball.most_loaded else "load of each ball"
     if not math.isfinite(ball.load):
-        return [Message("{load_of_ball}: no number", {"load_of_ball": whose})]
-    loads = [Message("{load}", {"load": units.shown(flank.load, _LOAD)}) for flank in ball.flanks]
-    said = Message("{load_of_ball} {load}", {"load_of_ball": whose, "load": both(loads)})
+        return [f"{whose}: no number"]
+    load = f"{whose} {' and '.join(units.shown(flank.load, _LOAD) for flank in ball.flanks)}"
     if len(ball.flanks) == 1:
-        return [said]
-    angles = both([Message("{angle}", {"angle": _degrees(flank)}) for flank in ball.flanks])
-    return [said, Message("at {angles}: four contacts", {"angles": angles})]
+        return [load]
+    return [load, f"at {' and '.join(map(_degrees, ball.flanks))}: four contacts"]
 
 
-def in_words(ball: DrawnBall) -> list[Message]:
+def in_words(ball: DrawnBall) -> list[str]:
     """Alternative text of the section, with its numbers."""
-    angles = [Message("{angle}", {"angle": units.shown(flank.angle, _ANGLE)}) for flank in ball.flanks]
+    angles = " and ".join(units.shown(flank.angle, _ANGLE) for flank in ball.flanks)
     return [
-        Message(
-            "Left: section across the path of the balls, to scale, the screw below and the nut above; how far the "
-            "grooves reach is assumed. Contact angle {angles}.",
-            {"angles": both(angles)},
-        ),
-        Message("{sizes}.", {"sizes": chained(Message("{others}; {last}"), _sizes(ball, _LONG))}),
+        "Left: section across the path of the balls, to scale, the screw below and the nut above; how far the grooves "
+        f"reach is assumed. Contact angle {angles}.",
+        f"{'; '.join(_sizes(ball, short=False))}.",
     ]

@@ -9,12 +9,10 @@ from __future__ import annotations
 import dataclasses
 import math
 import textwrap
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
-from ballscrew.basis import units
 from ballscrew.basis.output.markup import escaped
-from ballscrew.basis.records import Message
 
 Point = tuple[float, float]
 
@@ -28,30 +26,17 @@ LINE = 17.0
 
 
 @dataclasses.dataclass(frozen=True)
-class Text:
-    """A line of text: a message at its place."""
-
-    at: Point
-    message: Message
-    attributes: Mapping[str, str | float]
-
-    def element(self) -> str:
-        """The element."""
-        return _line_of_text(self.at, units.filled(self.message), **self.attributes)
-
-
-@dataclasses.dataclass(frozen=True)
 class Paragraph:
-    """A message in lines of so many characters."""
+    """Words in lines of so many characters."""
 
     at: Point
-    message: Message
+    words: str
     characters: int
 
     @property
     def lines(self) -> list[str]:
         """The lines."""
-        return textwrap.wrap(units.filled(self.message), self.characters)
+        return textwrap.wrap(self.words, self.characters)
 
     @property
     def bottom(self) -> float:
@@ -61,16 +46,13 @@ class Paragraph:
     def element(self) -> str:
         """The lines as elements."""
         x, y = self.at
-        return "\n".join(_line_of_text((x, y + LINE * row), line, TEXT) for row, line in enumerate(self.lines))
-
-
-Part = str | Text | Paragraph
+        return "\n".join(text((x, y + LINE * row), line) for row, line in enumerate(self.lines))
 
 
 class Panel(NamedTuple):
     """Elements, and the foot of the last line of text."""
 
-    parts: Sequence[Part]
+    parts: Sequence[str]
     bottom: float
 
 
@@ -93,18 +75,10 @@ def group(*parts: str, **attributes: str | float) -> str:
     return element("g", "\n".join(parts), **attributes)
 
 
-def text(at: Point, message: Message, size: float = TEXT, anchor: str = "start", **attributes: str | float) -> Text:
+def text(at: Point, words: str, size: float = TEXT, anchor: str = "start", **attributes: str | float) -> str:
     """A line of text."""
-    return Text(at, message, {"size": size, "anchor": anchor, **attributes})
-
-
-def _line_of_text(
-    at: Point, words: str, size: float | str, anchor: float | str = "start", **attributes: str | float
-) -> str:
-    return element(
-        "text", escaped(words), x=at[0], y=at[1], font_size=size, text_anchor=anchor, fill="currentColor",
-        **attributes,
-    )  # fmt: skip
+    about = {"font_size": size, "text_anchor": anchor, "fill": "currentColor"}
+    return element("text", escaped(words), x=at[0], y=at[1], **about, **attributes)
 
 
 def line(start: Point, end: Point, **attributes: str | float) -> str:
@@ -156,15 +130,15 @@ class Document:
 
     width: float
     height: float
-    title: Message
-    description: Message
-    parts: Sequence[Part]
+    title: str
+    description: str
+    parts: Sequence[str]
 
     def text(self) -> str:
         """The drawing as SVG."""
         about = {"title": self.title, "desc": self.description}
-        parts = [element(tag, escaped(units.filled(said))) for tag, said in about.items()]
-        parts += [part if isinstance(part, str) else part.element() for part in self.parts]
+        parts = [element(tag, escaped(words)) for tag, words in about.items()]
+        parts += self.parts
         return element(
             "svg",
             "\n" + "\n".join(parts) + "\n",
