@@ -38,8 +38,8 @@ _OF_TESTS = Message("so in the test that starves the most")
 #: Causes beside each other.
 _CAUSES = {PRELOAD: "preload", CONSTANT: "constant torque", WARMER: "oil beside what was logged"}
 _NO_TEMPERATURE = (
-    "no temperature is logged, and each kelvin is {each} of the torque: the alarm says that the torque has changed, not "
-    "that the nut has worn. The intervals have {limit} K either way in them{oil}. Log the temperature of the nut"
+    "no temperature is logged, and each kelvin is {each} of the torque: the alarm says that the torque has changed, "
+    "not that the nut has worn. The intervals have {limit} K either way in them{oil}. Log the temperature of the nut"
 )
 _STAYED = "had the preload stayed"
 
