@@ -5,7 +5,7 @@ import dataclasses
 import pytest
 
 from ballscrew.basis import units
-from ballscrew.cases.case_files import case_file, case_messages
+from ballscrew.cases.case_files import case_file, descriptions
 from ballscrew.cases.case_files.makers_rules import by_rules, subject_of
 from ballscrew.questions.run import makers
 from ballscrew.questions.run.compute import run
@@ -56,7 +56,7 @@ def test_the_nominal_diameter_is_that_of_the_row(case):
 
 def said(case):
     """What is said of the rows of a vendor that are like the nut."""
-    (found,) = [text for one in case_messages.assumptions(case) if "model / vendor" in (text := units.filled(one))]
+    (found,) = [text for text in descriptions.assumptions(case) if "model / vendor" in text]
     return found
 
 

@@ -10,11 +10,11 @@ import ballscrew as bs
 from ballscrew.basis import units
 from ballscrew.basis.errors import MISSING, Fault, InputError
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.cases.case_files import case_file, case_messages, case_text, fitted_case, inputs
+from ballscrew.cases.case_files import case_file, case_text, descriptions, fitted_case, inputs
 from ballscrew.cases.schema import law_import
 from ballscrew.cases.schema.case_schema import json_schema
 from ballscrew.cases.schema.option_faults import in_options
-from ballscrew.cases.screw_tables.catalogue import assumed
+from ballscrew.cases.screw_tables.catalogue import assumed, seal_source
 from ballscrew.cases.screw_tables.catalogue import case_text as text_of
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
 from support.drive_case import drive_case
@@ -100,17 +100,17 @@ def test_seals_say_whose_torque_they_have():
         nut = types.SimpleNamespace(losses={} if torque is None else {"seals": bs.Seals(torque)})
         case = types.SimpleNamespace(row=row, screw=types.SimpleNamespace(nut=nut))
         # one line of a text, which stands among many
-        return [units.filled(one) for one in case_messages._seals_of_row(case)]
+        return descriptions._seals_of_row(case)
 
     of_maker = "seals 0.2 N m: measured by us; give the torque of your seals if you know it"
     assert said(0.2, seal_torque_source="measured by us") == [of_maker]
     assert said(0.3, seal_torque_source="measured by us") == []
     assert said(None, seal_torque_source="measured by us") == []
     assert said(0.2) == []
-    maker = units.filled(case_messages.seal_source("HIWIN"))
+    maker = units.filled(seal_source("HIWIN"))
     assert maker in said(0.2, seal_torque_source=maker, make="HIWIN")[0]
     without_row = types.SimpleNamespace(row=None, screw=types.SimpleNamespace(nut=types.SimpleNamespace(losses={})))
-    assert case_messages._seals_of_row(without_row) == []
+    assert descriptions._seals_of_row(without_row) == []
 
 
 def test_what_stands_for_what_a_row_leaves_out():

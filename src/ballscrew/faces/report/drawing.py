@@ -6,8 +6,7 @@ The page and the report show the same drawing. What is physics in it is in
 
 from __future__ import annotations
 
-from ballscrew.basis import units
-from ballscrew.cases.case_files import case_messages
+from ballscrew.cases.case_files import descriptions
 from ballscrew.faces.report import drawing_contact, drawing_section, svg
 from ballscrew.faces.report.contact_geometry import drawn_ball
 from ballscrew.questions.run.compute import Run
@@ -24,7 +23,7 @@ def drawing(run: Run) -> str:
     """
     ball = drawn_ball(run)
     what = "The most loaded ball" if ball.most_loaded else "A ball"
-    title = f"{what} between screw and nut: {units.filled(case_messages.title(run.case))}"
+    title = f"{what} between screw and nut: {descriptions.title(run.case)}"
     words = " ".join([*drawing_section.in_words(ball), *drawing_contact.in_words(ball)])
     panels = drawing_section.section(ball), drawing_contact.contact(ball)
     height = max(panel.bottom for panel in panels) + _MARGIN

@@ -10,7 +10,7 @@ from typing import Any
 
 from ballscrew.basis import units
 from ballscrew.basis.records import Message
-from ballscrew.cases.case_files import case_file, case_messages
+from ballscrew.cases.case_files import case_file, descriptions
 from ballscrew.questions.band import compute as bands
 from ballscrew.questions.band import document as band_documents
 from ballscrew.questions.band.sheet import input_counts
@@ -47,9 +47,9 @@ def run(found: runs.Run) -> dict[str, Any]:
     return {
         **document,
         "words": {
-            "title": units.filled(case_messages.title(case)),
+            "title": descriptions.title(case),
             "verdicts": [record["text"] for record in document["verdicts"]],
-            "assumed": texts(case_messages.assumed(case, found.ball_to_ball_force)),
+            "assumed": descriptions.assumed(case, found.ball_to_ball_force),
             "rigidity": list(rigidity),
             "rules": texts(makers.messages(case, found.nut)),
         },

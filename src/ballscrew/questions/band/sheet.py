@@ -30,7 +30,7 @@ from ballscrew.basis.output.sheet import (
 )
 from ballscrew.basis.quantities import Info, Quantity, fields_of, quantities_of
 from ballscrew.basis.records import Message, Record
-from ballscrew.cases.case_files import case_messages
+from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.case_files.case_file import Case
 from ballscrew.cases.case_files.descriptions import design, title
 from ballscrew.cases.case_files.named_calibration import vendor_rows_like
@@ -312,9 +312,9 @@ def vendor_rows(case: Case) -> tuple[str, Table] | None:
         f"for the {len(rows)} rows of {near.data} most like this nut in diameter and lead the model gives "
         f"{near.mean:.2f} ± {near.scatter:.2f} times the vendor's no-load torque, {how}"
     )
-    whose = case_messages.whose_rows(case, near.data)
-    if whose is not None:
-        text = f"{text}. {sentence(units.filled(whose))}"
+    whose = descriptions.whose_rows(case, near.data)
+    if whose:
+        text = f"{text}. {sentence(whose)}"
     note = "At 100 rpm without wipers, ISO VG 100 at 25 degC; after the sizes the preload, by the dynamic rating."
     headings = ("diameter x lead x ball - turns", "vendor", "model", "model / vendor's middle")
     return text, Table("vendor", "Torque without load", headings, rows, [note])
