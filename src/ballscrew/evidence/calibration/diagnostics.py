@@ -7,8 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import both, chained, message_of
-from ballscrew.basis.records import Measured, Message, Named, Record
+from ballscrew.basis.records import Message, Record
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.evidence.calibration.fit_result import (
     AS_GIVEN,
@@ -22,54 +21,7 @@ from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.friction.loaded_balls import loads_of
 
 _OF_LOG = Message("so in the row that starves the most, by the numbers of the fit")
-_FLAT = Message("{name} is not identified: near {value} the torques of this log hardly depend on it")
-_BY_PRIORS = Message(
-    "{names} cannot be told apart by this log alone: the error of {with_prior} stands on the prior, what was known "
-    "before"
-)
-_CONFOUNDED = Message(
-    "{names} cannot be told apart by this log: it says nothing of {product}; fix one of them, give one a prior, "
-    "or measure elsewhere"
-)
-_BY_PRIOR = Message(
-    "{name} is known only together with its prior: near {value} the torques of this log hardly depend on it"
-)
-_PRODUCT, _POWER = Message("{others} · {last}"), Message("{name}^{power}")
-_ONE_DIRECTION = Message(
-    "{name} is not identified: friction of one sign cannot be told from a zero error of the sensor; "
-    "measure in both directions"
-)
-_IMPRECISE = Message("{name} is not identified: it is known to less than half of its size")
-_ONE_SIDED = Message("{name} is bounded on one side only: beyond {value} the torques hardly change")
-_AT_BOUND = Message("{name} came to rest at its bound ({value}): the model cannot follow the log any further")
-_LOAD_SIGN = Message(
-    "the loads of the log have no sign: they are taken as positive; friction under the opposite load differs by "
-    "{share} in this nut; give the loads their signs"
-)
-_PRIOR = Message("{name} is known by its prior, too: the log leaves {share} of the prior's variance")
-_PRIOR_ALONE = Message(
-    "{name} is not identified, it stands on its prior: the log leaves {share} of the prior's variance"
-)
-_LIFT_OFF = Message(
-    "at {lifted} of {rows} rows the load lifts the relieved balls off (from {load} on): "
-    "those rows tell nothing of the preload"
-)
-_SCATTER = Message("rows miss by {scatter}, where friction is {friction}: look at their signs, units and conditions")
-_OUTLIERS = Message("{share} of the rows lie far from any fit: look at their signs, units and conditions")
-_BASELINE = Message(
-    "the description without physics ({baseline}) is {times} nearer to the log: look at units, kind of torque, and "
-    "whether this is the screw"
-)
-_OVER = Message(
-    "friction is overestimated by {share} at the {fifth} of the {name}: the model misses something that depends on it"
-)
-_UNDER = Message(
-    "friction is underestimated by {share} at the {fifth} of the {name}: the model misses something that depends on it"
-)
-_FIFTHS = (
-    Message("lowest fifth"), Message("lower fifth"), Message("middle fifth"), Message("higher fifth"),
-    Message("highest fifth"),
-)  # fmt: skip
+_FIFTHS = ("lowest", "lower", "middle", "higher", "highest")
 #: What each row of a log has of its own.
 _OF_ROWS = (*OPERATION, TEMPERATURE.name)
 #: A share of outliers beyond which they are no longer a few.
@@ -114,36 +66,34 @@ def _starved(found: FitResult) -> list[Record]:
 def _warning(
     name: str,
     subject: str,
-    text: str | Message,
+    text: str,
     value: float | None = None,
     limit: float | None = None,
     unit: str = "1",
 ) -> Record:
     return units.record(
-        message_of(text), id=f"fit.{name}", subject=subject, severity="warning", holds=False, value=value, limit=limit,
+        text,
+        id=f"fit.{name}",
+        subject=subject,
+        severity="warning",
+        holds=False,
+        value=value,
+        limit=limit,
         unit=unit,
-    )  # fmt: skip
-
-
-def powers_of(powers: Mapping[str, float]) -> Message:
-    """A product of powers, the largest first: ``boundary_friction_coefficient^0.98 · decay^-0.20``."""
-    largest = sorted(powers.items(), key=lambda item: -abs(item[1]))
-    parts = [
-        Named(name, name) if power == 1 else _POWER.of(name=Named(name, name), power=units.fixed(power, 2))
-        for name, power in largest
-        if abs(power) >= 0.005
-    ]
-    return chained(_PRODUCT, parts) if parts else Message("")
+    )
 
 
 def product_of_powers(powers: Mapping[str, float]) -> str:
-    """:func:`powers_of` as text."""
-    return units.filled(powers_of(powers))
+    """A product of powers, the largest first: ``boundary_friction_coefficient^0.98 · decay^-0.20``."""
+    largest = sorted(powers.items(), key=lambda item: -abs(item[1]))
+    return " · ".join(
+        name if power == 1 else f"{name}^{units.fixed(power, 2)}" for name, power in largest if abs(power) >= 0.005
+    )
 
 
-def _value(estimate: Estimate) -> Measured:
-    """The value of an estimate, which the text has in SI."""
-    return Measured(estimate.value, estimate.quantity, written=f"{estimate.value:.4g}")
+def _value(estimate: Estimate) -> str:
+    """The value of an estimate in SI."""
+    return f"{estimate.value:.4g}"
 
 
 def _not_identified(found: FitResult) -> list[Record]:
@@ -156,62 +106,62 @@ def _not_identified(found: FitResult) -> list[Record]:
         names = [name for name, power in combination.powers.items() if abs(power) >= 0.05]
         without = [name for name in without if name not in names]
         with_prior = [name for name in names if found.estimates[name].identified]
-        inputs = both(Named(name, name) for name in names)
-        if len(names) == 1 and with_prior:
-            message = _BY_PRIOR.of(name=Named(names[0], names[0]), value=_value(found.estimates[names[0]]))
-            records.append(_warning("confounded", names[0], message))
-        elif len(names) == 1:
-            message = _FLAT.of(name=Named(names[0], names[0]), value=_value(found.estimates[names[0]]))
-            records.append(_warning("not_identified", names[0], message))
+        inputs = " and ".join(names)
+        if len(names) == 1:
+            (name,) = names
+            flat = f"near {_value(found.estimates[name])} the torques of this log hardly depend on it"
+            if with_prior:
+                text = f"{name} is known only together with its prior: {flat}"
+                records.append(_warning("confounded", name, text))
+            else:
+                records.append(_warning("not_identified", name, f"{name} is not identified: {flat}"))
         elif with_prior:
-            message = _BY_PRIORS.of(names=inputs, with_prior=both(Named(name, name) for name in with_prior))
-            records.append(_warning("confounded", ",".join(names), message))
+            text = (
+                f"{inputs} cannot be told apart by this log alone: the error of {' and '.join(with_prior)} stands on "
+                "the prior, what was known before"
+            )
+            records.append(_warning("confounded", ",".join(names), text))
         else:
-            message = _CONFOUNDED.of(names=inputs, product=powers_of(combination.powers))
-            records.append(_warning("confounded", ",".join(names), message))
+            text = (
+                f"{inputs} cannot be told apart by this log: it says nothing of "
+                f"{product_of_powers(combination.powers)}; fix one of them, give one a prior, or measure elsewhere"
+            )
+            records.append(_warning("confounded", ",".join(names), text))
     if CONSTANT_TORQUE.name in without and not found.problem.has_torque_offset:
         without.remove(CONSTANT_TORQUE.name)
-        message = _ONE_DIRECTION.of(name=Named(CONSTANT_TORQUE.name, CONSTANT_TORQUE.name))
-        records.append(_warning("one_direction", CONSTANT_TORQUE.name, message))
+        text = (
+            f"{CONSTANT_TORQUE.name} is not identified: friction of one sign cannot be told from a zero error of the "
+            "sensor; measure in both directions"
+        )
+        records.append(_warning("one_direction", CONSTANT_TORQUE.name, text))
     # those of few rows, and those that stand on their prior, have records of their own
     without = [name for name in without if found.estimates[name].prior_share <= PRIOR_SHARE]
     imprecise = [] if found.has_few_rows else without
-    return records + [_warning("imprecise", name, _IMPRECISE.of(name=Named(name, name))) for name in imprecise]
+    imprecisely = "is not identified: it is known to less than half of its size"
+    return records + [_warning("imprecise", name, f"{name} {imprecisely}") for name in imprecise]
 
 
 def _of_bounds(found: FitResult) -> list[Record]:
     one_sided = [e for e in found.estimates.values() if e.one_sided and not e.at_bound]
     at_bound = [e for e in found.estimates.values() if e.at_bound]
-    return [
-        *(
-            _warning(
-                "one_sided", e.name, _ONE_SIDED.of(name=Named(e.name, e.name), value=_value(e)),
-                e.value, unit=e.quantity.unit,
-            )
-            for e in one_sided
-        ),
-        *(
-            _warning(
-                "at_bound", e.name, _AT_BOUND.of(name=Named(e.name, e.name), value=_value(e)),
-                e.value, e.value, e.quantity.unit,
-            )
-            for e in at_bound
-        ),
-    ]  # fmt: skip
+    records: list[Record] = []
+    for e in one_sided:
+        text = f"{e.name} is bounded on one side only: beyond {_value(e)} the torques hardly change"
+        records.append(_warning("one_sided", e.name, text, e.value, unit=e.quantity.unit))
+    for e in at_bound:
+        text = f"{e.name} came to rest at its bound ({_value(e)}): the model cannot follow the log any further"
+        records.append(_warning("at_bound", e.name, text, e.value, e.value, e.quantity.unit))
+    return records
 
 
 def _of_priors(found: FitResult) -> list[Record]:
-    return [
-        _warning(
-            "prior", e.name,
-            (_PRIOR if e.identified else _PRIOR_ALONE).of(
-                name=Named(e.name, e.name), share=units.percent(e.prior_share)
-            ),
-            e.prior_share, PRIOR_SHARE,
-        )
-        for e in found.estimates.values()
-        if e.prior_share > PRIOR_SHARE
-    ]  # fmt: skip
+    records: list[Record] = []
+    for e in found.estimates.values():
+        if e.prior_share > PRIOR_SHARE:
+            by_prior = "is known by its prior, too" if e.identified else "is not identified, it stands on its prior"
+            text = f"{e.name} {by_prior}: the log leaves {units.percent(e.prior_share)} of the prior's variance"
+            records.append(_warning("prior", e.name, text, e.prior_share, PRIOR_SHARE))
+    return records
 
 
 def _of_preload(found: FitResult) -> list[Record]:
@@ -223,10 +173,11 @@ def _of_preload(found: FitResult) -> list[Record]:
     most, lifted = float(np.min(limits)), int(np.count_nonzero(np.abs(loads) >= limits))
     if not lifted:
         return []
-    message = _LIFT_OFF.of(
-        lifted=units.fixed(lifted), rows=units.fixed(len(found.rows.log)), load=units.in_unit(most, "N")
+    text = (
+        f"at {lifted} of {len(found.rows.log)} rows the load lifts the relieved balls off (from "
+        f"{units.in_unit(most, 'N')} on): those rows tell nothing of the preload"
     )
-    return [_warning("lift_off", "axial_load", message, most, unit="N")]
+    return [_warning("lift_off", "axial_load", text, most, unit="N")]
 
 
 def _of_rows(found: FitResult) -> list[Record]:
@@ -242,12 +193,14 @@ def _of_scatter(found: FitResult) -> list[Record]:
     typical = float(np.median(np.abs(found.rows.friction)))
     scatter = float(np.median(found.rows.scatter))
     if scatter > typical or found.solution.noise.share > MAXIMUM_NOISE_SHARE:
-        message = _SCATTER.of(scatter=units.in_unit(scatter, "N m", 2), friction=units.in_unit(typical, "N m", 2))
-        records.append(_warning("scatter", "torque", message, scatter, typical, "N m"))
+        off, friction = (units.in_unit(torque, "N m", 2) for torque in (scatter, typical))
+        text = f"rows miss by {off}, where friction is {friction}: look at their signs, units and conditions"
+        records.append(_warning("scatter", "torque", text, scatter, typical, "N m"))
     outlying = float(np.mean(found.rows.outlying))
     if outlying > MANY_OUTLIERS:
-        message = _OUTLIERS.of(share=units.percent(outlying))
-        records.append(_warning("outliers", "rows", message, outlying, MANY_OUTLIERS))
+        share = units.percent(outlying)
+        text = f"{share} of the rows lie far from any fit: look at their signs, units and conditions"
+        records.append(_warning("outliers", "rows", text, outlying, MANY_OUTLIERS))
     return records
 
 
@@ -275,12 +228,12 @@ def _of_baselines(found: FitResult) -> list[Record]:
     if not (rms[best] < BASELINE_RATIO * own and own > minimum_scatter(found.rows.log.torque)):
         return []
     ratio = own / rms[best] if rms[best] * MAXIMUM_RATIO > own else MAXIMUM_RATIO
-    if ratio < MAXIMUM_RATIO:
-        times = Message("{ratio} times", {"ratio": units.fixed(ratio, 1)})
-    else:
-        times = Message("more than {ratio} times", {"ratio": units.fixed(MAXIMUM_RATIO)})
-    message = _BASELINE.of(baseline=Message(best), times=times)
-    return [_warning("baseline_better", "residual_rms", message, own, rms[best], "N m")]
+    times = units.fixed(ratio, 1) if ratio < MAXIMUM_RATIO else f"more than {units.fixed(MAXIMUM_RATIO)}"
+    text = (
+        f"the description without physics ({best}) is {times} times nearer to the log: look at units, kind of torque, "
+        "and whether this is the screw"
+    )
+    return [_warning("baseline_better", "residual_rms", text, own, rms[best], "N m")]
 
 
 def _of_oil(found: FitResult) -> list[Record]:
@@ -313,7 +266,11 @@ def _of_load_signs(found: FitResult) -> list[Record]:
     share = float(np.median(np.abs(torques[1] - friction)) / np.median(np.abs(friction)))
     if not share > LOAD_SIGN_SHARE:
         return []
-    return [_warning("load_sign", "axial_load", _LOAD_SIGN.of(share=units.percent(share)), share, LOAD_SIGN_SHARE)]
+    text = (
+        "the loads of the log have no sign: they are taken as positive; friction under the opposite load differs by "
+        f"{units.percent(share)} in this nut; give the loads their signs"
+    )
+    return [_warning("load_sign", "axial_load", text, share, LOAD_SIGN_SHARE)]
 
 
 def _trends(found: FitResult) -> list[Record]:
@@ -324,11 +281,9 @@ def _trends(found: FitResult) -> list[Record]:
         worst = int(np.argmax(np.abs(trend.means)))
         off = float(trend.means[worst])
         if abs(off) > max(TREND_ERRORS * trend.errors[worst], TREND_SHARE * friction):
-            column = Message("time") if name == "time" else Named(name)
-            message = (_OVER if off > 0 else _UNDER).of(
-                share=units.percent(abs(off) / friction),
-                fifth=_FIFTHS[worst],
-                name=column,
+            text = (
+                f"friction is {'over' if off > 0 else 'under'}estimated by {units.percent(abs(off) / friction)} at the "
+                f"{_FIFTHS[worst]} fifth of the {name.replace('_', ' ')}: the model misses something that depends on it"
             )
-            records.append(_warning("trend", name, message, off, TREND_SHARE * friction, "N m"))
+            records.append(_warning("trend", name, text, off, TREND_SHARE * friction, "N m"))
     return records
