@@ -67,8 +67,8 @@ from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.faces.web.sent_files import written
 from ballscrew.physics.sizing.catalogue import catalogue as shipped
+from ballscrew.questions.axis import answer as axis_documents
 from ballscrew.questions.axis import compute as chains
-from ballscrew.questions.axis import document as axis_documents
 from ballscrew.questions.axis.answer import ChainResults
 from ballscrew.questions.axis.options import AxisOptions
 from ballscrew.questions.band import compute as bands

@@ -39,6 +39,12 @@ class OneOf(NamedTuple):
     words: tuple[str, ...]
 
 
+class Words(NamedTuple):
+    """What a part is, where its annotation comes from another class."""
+
+    text: str
+
+
 class Column(NamedTuple):
     """Said of a part that is a column of the tables in files: its heading."""
 
@@ -62,7 +68,8 @@ class Part(NamedTuple):
     def meaning(self) -> str:
         """What it is, for people."""
         info = info_of(self.annotation)
-        return self.words if info is None else info.meaning
+        words = next((said.text for said in _said(self.annotation) if isinstance(said, Words)), self.words)
+        return words if info is None else info.meaning
 
     @property
     def bare(self) -> Any:
@@ -151,6 +158,15 @@ def parts_of(cls: type) -> Mapping[str, Part]:
     return found
 
 
+def described(cls: type) -> Mapping[str, Part]:
+    """The parts of an answer by name, fields with the first sentence of the comment above them."""
+    said = comments_of(cls)
+    return {
+        name: part._replace(words=said[name].partition(". ")[0]) if name in said else part
+        for name, part in parts_of(cls).items()
+    }
+
+
 def is_answer(annotation: Any) -> bool:
     """True for a class that is an answer of its own."""
     return isinstance(annotation, type) and (
@@ -177,6 +193,13 @@ def table_of(quantities: Mapping[str, Quantity], *, of: Any = float, at_times: C
 
     fields = [(name, annotated(one)) for name, one in quantities.items()]
     return dataclasses.make_dataclass("Numbers", fields, frozen=True, eq=False)
+
+
+def parts_like(cls: type, *names: str) -> type[Any]:
+    """A base of answers: the parts of these names, as another class declares them."""
+    known = described(cls)
+    fields = [(name, Annotated[known[name].annotation, Words(known[name].words)]) for name in names]
+    return dataclasses.make_dataclass("Parts", fields, frozen=True, eq=False)
 
 
 def cells(answer: Any, name: str = "", quantity: Quantity | None = None) -> Cells:
@@ -269,11 +292,7 @@ def schema(cls: type, *, optional: bool = False) -> Any:
     """
     from ballscrew.questions.shared.answer_parts import Closed, model  # pydantic, which the command line does not need
 
-    said = comments_of(cls)
-    fields = {
-        name: _field(part._replace(words=said[name].partition(". ")[0]) if name in said else part, optional=optional)
-        for name, part in parts_of(cls).items()
-    }
+    fields = {name: _field(part, optional=optional) for name, part in described(cls).items()}
     return model(cls.__name__, _first_line(cls), Closed, **fields)
 
 
