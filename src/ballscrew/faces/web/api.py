@@ -80,8 +80,8 @@ from ballscrew.questions.check.compute import with_nut_named
 from ballscrew.questions.compare import document as comparison_documents
 from ballscrew.questions.compare.compute import comparison
 from ballscrew.questions.compare.response import Compare
+from ballscrew.questions.duty import answer as duty_documents
 from ballscrew.questions.duty import compute as duties
-from ballscrew.questions.duty import document as duty_documents
 from ballscrew.questions.duty.answer import DutyResults
 from ballscrew.questions.optimise.need_schema import json_schema as schema_of_needs
 from ballscrew.questions.run import response as run_answers
@@ -101,9 +101,9 @@ from ballscrew.questions.sweep.options import SweepOptions
 from ballscrew.questions.validate import answer as validate_answers
 from ballscrew.questions.validate import compute as validation
 from ballscrew.questions.validate import document as validation_documents
+from ballscrew.questions.warm_up import answer as warm_up_documents
 from ballscrew.questions.warm_up import band as warm_up_bands
 from ballscrew.questions.warm_up import compute as warm_ups
-from ballscrew.questions.warm_up import document as warm_up_documents
 from ballscrew.questions.warm_up.answer import WarmUpResults
 from ballscrew.questions.warm_up.band_answer import BesideWarmUp
 from ballscrew.questions.warm_up.options import WarmUpOptions
