@@ -12,8 +12,8 @@ from ballscrew.basis.output.json_text import as_json
 from ballscrew.basis.output.sheet import Bars, Lines, Table
 from ballscrew.cases.case_files import case_file, uncertain_inputs
 from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.questions.sensitivity import answer as documents
 from ballscrew.questions.sensitivity import compute
-from ballscrew.questions.sensitivity import document as documents
 from ballscrew.questions.sensitivity.sheet import LAWS_STAY, sheet
 from support.pictures import words_of
 

@@ -23,7 +23,7 @@ from ballscrew.questions.run import compute as runs
 from ballscrew.questions.run import document as run_documents
 from ballscrew.questions.run import makers
 from ballscrew.questions.select.objectives import OBJECTIVES
-from ballscrew.questions.sensitivity import document as sensitivity_documents
+from ballscrew.questions.sensitivity import answer as sensitivity_documents
 from ballscrew.questions.sensitivity.compute import SensitivityReport
 
 #: Runs that are kept: who has asked for the numbers of a case often asks for its drawing or its checks next.

@@ -16,7 +16,7 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.evidence.service.condition_values import Condition
 from ballscrew.exports.export import Export
 from ballscrew.faces.web.documents import texts
-from ballscrew.questions.condition import document as condition_documents
+from ballscrew.questions.condition import answer as condition_documents
 from ballscrew.questions.condition import points as condition_points
 from ballscrew.questions.fit import document as fit_documents
 from ballscrew.questions.fit import points as fit_points

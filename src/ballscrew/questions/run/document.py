@@ -5,36 +5,22 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ballscrew.basis.records import documents
-from ballscrew.cases.case_files import case_file, provenance
 from ballscrew.questions.run.answer import results, vendor_rows
 from ballscrew.questions.run.compute import Run
 from ballscrew.questions.run.nut_loads import nut_loads
-from ballscrew.questions.shared import declared
+from ballscrew.questions.shared.envelope import envelope
 
 
 def document(run: Run) -> dict[str, Any]:
     """The document of a run; with a nut it has the loads of the balls, too."""
-    return {
-        "inputs": case_file.inputs(run.case),
-        **numbers(run),
-        "warnings": documents(run.warnings),
-        "verdicts": documents(run.verdicts),
-        "checks": [],
-        "provenance": provenance.of_case(run.case),
-    }
+    return envelope(run.case, results(run), beside=beside(run), warnings=run.warnings, verdicts=run.verdicts)
 
 
-def numbers(run: Run) -> dict[str, Any]:
-    """The results, the loads of the balls of a nut, the rows of a vendor that are like it, and the units of all."""
-    found, near = results(run), vendor_rows(run.case)
-    loads = {} if run.nut is None else {"loads": nut_loads(run.nut)}
-    beside = loads if near is None else {**loads, "vendor_rows": near}
-    return {
-        "results": declared.document(found),
-        **{name: declared.document(one) for name, one in beside.items()},
-        "units": {**declared.units(found), **{name: declared.units(one) for name, one in beside.items()}},
-    }
+def beside(run: Run) -> dict[str, Any]:
+    """The loads of the balls of a nut, and the rows of a vendor that are like it."""
+    loads = None if run.nut is None else nut_loads(run.nut)
+    answers = {"loads": loads, "vendor_rows": vendor_rows(run.case)}
+    return {name: answer for name, answer in answers.items() if answer is not None}
 
 
 def list_document(runs: Mapping[str, Run]) -> list[dict[str, Any]]:

@@ -14,7 +14,7 @@ from ballscrew.questions.service.compute import TORQUE, ServiceReport
 from ballscrew.questions.shared.declared import LEFT_OUT, from_attributes
 
 
-class Estimate(NamedTuple):
+class EstimatedPreload(NamedTuple):
     """A preload with its interval of 95 %, and the log that it is from."""
 
     preload: Annotated[Force, Info("F_{pr}", "preload: the median")]
@@ -76,11 +76,11 @@ class ServiceResults:
     """Preloads by two logs, by a log and the nominal preload, or by one torque; what is left, and other causes."""
 
     #: The preload before.
-    new: Annotated[Estimate | None, LEFT_OUT] = None
+    new: Annotated[EstimatedPreload | None, LEFT_OUT] = None
     #: The preload after.
-    worn: Annotated[Estimate | None, LEFT_OUT] = None
+    worn: Annotated[EstimatedPreload | None, LEFT_OUT] = None
     #: The preload by one torque.
-    preload: Annotated[Estimate | None, LEFT_OUT] = None
+    preload: Annotated[EstimatedPreload | None, LEFT_OUT] = None
     #: The preload after over that before.
     ratio: Annotated[PreloadLeft | None, Unit("1"), LEFT_OUT] = None
     #: The loss that is put up with, as a share of the preload.
@@ -108,11 +108,11 @@ def results(report: ServiceReport) -> ServiceResults:
     return ServiceResults(**found)
 
 
-def _estimate(one: PreloadEstimate) -> Estimate:
+def _estimate(one: PreloadEstimate) -> EstimatedPreload:
     low, high = one.interval()
     rows = None if one.fit is None else one.fit.rows
     return from_attributes(
-        Estimate,
+        EstimatedPreload,
         one,
         low=low,
         high=high,

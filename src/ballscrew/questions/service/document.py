@@ -6,10 +6,8 @@ from typing import Any
 
 from ballscrew.basis import units
 from ballscrew.basis.quantities import Quantity
-from ballscrew.basis.records import Record, documents
-from ballscrew.cases.case_files import case_file
+from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
-from ballscrew.cases.case_files.provenance import of_case
 from ballscrew.engine.evaluation.outputs import inputs_of
 from ballscrew.evidence.service.alternatives import Alternative
 from ballscrew.evidence.service.posterior import PRELOAD
@@ -17,7 +15,7 @@ from ballscrew.evidence.service.preload_change import VERDICTS
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.questions.service.answer import results
 from ballscrew.questions.service.compute import TORQUE, ServiceReport
-from ballscrew.questions.shared import declared
+from ballscrew.questions.shared.envelope import envelope
 
 #: By whether the value is within what is known of the number.
 _KNOWN = {
@@ -29,16 +27,14 @@ _KNOWN = {
 
 def document(case: Case, report: ServiceReport) -> dict[str, Any]:
     """Inputs, preloads, the share that is left, what else could be, warnings and provenance."""
-    found = results(report)
-    return {
-        "inputs": case_file.inputs(case),
-        "results": declared.document(found),
-        "units": declared.units(found),
-        "warnings": documents(report.warnings),
-        "verdicts": documents(verdicts(case, report)),
-        "checks": [],
-        "provenance": {**of_case(case), "logs": _logs(report)},
-    }
+    sources = [estimate.fit.rows.log.source for estimate in report.estimates.values() if estimate.fit is not None]
+    return envelope(
+        case,
+        results(report),
+        warnings=report.warnings,
+        verdicts=verdicts(case, report),
+        sources={"logs": [{"log": source[0], "sha256": source[1]} for source in sources if source is not None]},
+    )
 
 
 def preload_quantity(case: Case) -> Quantity:
@@ -123,8 +119,3 @@ def _taken_at(case: Case, report: ServiceReport) -> str:
         return taken
     temperature = units.shown(float(warm), TEMPERATURE, 3)
     return f"{taken} and {temperature}" if given is not None else f"{taken} and {temperature}, the oil of the case"
-
-
-def _logs(report: ServiceReport) -> list[dict[str, Any]]:
-    sources = [one.fit.rows.log.source for one in report.estimates.values() if one.fit is not None]
-    return [{"log": source[0], "sha256": source[1]} for source in sources if source is not None]

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from ballscrew.questions.service.answer import ServiceResults
-from ballscrew.questions.shared.answer_parts import Closed, Record, Tables
-from ballscrew.questions.shared.declared import with_answers
+from ballscrew.questions.shared.answer_parts import Closed, Tables
+from ballscrew.questions.shared.declared import response
 
 
 class ServiceWords(Closed):
@@ -14,14 +16,12 @@ class ServiceWords(Closed):
     causes: list[str]
 
 
-class Service(with_answers(results=ServiceResults)):
-    """The preload that is left in a nut."""
+class Beside(Closed):
+    """What stands beside the results."""
 
-    inputs: Tables
-    units: Tables
-    warnings: list[Record]
-    verdicts: list[Record]
-    checks: list[Record]
     provenance: Tables
     words: ServiceWords
     picture: Tables
+
+
+Service: Any = response(ServiceResults, "Service", beside=Beside)

@@ -307,26 +307,25 @@ def with_answers(**parts: Any) -> Any:
     return with_fields(**{name: (_kind(Part(name, cls)), field) for name, (cls, field) in pairs.items()})
 
 
-def response(cls: type, name: str, *, judged: bool = False, beside: type | None = None) -> Any:
-    """The response model of a document whose results are an answer; ``judged`` where its checks are of a screw.
+def response(cls: type, name: str, *, named: str = "results", judged: bool = False, beside: type | None = None) -> Any:
+    """The response model of a document whose results are an answer, ``named`` so.
 
-    ``beside`` is a model of what it has besides.
+    ``judged`` where its checks are of a screw; ``beside`` is a model of what it has besides, or in another form.
     """
     from ballscrew.questions.shared import answer_parts as parts
 
-    checks = parts.JudgedCheck if judged else parts.Record
-    return parts.model(
-        name,
-        _first_line(cls),
-        parts.Closed if beside is None else beside,
-        inputs=(parts.Tables, ...),
-        results=(schema(cls), ...),
-        units=(parts.Tables, ...),
-        verdicts=(list[parts.Record], ...),
-        checks=(list[checks], ...),
-        warnings=(list[parts.Record], ...),
-        provenance=(parts.Provenance, ...),
-    )
+    base: Any = parts.Closed if beside is None else beside
+    fields = {
+        "inputs": parts.Tables,
+        named: schema(cls),
+        "units": parts.Tables,
+        "verdicts": list[parts.Record],
+        "checks": list[parts.JudgedCheck if judged else parts.Record],
+        "warnings": list[parts.Record],
+        "provenance": parts.Provenance,
+    }
+    own = {name: (kind, ...) for name, kind in fields.items() if name not in base.model_fields}
+    return parts.model(name, _first_line(cls), base, **own)
 
 
 def _first_line(cls: type) -> str:

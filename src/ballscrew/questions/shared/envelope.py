@@ -15,6 +15,8 @@ def envelope(
     case: Case,
     results: Any,
     *,
+    named: str = "results",
+    units: Mapping[str, str] | None = None,
     beside: Mapping[str, Any] | None = None,
     assumed: Iterable[str] | None = None,
     warnings: Iterable[Record] = (),
@@ -22,10 +24,15 @@ def envelope(
     checks: Iterable[Mapping[str, Any]] = (),
     sources: Mapping[str, Any] | None = None,
 ) -> dict[str, Any]:
-    """The document of an answer, in SI; ``beside`` are more answers by name, ``sources`` what else it rests on."""
+    """The document of an answer, in SI.
+
+    ``units`` are those of numbers by other names than its own, ``beside`` are more answers by name, ``sources`` what
+    else it rests on.
+    """
     return {
         "inputs": case_file.inputs(case),
-        **numbers(results, **beside or {}),
+        **numbers(**{named: results}, **(beside or {})),
+        **({} if units is None else {"units": dict(units)}),
         **({} if assumed is None else {"assumed": list(assumed)}),
         "warnings": documents(warnings),
         "verdicts": documents(verdicts),
@@ -34,10 +41,10 @@ def envelope(
     }
 
 
-def numbers(results: Any, **beside: Any) -> dict[str, Any]:
-    """The results and the answers beside them, and the units of all."""
+def numbers(**answers: Any) -> dict[str, Any]:
+    """Answers by name, and the units of all: those of the results are not under their name."""
+    units = {name: declared.units(answer) for name, answer in answers.items()}
     return {
-        "results": declared.document(results),
-        **{name: declared.document(answer) for name, answer in beside.items()},
-        "units": {**declared.units(results), **{name: declared.units(answer) for name, answer in beside.items()}},
+        **{name: declared.document(answer) for name, answer in answers.items()},
+        "units": units.pop("results", {}) | units,
     }
