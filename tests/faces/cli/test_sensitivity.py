@@ -145,7 +145,7 @@ def test_json(ballscrew, example, case):
     process = ballscrew("sensitivity", example, *FEW, "--json", "--output", "efficiency", *SETTINGS)
     assert process.returncode == 0, process.stderr
     document = json.loads(process.stdout)
-    assert list(document) == ["inputs", "sensitivity", "units", "verdicts", "checks", "warnings", "provenance"]
+    assert list(document) == ["inputs", "sensitivity", "units", "warnings", "verdicts", "checks", "provenance"]
     shown, found = document["sensitivity"], of_method(case, "sobol", samples=64, output="efficiency")
     assert [row["name"] for row in shown["inputs"]] == list(found.result.inputs)
     for row in shown["inputs"]:
