@@ -17,7 +17,7 @@ from ballscrew.questions.band import document as band_documents
 from ballscrew.questions.band.sheet import input_counts
 from ballscrew.questions.check import compute as checks
 from ballscrew.questions.check import document as check_documents
-from ballscrew.questions.optimise import document as optimise_documents
+from ballscrew.questions.optimise import answer as optimise_documents
 from ballscrew.questions.optimise.compute import Optimisation
 from ballscrew.questions.run import compute as runs
 from ballscrew.questions.run import document as run_documents

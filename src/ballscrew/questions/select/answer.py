@@ -15,7 +15,7 @@ from ballscrew.questions.duty.compute import NUMBERS, DutyReport
 from ballscrew.questions.select.candidates import Candidate
 from ballscrew.questions.select.compute import Ranked
 from ballscrew.questions.select.objectives import OBJECTIVES
-from ballscrew.questions.shared.declared import FINITE, table_of
+from ballscrew.questions.shared.declared import FINITE, from_attributes, table_of
 
 _ROW = quantities_of(CatalogueRow)
 
@@ -140,19 +140,15 @@ class OfMotion:
 def candidate(ranked: Ranked, verdict: str, case: Mapping[str, Any]) -> OneCandidate:
     """A candidate with its rank, all checks in a few words, and its case file."""
     found, row = ranked.candidate, ranked.candidate.variant.row
-    return OneCandidate(
+    return from_attributes(
+        OneCandidate,
+        found,
         rank=ranked.rank,
-        name=found.name,
         label=found.variant.label,
         row=RowSizes(row.nominal_diameter, row.lead, row.source),
         nut=found.variant.nut,
-        preload=found.preload,
         oil=found.variant.oil_name,
-        holds=found.holds,
-        complete=found.complete,
-        valid=found.valid,
         pareto=ranked.pareto,
-        rigid_lift_off_load=found.rigid_lift_off_load,
         worst=worst(found),
         fails=fails(found),
         verdict=verdict,
@@ -178,7 +174,7 @@ def of_motion(duty: DutyReport) -> OfMotion:
         CycleOfNeed(**duty.numbers),
         None if duty.by_rule else FullBath(**duty.full_bath),
         MotorTorque(**duty.motor_torque),
-        BrakeOfNeed(*(getattr(duty.brake, name) for name in BrakeOfNeed._fields)),
+        from_attributes(BrakeOfNeed, duty.brake),
     )
 
 
