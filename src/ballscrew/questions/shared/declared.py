@@ -284,12 +284,16 @@ def units_of(cls: type) -> dict[str, Any]:
 # -- schema ---------------------------------------------------------------------------------------
 
 
-@functools.cache
 def schema(cls: type, *, optional: bool = False) -> Any:
     """The response model of an answer: a name, a type and a description for each part.
 
     ``optional`` where each part of it may be left out.
     """
+    return _schema(cls, optional)
+
+
+@functools.cache
+def _schema(cls: type, optional: bool) -> Any:
     from ballscrew.questions.shared.answer_parts import Closed, model  # pydantic, which the command line does not need
 
     fields = {name: _field(part, optional=optional) for name, part in described(cls).items()}
