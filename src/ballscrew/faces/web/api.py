@@ -77,7 +77,7 @@ from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.catalogue import answer as catalogue_answers
 from ballscrew.questions.check import answer as check_answers
 from ballscrew.questions.check.compute import with_nut_named
-from ballscrew.questions.compare import document as comparison_documents
+from ballscrew.questions.compare import answer as comparison_documents
 from ballscrew.questions.compare.compute import comparison
 from ballscrew.questions.compare.response import Compare
 from ballscrew.questions.duty import answer as duty_documents
@@ -85,7 +85,7 @@ from ballscrew.questions.duty import compute as duties
 from ballscrew.questions.duty.answer import DutyResults
 from ballscrew.questions.optimise.need_schema import json_schema as schema_of_needs
 from ballscrew.questions.run import response as run_answers
-from ballscrew.questions.select import document as selection_documents
+from ballscrew.questions.select import answer as selection_documents
 from ballscrew.questions.select import response as select_answers
 from ballscrew.questions.select.compute import plan as planned_selection
 from ballscrew.questions.select.compute import select as selected
@@ -93,8 +93,8 @@ from ballscrew.questions.select.need import need_of
 from ballscrew.questions.select.options import SelectOptions
 from ballscrew.questions.shared import answer_parts, option_values, schema_answer
 from ballscrew.questions.shared.declared import response
+from ballscrew.questions.sweep import answer as sweep_documents
 from ballscrew.questions.sweep import compute as sweeps
-from ballscrew.questions.sweep import document as sweep_documents
 from ballscrew.questions.sweep import response as sweep_answers
 from ballscrew.questions.sweep.band import INNER, with_band
 from ballscrew.questions.sweep.options import SweepOptions

@@ -19,8 +19,8 @@ from ballscrew.questions.check import compute as checks
 from ballscrew.questions.check import document as check_documents
 from ballscrew.questions.optimise import answer as optimise_documents
 from ballscrew.questions.optimise.compute import Optimisation
+from ballscrew.questions.run import answer as run_documents
 from ballscrew.questions.run import compute as runs
-from ballscrew.questions.run import document as run_documents
 from ballscrew.questions.run import makers
 from ballscrew.questions.select.objectives import OBJECTIVES
 from ballscrew.questions.sensitivity import answer as sensitivity_documents

@@ -18,13 +18,13 @@ from ballscrew.exports.export import Export
 from ballscrew.faces.web.documents import texts
 from ballscrew.questions.condition import answer as condition_documents
 from ballscrew.questions.condition import points as condition_points
-from ballscrew.questions.fit import document as fit_documents
+from ballscrew.questions.fit import answer as fit_documents
 from ballscrew.questions.fit import points as fit_points
 from ballscrew.questions.fit import sheet as fit_sheet
 from ballscrew.questions.fit.compute import FitReport
 from ballscrew.questions.hand_over import document as hand_over_documents
 from ballscrew.questions.hand_over import text as hand_over_text
-from ballscrew.questions.service import document as service_documents
+from ballscrew.questions.service import answer as service_documents
 from ballscrew.questions.service import points as service_points
 from ballscrew.questions.service.compute import ServiceReport
 from ballscrew.questions.service.sheet import causes, names

@@ -10,7 +10,7 @@ from ballscrew.cases.case_files import case_file, provenance
 from ballscrew.cases.screw_tables.nut_kinds import kind_of
 from ballscrew.physics.sizing.checks import Check, judged
 from ballscrew.questions.check.compute import Checked
-from ballscrew.questions.run import document as run
+from ballscrew.questions.run import answer as run
 from ballscrew.questions.run.answer import results
 from ballscrew.questions.shared.check_lines import source_document
 from ballscrew.questions.shared.envelope import numbers

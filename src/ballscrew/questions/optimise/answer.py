@@ -12,9 +12,8 @@ from ballscrew.physics.sizing.checks import judged
 from ballscrew.questions.check import document as check_documents
 from ballscrew.questions.optimise.compute import Member, Optimisation
 from ballscrew.questions.optimise.design_space import VARIABLES, SearchOptions
-from ballscrew.questions.select.answer import OneObjective, objective
+from ballscrew.questions.select.answer import OneObjective, need_document, objective
 from ballscrew.questions.select.candidates import Starved
-from ballscrew.questions.select.document import need_document
 from ballscrew.questions.select.objectives import OBJECTIVES
 from ballscrew.questions.shared import declared
 from ballscrew.questions.shared.declared import FINITE, from_attributes, parts_like, table_of
