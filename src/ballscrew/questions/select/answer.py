@@ -115,11 +115,8 @@ class OneCandidate:
     starved: bool
 
 
-class MotorTorque(NamedTuple):
+class MotorTorque(table_of({name: NUMBERS[name] for name in ("torque_peak", "torque_rms")})):
     """The torques that a motor is chosen by."""
-
-    torque_peak: Annotated[Torque, NUMBERS["torque_peak"].info]
-    torque_rms: Annotated[Torque, NUMBERS["torque_rms"].info]
 
 
 class BrakeOfNeed(NamedTuple):

@@ -248,6 +248,11 @@ def _items(answer: Any) -> Iterator[tuple[str, Any]]:
             yield name, document(value)
 
 
+def attributes(value: Any, *names: str) -> dict[str, Any]:
+    """Attributes of a value by name, as they stand in a document."""
+    return {name: document(getattr(value, name)) for name in names}
+
+
 def units(answer: Any) -> dict[str, Any]:
     """The SI units of the numbers of an answer, in tables like its document; parts without numbers are not in it."""
     found: dict[str, Any] = {}
