@@ -114,6 +114,15 @@ class JudgedCheck(Record):
     )
 
 
+class Said(Closed):
+    """What is said of results, and what they rest on."""
+
+    verdicts: list[Record]
+    checks: list[Record]
+    warnings: list[Record]
+    provenance: Provenance
+
+
 class Drawing(Closed):
     """A drawing as SVG."""
 
