@@ -18,8 +18,8 @@ from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.json_text import as_json
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import terminal
+from ballscrew.questions.run import answer as run_documents
 from ballscrew.questions.run import compute as runs
-from ballscrew.questions.run import document as run_documents
 from ballscrew.questions.run.sheet import sheet
 
 COUNT, SECONDS = 3_000, 130.0

@@ -17,8 +17,8 @@ from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.json_text import as_json
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import terminal
+from ballscrew.questions.duty import answer as documents
 from ballscrew.questions.duty import compute
-from ballscrew.questions.duty import document as documents
 from ballscrew.questions.duty import verdicts as duty_verdicts
 from ballscrew.questions.duty.sheet import sheet
 

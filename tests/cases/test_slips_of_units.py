@@ -15,7 +15,7 @@ from ballscrew.physics.components.ratings import odd_preload, rating_of
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.physics.sizing.own_nut import odd_ratings
 from ballscrew.physics.sizing.ratings import Ratings, ratings_of
-from ballscrew.questions.select.document import verdict
+from ballscrew.questions.select.answer import verdict
 
 ROOT = Path(__file__).parents[2]
 AXIS = ROOT / "examples" / "vertical_axis.toml"

@@ -15,19 +15,19 @@ from ballscrew.faces.sheets import report_blocks
 from ballscrew.physics.components.film_laws import Inlet
 from ballscrew.questions.band import compute as band
 from ballscrew.questions.band import document as band_documents
-from ballscrew.questions.duty import document as duty_documents
+from ballscrew.questions.duty import answer as duty_documents
 from ballscrew.questions.duty.compute import duty as duty_of
 from ballscrew.questions.duty.sheet import sheet as duty_sheet
-from ballscrew.questions.run import document as run_documents
+from ballscrew.questions.run import answer as run_documents
 from ballscrew.questions.run.compute import run
 from ballscrew.questions.run.sheet import SHOWN, results_table
 from ballscrew.questions.run.sheet import meaning as meaning_of
+from ballscrew.questions.service import answer as service_documents
 from ballscrew.questions.service import compute as service
-from ballscrew.questions.service import document as service_documents
+from ballscrew.questions.sweep import answer as sweep_documents
 from ballscrew.questions.sweep import compute as sweep
-from ballscrew.questions.sweep import document as sweep_documents
+from ballscrew.questions.warm_up import answer as warm_up_documents
 from ballscrew.questions.warm_up import compute as warm_up
-from ballscrew.questions.warm_up import document as warm_up_documents
 from ballscrew.questions.warm_up import self_heating
 from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 from ballscrew.questions.warm_up.sheet import sheet as warm_up_sheet

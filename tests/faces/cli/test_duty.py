@@ -13,7 +13,7 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.faces.cli.main import main
 from ballscrew.faces.sheets import terminal
 from ballscrew.questions.duty import answer
-from ballscrew.questions.duty import document as documents
+from ballscrew.questions.duty import answer as documents
 from ballscrew.questions.duty.compute import duty
 from ballscrew.questions.duty.sheet import sheet
 from support.commands import ROOT

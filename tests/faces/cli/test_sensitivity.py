@@ -12,8 +12,8 @@ from ballscrew.basis.output.json_text import as_json
 from ballscrew.basis.output.sheet import Bars, Lines, Table
 from ballscrew.cases.case_files import case_file, uncertain_inputs
 from ballscrew.engine.evaluation.plan import Configuration
+from ballscrew.questions.sensitivity import answer as documents
 from ballscrew.questions.sensitivity import compute
-from ballscrew.questions.sensitivity import document as documents
 from ballscrew.questions.sensitivity.sheet import LAWS_STAY, sheet
 from support.pictures import words_of
 
@@ -145,7 +145,7 @@ def test_json(ballscrew, example, case):
     process = ballscrew("sensitivity", example, *FEW, "--json", "--output", "efficiency", *SETTINGS)
     assert process.returncode == 0, process.stderr
     document = json.loads(process.stdout)
-    assert list(document) == ["inputs", "sensitivity", "units", "verdicts", "checks", "warnings", "provenance"]
+    assert list(document) == ["inputs", "sensitivity", "units", "warnings", "verdicts", "checks", "provenance"]
     shown, found = document["sensitivity"], of_method(case, "sobol", samples=64, output="efficiency")
     assert [row["name"] for row in shown["inputs"]] == list(found.result.inputs)
     for row in shown["inputs"]:

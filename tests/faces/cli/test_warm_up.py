@@ -17,8 +17,8 @@ from ballscrew.faces.sheets import terminal
 from ballscrew.questions.band.heat_samples import heat_samples
 from ballscrew.questions.duty import band as duty_band
 from ballscrew.questions.warm_up import band as warm_up_band
+from ballscrew.questions.warm_up.answer import document as document_of
 from ballscrew.questions.warm_up.compute import SERIES, load, warmed_up
-from ballscrew.questions.warm_up.document import document as document_of
 from ballscrew.questions.warm_up.self_heating import self_heating
 from ballscrew.questions.warm_up.sheet import sheet
 from support.commands import ROOT

@@ -9,8 +9,8 @@ import httpx
 from ballscrew.basis.output.json_text import plain
 from ballscrew.faces.web import server as servers
 from ballscrew.faces.web.request_queue import RequestQueue
+from ballscrew.questions.select.answer import document
 from ballscrew.questions.select.compute import select
-from ballscrew.questions.select.document import document
 
 NEED = {
     "force": "2 kN",

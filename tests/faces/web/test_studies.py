@@ -11,8 +11,8 @@ from ballscrew.basis.output.sheet import document as document_of_sheet
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.web import limits
 from ballscrew.faces.web.log_bodies import MOST_LOGS
+from ballscrew.questions.optimise.answer import document as of_optimisation
 from ballscrew.questions.optimise.compute import optimise
-from ballscrew.questions.optimise.document import document as of_optimisation
 from ballscrew.questions.optimise.sheet import sheet as sheet_of
 from ballscrew.questions.sensitivity.options import SensitivityOptions
 

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from ballscrew.basis.output.sheet import Columns, Table
-from ballscrew.questions.axis import document
-from ballscrew.questions.axis.answer import ChainResults
+from ballscrew.questions.axis.answer import ChainResults, document
 from ballscrew.questions.axis.compute import FRICTION, LOAD, SERIES, SPEED, chain_of, load
 from ballscrew.questions.axis.sheet import sheet
 from ballscrew.questions.shared import declared
@@ -23,7 +22,7 @@ def report():
 
 def test_every_number_at_a_place_is_on_every_face(report):
     """A number is annotated where it is computed."""
-    answer, schema = document.document(report), declared.schema(ChainResults).model_json_schema()
+    answer, schema = document(report), declared.schema(ChainResults).model_json_schema()
     results, of_place = answer["results"], schema["$defs"]["AtPlace"]["properties"]
     (columns,) = sheet(report).of_kind(Columns)
     tables = {table.name: table for table in sheet(report).of_kind(Table)}
@@ -42,7 +41,7 @@ def test_every_number_at_a_place_is_on_every_face(report):
 
 
 def test_the_numbers_of_the_motion_have_units(report):
-    answer, schema = document.document(report), declared.schema(ChainResults).model_json_schema()["properties"]
+    answer, schema = document(report), declared.schema(ChainResults).model_json_schema()["properties"]
     for quantity in (LOAD, SPEED, FRICTION):
         assert answer["results"][quantity.name] == getattr(report, quantity.name)
         assert answer["units"][quantity.name] == quantity.unit == schema[quantity.name]["x-si-unit"]
@@ -51,7 +50,7 @@ def test_the_numbers_of_the_motion_have_units(report):
 
 @pytest.mark.parametrize("example", ["feed_axis.toml", "catalogue_screw.toml"])
 def test_answers_are_valid_by_their_schema(example):
-    found = document.document(chain_of(load(EXAMPLES / example, [])))
+    found = document(chain_of(load(EXAMPLES / example, [])))
     declared.response(ChainResults, "Chain", beside=Assumed).model_validate(found)
 
 

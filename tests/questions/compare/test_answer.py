@@ -6,7 +6,7 @@ from ballscrew.basis.quantities import quantities_of
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import terminal
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.questions.compare import document
+from ballscrew.questions.compare import answer as documents
 from ballscrew.questions.compare.answer import ByRules, Compared, ComparedLaw, ComparedModel
 from ballscrew.questions.compare.compute import comparison
 from ballscrew.questions.compare.response import Compare
@@ -26,7 +26,7 @@ def compared():
 
 def test_every_number_of_a_model_is_on_every_face(compared):
     case, found = compared
-    answer = document.document(case, found)
+    answer = documents.document(case, found)
     words = terminal.text(sheet(case, found))
     schema = declared.schema(Compared).model_json_schema()["$defs"]
     for name, quantity in quantities_of(ComparedModel).items():
@@ -41,14 +41,14 @@ def test_every_number_of_a_model_is_on_every_face(compared):
 
 
 def test_every_number_has_a_unit(compared):
-    answer = document.document(*compared)
+    answer = documents.document(*compared)
     parts = (answer["case"], *answer["laws"], *answer["rules"], answer["of_balls"])
     assert [path for part in parts for path in without_unit(part, answer["units"])] == []
     assert answer["units"]["drag_torque"] == "N m"
 
 
 def test_a_law_has_its_slot_and_what_a_model_has(compared):
-    answer = document.document(*compared)
+    answer = documents.document(*compared)
     assert answer["laws"][0].keys() == declared.parts_of(ComparedLaw).keys()
     assert answer["laws"][0].keys() - answer["models"][0].keys() == {"slot", "counts"}
 
@@ -56,7 +56,7 @@ def test_a_law_has_its_slot_and_what_a_model_has(compared):
 @pytest.mark.parametrize("example", ["service.toml", "olaru2005.toml"])
 def test_answers_are_valid_by_their_schema(example):
     case = case_file.load(SERVICE.parent / example)
-    found = document.document(case, comparison(case))
+    found = documents.document(case, comparison(case))
     Compare.model_validate(found)
     assert ("of_balls" in found) == (example == "service.toml")
 

@@ -7,8 +7,8 @@ import pytest
 from ballscrew.basis.output.sheet import Table
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.web.vocabulary import vocabulary
-from ballscrew.questions.duty import compute, document
-from ballscrew.questions.duty.answer import DutyResults
+from ballscrew.questions.duty import compute
+from ballscrew.questions.duty.answer import DutyResults, document
 from ballscrew.questions.duty.compute import IF_ANY, NUMBERS
 from ballscrew.questions.duty.sheet import sheet
 from ballscrew.questions.shared import declared
@@ -30,7 +30,7 @@ def report():
 
 def test_every_number_is_on_every_face(report):
     """A number is one property: nothing else has to name it."""
-    answer, schema = document.document(report), declared.schema(DutyResults).model_json_schema()["properties"]
+    answer, schema = document(report), declared.schema(DutyResults).model_json_schema()["properties"]
     (cycle,) = (block for block in sheet(report).of_kind(Table) if block.name == "cycle")
     rows = {row[0]: row[1].value for row in cycle.rows}
     for name, quantity in NUMBERS.items():
@@ -52,7 +52,7 @@ CASES = {
 @pytest.mark.parametrize("example", ["vertical_axis.toml", "feed_axis.toml"])
 @pytest.mark.parametrize("settings", CASES.values(), ids=CASES)
 def test_answers_are_valid_by_their_schema(example, settings):
-    found = document.document(report_of(*settings, example=example))
+    found = document(report_of(*settings, example=example))
     declared.response(DutyResults, "Duty", judged=True).model_validate(found)
 
 
@@ -61,7 +61,7 @@ def test_every_part_is_described():
 
 
 def test_every_number_has_a_unit(report):
-    found = document.document(report)
+    found = document(report)
     # a share of a torque that changes with the speed: no quantity
     assert set(without_unit(found["results"], found["units"])) <= {"motor.utilisation"}
 

@@ -20,9 +20,9 @@ from ballscrew.physics.equations import geometry
 from ballscrew.questions.check.compute import checked
 from ballscrew.questions.optimise import compute
 from ballscrew.questions.optimise import search as searches
+from ballscrew.questions.optimise.answer import document
 from ballscrew.questions.optimise.design_model import DesignModel
 from ballscrew.questions.optimise.design_space import design_space, makeable_ratios
-from ballscrew.questions.optimise.document import document
 from ballscrew.questions.optimise.sheet import cost, of_optimisation, sheet
 from ballscrew.questions.select import requirement_checks
 from ballscrew.questions.select.need import need_of

@@ -12,8 +12,8 @@ from ballscrew.basis.output.wrapping import WIDTH
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import report_blocks, terminal
 from ballscrew.physics.moving_balls.friction_states import work_share
-from ballscrew.questions.reversal import compute, document
-from ballscrew.questions.reversal.answer import ReversalResults
+from ballscrew.questions.reversal import compute
+from ballscrew.questions.reversal.answer import ReversalResults, document
 from ballscrew.questions.reversal.options import ReversalOptions
 from ballscrew.questions.reversal.sheet import sheet
 from ballscrew.questions.shared import declared
@@ -70,7 +70,7 @@ def test_a_travel_that_is_too_short():
     assert math.isnan(by_share(short.places)[0.98].screw_angle)
     assert short.verdicts[0].text == "after a reversal less than 90% of the friction is back within 100 µm"
     assert "–" in terminal.text(sheet(short))
-    found = document.document(short)
+    found = document(short)
     assert found["verdicts"][0]["value"] is None or math.isnan(found["verdicts"][0]["value"])
 
 
@@ -129,7 +129,7 @@ def test_a_part_goes_to_where_its_curve_ends():
 
 
 def test_every_number_is_in_the_document(report):
-    found = document.document(report)
+    found = document(report)
     results = found["results"]
     assert results["screw_torque"] == list(report.reversal.screw_torque)
     assert results["contributions"]["helix"][-1] == STEADY["helix"]
@@ -143,7 +143,7 @@ def test_every_number_is_in_the_document(report):
 
 
 def test_answers_are_valid_by_their_schema(report):
-    declared.response(ReversalResults, "Reversal").model_validate(document.document(report))
+    declared.response(ReversalResults, "Reversal").model_validate(document(report))
 
 
 def test_every_part_is_described():
@@ -212,5 +212,5 @@ def test_a_computed_reversal():
         assert max(abs(np.array(ratios) - 1)) == pytest.approx(fit.work_error, rel=1e-12)
         assert fit.work_error <= said.value < 0.25
     assert "0.5 deg to ±5 deg" in said.text
-    results = document.document(found)["results"]["slip_elements"]
+    results = document(found)["results"]["slip_elements"]
     assert [one["work_error"] for one in results] == [fit.work_error for fit in found.elements]

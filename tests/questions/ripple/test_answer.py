@@ -21,8 +21,7 @@ from ballscrew.physics.moving_balls.ripple import (
     Spall,
     torque_ripple,
 )
-from ballscrew.questions.ripple import document
-from ballscrew.questions.ripple.answer import RippleResults
+from ballscrew.questions.ripple.answer import RippleResults, document
 from ballscrew.questions.ripple.compute import ALL, defects_of, given_of, ripple_of
 from ballscrew.questions.ripple.options import RippleOptions
 from ballscrew.questions.ripple.sheet import sheet
@@ -53,7 +52,7 @@ def test_the_numbers_are_those_of_the_physics(case, report):
         )
         for defect in (None, PreloadLeft(0.35))
     )
-    results = document.document(report)["results"]
+    results = document(report)["results"]
     assert results["peak_to_peak"] == pytest.approx(float(np.ptp(usual.torque)), rel=1e-12)
     assert results["relative"] == pytest.approx(results["peak_to_peak"] / results["mean"], rel=1e-12)
     assert [one["name"] for one in results["orders"]] == [one.name for one in usual.orders]
@@ -70,13 +69,13 @@ def test_a_range_is_that_of_nuts_of_other_seeds(case, report):
     assert report.range.nuts == 3
     assert report.range.median == pytest.approx(sorted(others)[1], rel=1e-12)
     assert min(others) < report.range.low < report.range.high < max(others)
-    assert document.document(report)["results"]["range"]["median"] == report.range.median
-    alone = document.document(ripple_of(case, OPTIONS))["results"]
+    assert document(report)["results"]["range"]["median"] == report.range.median
+    alone = document(ripple_of(case, OPTIONS))["results"]
     assert (alone["range"], alone["faults"]) == (None, [])
 
 
 def test_every_part_is_described_and_has_a_unit(report):
-    found = document.document(report)
+    found = document(report)
     assert list(undescribed(RippleResults)) == []
     assert list(without_unit(found["results"], found["units"])) == []
     assert found["units"]["peak_to_peak"] == "N m"
@@ -84,7 +83,7 @@ def test_every_part_is_described_and_has_a_unit(report):
 
 def test_words_say_what_torque_shows(report):
     said = " ".join(terminal.text(sheet(report)).split())
-    verdicts = {one["id"]: one for one in document.document(report)["verdicts"]}
+    verdicts = {one["id"]: one for one in document(report)["verdicts"]}
     assert verdicts["ripple.preload"]["holds"] is True
     assert verdicts["ripple.spall"]["holds"] is False
     assert "preload=35 %: torque shows it" in said
@@ -94,7 +93,7 @@ def test_words_say_what_torque_shows(report):
 
 
 def test_the_sheet_has_the_numbers_of_the_document(report):
-    results = document.document(report)["results"]
+    results = document(report)["results"]
     sizes, nuts, orders = sheet(report).of_kind(Table)
     named = ("mean", "peak_to_peak", "relative", "deviation", "share")
     for row, result in zip(sizes.rows, [results, *results["faults"]], strict=True):
@@ -169,7 +168,7 @@ def test_all_leaves_out_a_preload_that_is_not_there(case):
     loaded = dataclasses.replace(case, screw=single, operation=operation)
     found = ripple_of(loaded, dataclasses.replace(OPTIONS, fault=["all"]))
     assert [name.partition("=")[0] for name in found.faults] == ["missing-ball", "full", "spall", "groove"]
-    assert math.isnan(document.document(found)["results"]["displacement"])
+    assert math.isnan(document(found)["results"]["displacement"])
     assert "moves against the screw" not in terminal.text(sheet(found))
 
 

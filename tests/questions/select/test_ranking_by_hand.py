@@ -14,9 +14,9 @@ from ballscrew.basis.records import Message
 from ballscrew.cases.case_files import case_file
 from ballscrew.physics.sizing.checks import Check
 from ballscrew.questions.select import candidates, requirement_checks
+from ballscrew.questions.select.answer import need_document
 from ballscrew.questions.select.candidates import Candidate, Variant
 from ballscrew.questions.select.compute import Selection, ranked
-from ballscrew.questions.select.document import need_document
 from ballscrew.questions.select.need import need_of
 from ballscrew.questions.select.need_motion import with_motion
 from ballscrew.questions.select.objectives import OBJECTIVES

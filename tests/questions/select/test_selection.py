@@ -18,8 +18,8 @@ from ballscrew.faces.cli.progress import progress
 from ballscrew.faces.sheets import terminal
 from ballscrew.questions.select import case_text
 from ballscrew.questions.select import compute as selection
+from ballscrew.questions.select.answer import document, verdict
 from ballscrew.questions.select.candidates import BY_LOADS, NEARLY, USUAL_LIFE
-from ballscrew.questions.select.document import document, verdict
 from ballscrew.questions.select.need import need_of
 from ballscrew.questions.select.need_motion import OF_MOTION
 from ballscrew.questions.select.pareto import front

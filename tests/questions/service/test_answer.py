@@ -3,11 +3,11 @@
 import json
 
 import pytest
+from ballscrew.questions.service.response import Service
 
 from ballscrew.basis import units
 from ballscrew.basis.quantities import quantities_of
-from ballscrew.questions.service.answer import Estimate, ServiceResults
-from ballscrew.questions.service.response import Service
+from ballscrew.questions.service.answer import EstimatedPreload, ServiceResults
 from ballscrew.questions.shared import declared
 from support.answers import undescribed, without_unit
 from support.commands import ROOT
@@ -29,13 +29,13 @@ def answer(request, ballscrew):
 def test_every_number_of_a_preload_is_on_every_face(ballscrew):
     answer = json.loads(ballscrew("service", *ASKED["two logs"], "--json").stdout)
     words = ballscrew("service", *ASKED["two logs"]).stdout
-    described = declared.schema(ServiceResults).model_json_schema()["$defs"]["Estimate"]["properties"]
+    described = declared.schema(ServiceResults).model_json_schema()["$defs"]["EstimatedPreload"]["properties"]
     for of in ("new", "worn"):
-        for name, quantity in quantities_of(Estimate).items():
+        for name, quantity in quantities_of(EstimatedPreload).items():
             assert answer["results"][of][name] > 0
             assert answer["units"][of][name] == quantity.unit == described[name]["x-si-unit"]
             assert described[name]["description"].startswith(quantity.info.meaning)
-        preload = quantities_of(Estimate)["preload"]
+        preload = quantities_of(EstimatedPreload)["preload"]
         # ends of an interval are rounded outwards
         value, low, high = (
             units.rounded(answer["results"][of][name], preload, toward=toward)

@@ -6,7 +6,7 @@ import pytest
 
 from ballscrew.basis.errors import InputError
 from ballscrew.questions.service import reading
-from ballscrew.questions.service.document import probability
+from ballscrew.questions.service.answer import probability
 
 
 @pytest.mark.parametrize(

@@ -11,8 +11,8 @@ from ballscrew.basis.output.sheet import Columns, Table
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.web.vocabulary import vocabulary
 from ballscrew.questions.shared import declared
-from ballscrew.questions.warm_up import compute, document, verdicts
-from ballscrew.questions.warm_up.answer import WarmUpResults
+from ballscrew.questions.warm_up import compute, verdicts
+from ballscrew.questions.warm_up.answer import WarmUpResults, document
 from ballscrew.questions.warm_up.band_answer import BesideWarmUp
 from ballscrew.questions.warm_up.compute import EQUILIBRIUM, SERIES, load, warmed_up
 from ballscrew.questions.warm_up.self_heating import self_heating
@@ -32,7 +32,7 @@ def report():
 
 def test_every_number_over_time_is_on_every_face(report):
     """A number is one field: nothing else has to name it."""
-    answer, schema = document.document(report), declared.schema(WarmUpResults).model_json_schema()["properties"]
+    answer, schema = document(report), declared.schema(WarmUpResults).model_json_schema()["properties"]
     (series,) = (block for block in sheet(report).of_kind(Columns) if block.name == "over time")
     columns = {column.name: column.values for column in series.columns}
     for name, quantity in SERIES.items():
@@ -51,7 +51,7 @@ def test_every_number_over_time_is_on_every_face(report):
 
 
 def test_every_number_of_the_steady_state_is_on_every_face(report):
-    answer, schema = document.document(report), declared.schema(WarmUpResults).model_json_schema()
+    answer, schema = document(report), declared.schema(WarmUpResults).model_json_schema()
     described = schema["$defs"]["Equilibrium"]["properties"]
     (steady,) = (block for block in sheet(report).of_kind(Table) if block.name == "steady state")
     rows = {row[0]: row[1].value for row in steady.rows}
@@ -66,13 +66,13 @@ def test_every_number_of_the_steady_state_is_on_every_face(report):
 @pytest.mark.parametrize(("settings", "starved"), [(WARM, False), (COLD, True)], ids=["warm", "starved of oil"])
 def test_answers_are_valid_by_their_schema(settings, starved):
     report = warmed_up(load(EXAMPLE, settings, None), hours=0.5)
-    found = document.document(report)
+    found = document(report)
     declared.response(WarmUpResults, "WarmUp", beside=BesideWarmUp).model_validate(found)
     assert (found["results"]["full_bath"] is not None) == starved
 
 
 def test_every_number_has_a_unit(report):
-    found = document.document(report)
+    found = document(report)
     assert list(without_unit(found["results"], found["units"])) == []
 
 

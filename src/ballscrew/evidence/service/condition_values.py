@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping, Sequence
+from typing import Literal
 
+from ballscrew.basis.quantities import AngularSpeed, Temperature, TemperatureCoefficient
 from ballscrew.basis.records import Record
 from ballscrew.evidence.service.change_detection import Chart, Trend
 from ballscrew.evidence.service.condition_parts import Part
@@ -15,11 +17,12 @@ from ballscrew.evidence.service.preload_change import CERTAIN, Verdict
 class State:
     """The state of an axis in one test; intervals hold 95 %."""
 
+    #: Its time as written, or its name.
     label: str
     #: In s from the first test, or the number of the test.
     time: float
     #: As it was logged, K; None where it was not.
-    temperature: float | None
+    temperature: Temperature | None
     #: Friction torque at the reference temperature and speed, N m; its interval has the temperature's doubt in it.
     torque: float
     torque_low: float
@@ -48,9 +51,9 @@ class Condition:
     #: Share of healthy tests that give an alarm.
     false_alarms: float
     #: Temperature that is reduced to, K; NaN for an oil without a grade.
-    reference_temperature: float
+    reference_temperature: Temperature
     #: Speed that is reduced to, rad/s.
-    reference_speed: float
+    reference_speed: AngularSpeed
     #: Sums of the torque's changes with their limits.
     chart: Chart
     #: Of the logarithm of the preload, by s or by test (``per``).
@@ -64,7 +67,7 @@ class Condition:
     #: Probability that less than 1 − tolerance of the preload is left in the last test.
     probability_of_loss: float
     #: Derivative of the logarithm of the torque by the temperature at the reference in the last test, 1/K.
-    per_kelvin: float
+    per_kelvin: TemperatureCoefficient
     #: Derivative of the logarithm of the torque by that of the preload in the last test.
     exponent: float
     #: The torque of the first tests over that of the model.
@@ -86,6 +89,11 @@ class Condition:
     def alarm(self) -> int | None:
         """The first test, from 0, in which the torque has changed beyond its scatter; None if there is none."""
         return self.chart.alarm
+
+    @property
+    def alarm_direction(self) -> Literal["fall", "rise"] | None:
+        """Whether the torque falls or rises where there is an alarm."""
+        return None if self.alarm is None else "fall" if self.chart.falls else "rise"
 
     @property
     def lost_since(self) -> int | None:

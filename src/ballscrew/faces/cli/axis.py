@@ -44,7 +44,7 @@ def axis(
     """
     from ballscrew.faces.sheets import to_file
     from ballscrew.questions.axis import compute
-    from ballscrew.questions.axis import document as documents
+    from ballscrew.questions.axis.answer import document
     from ballscrew.questions.axis.sheet import sheet
     from ballscrew.questions.shared.option_values import read
 
@@ -53,7 +53,7 @@ def axis(
     to_file.check(to or [])
     report = compute.chain_of(loaded, options.at)
     seen = sheet(report)
-    print_answer(seen, lambda: documents.document(report), as_json=as_json, as_sheet=as_sheet)
+    print_answer(seen, lambda: document(report), as_json=as_json, as_sheet=as_sheet)
     for path in to or []:
         to_file.write(path, seen)
         typer.echo(f"{path}: {len(report.chain.position)} places", err=as_json or as_sheet)

@@ -21,7 +21,7 @@ def check(
     """
     from ballscrew.basis.output import json_text
     from ballscrew.cases.torque_cards import torque_card
-    from ballscrew.questions.card import document as documents
+    from ballscrew.questions.card import compute as documents
     from ballscrew.questions.card import text
 
     found = torque_card.read_all(cards)

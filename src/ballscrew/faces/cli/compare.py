@@ -55,10 +55,10 @@ def compare(
     from ballscrew.basis.errors import Fault, InputError
     from ballscrew.cases.case_files import case_file
     from ballscrew.faces.sheets import to_file
-    from ballscrew.questions.compare import document as documents
+    from ballscrew.questions.compare import answer as documents
     from ballscrew.questions.compare.compute import comparison
     from ballscrew.questions.compare.sheet import sheet
-    from ballscrew.questions.compare_designs import document as documents_of_designs
+    from ballscrew.questions.compare_designs import compute as documents_of_designs
     from ballscrew.questions.compare_designs.compute import is_one_case, side_by_side
     from ballscrew.questions.compare_designs.sheet import sheet as sheet_of_designs
     from ballscrew.questions.warm_up.self_heating_document import with_self_heating

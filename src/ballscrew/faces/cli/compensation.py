@@ -37,7 +37,7 @@ def compensation(
     from ballscrew.basis.atomic_files import atomic_write, check_writable
     from ballscrew.basis.errors import Fault, InputError, nearest
     from ballscrew.questions.compensation import compute
-    from ballscrew.questions.compensation import document as documents
+    from ballscrew.questions.compensation.answer import document
     from ballscrew.questions.compensation.sheet import sheet
     from ballscrew.questions.compensation.table import LISTS
     from ballscrew.questions.shared.option_values import read
@@ -60,4 +60,4 @@ def compensation(
     with atomic_write("--out", out) as path:
         path.write_text(LISTS[to](result, options.axis), encoding="utf-8")
     typer.echo(f"{out}", err=as_json or as_sheet)
-    print_answer(sheet(result, report), lambda: documents.document(result, report), as_json=as_json, as_sheet=as_sheet)
+    print_answer(sheet(result, report), lambda: document(result, report), as_json=as_json, as_sheet=as_sheet)

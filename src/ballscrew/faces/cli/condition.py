@@ -50,7 +50,7 @@ def condition(
     from ballscrew.faces.cli.progress import progress
     from ballscrew.faces.sheets import to_file
     from ballscrew.questions.condition import compute
-    from ballscrew.questions.condition.document import document
+    from ballscrew.questions.condition.answer import document
     from ballscrew.questions.condition.sheet import sheet
     from ballscrew.questions.shared.option_values import read
 

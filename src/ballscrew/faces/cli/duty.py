@@ -62,8 +62,8 @@ def duty(
     """
     from ballscrew.cases.case_files import case_file
     from ballscrew.faces.sheets import to_file
+    from ballscrew.questions.duty import answer as documents
     from ballscrew.questions.duty import compute
-    from ballscrew.questions.duty import document as documents
     from ballscrew.questions.duty.sheet import sheet
     from ballscrew.questions.shared.option_values import read
 

@@ -38,7 +38,7 @@ def fit_rows(
     from ballscrew.cases.case_files import fitted_case
     from ballscrew.faces.cli.progress import progress
     from ballscrew.faces.sheets import files
-    from ballscrew.questions.fit import document as documents
+    from ballscrew.questions.fit import answer as documents
     from ballscrew.questions.fit import rows as fit_rows
     from ballscrew.questions.fit.log import read_options
     from ballscrew.questions.fit.sheet import of_rows

@@ -47,8 +47,8 @@ def fit_torques(
         steady = steady_log(case, log, options, done)
         # solvers are slow to import: only for a log that can be fitted to
         from ballscrew.faces.sheets import to_file
+        from ballscrew.questions.fit import answer as documents
         from ballscrew.questions.fit import compute
-        from ballscrew.questions.fit import document as documents
         from ballscrew.questions.fit.sheet import sheet
 
         assumed: Sequence[str] = ()

@@ -24,8 +24,7 @@ def list_names(
     from ballscrew.basis.output.json_text import as_json as json_text
     from ballscrew.cases.case_files import case_file
     from ballscrew.questions.names import compute, text
-    from ballscrew.questions.names import document as documents
 
     found = compute.names(kind, None if case is None else case_file.load(case))
     found = [one for one in found if all(word.lower() in " ".join(one).lower() for word in words or ())]
-    typer.echo(json_text(documents.document(kind, found)) if as_json else text.text(found))
+    typer.echo(json_text(compute.document(kind, found)) if as_json else text.text(found))

@@ -47,7 +47,7 @@ def optimise(
     """
     from ballscrew.faces.cli.progress import progress
     from ballscrew.faces.sheets import to_file
-    from ballscrew.questions.optimise import document as documents
+    from ballscrew.questions.optimise import answer as documents
     from ballscrew.questions.optimise.compute import optimise as optimised
     from ballscrew.questions.optimise.compute import plan
     from ballscrew.questions.optimise.sheet import cost, sheet

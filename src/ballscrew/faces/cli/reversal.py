@@ -46,7 +46,7 @@ def reversal(
     from ballscrew.faces.cli.progress import progress
     from ballscrew.faces.sheets import to_file
     from ballscrew.questions.reversal import compute
-    from ballscrew.questions.reversal import document as documents
+    from ballscrew.questions.reversal.answer import document
     from ballscrew.questions.reversal.sheet import sheet
     from ballscrew.questions.shared.option_values import read
 
@@ -56,7 +56,7 @@ def reversal(
     with progress("reversal"):
         report = compute.reversal(loaded, options)
     seen = sheet(report)
-    print_answer(seen, lambda: documents.document(report), as_json=as_json, as_sheet=as_sheet)
+    print_answer(seen, lambda: document(report), as_json=as_json, as_sheet=as_sheet)
     if to is not None:
         to_file.write(to, seen)
         typer.echo(f"{to}: {len(report.reversal.screw_angle)} angles", err=as_json or as_sheet)

@@ -53,7 +53,7 @@ def ripple(
     from ballscrew.faces.cli.progress import progress
     from ballscrew.faces.sheets import to_file
     from ballscrew.questions.ripple import compute
-    from ballscrew.questions.ripple import document as documents
+    from ballscrew.questions.ripple.answer import document
     from ballscrew.questions.ripple.sheet import sheet
     from ballscrew.questions.shared.option_values import read
 
@@ -63,7 +63,7 @@ def ripple(
     with progress("ripple"):
         report = compute.ripple_of(loaded, options)
     seen = sheet(report)
-    print_answer(seen, lambda: documents.document(report), as_json=as_json, as_sheet=as_sheet)
+    print_answer(seen, lambda: document(report), as_json=as_json, as_sheet=as_sheet)
     if to is not None:
         to_file.write(to, seen)
         typer.echo(f"{to}: {len(report.ripple.angle)} angles", err=as_json or as_sheet)

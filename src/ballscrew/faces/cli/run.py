@@ -93,8 +93,8 @@ def run(
             else:
                 band_command.run(loaded, options, to, done, as_json=as_json, as_sheet=as_sheet)
         return
+    from ballscrew.questions.run.answer import document
     from ballscrew.questions.run.compute import run as run_case
-    from ballscrew.questions.run.document import document
     from ballscrew.questions.run.sheet import sheet
     from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
@@ -122,8 +122,8 @@ def _of_rows(cases: OfRows[RowCase], *, as_json: bool, as_sheet: bool, to: Path 
     """Results of each row: one line each, and a table in a file."""
     from ballscrew.faces.cli.progress import progress
     from ballscrew.faces.sheets import files
+    from ballscrew.questions.run.answer import list_document
     from ballscrew.questions.run.compute import run as run_case
-    from ballscrew.questions.run.document import list_document
     from ballscrew.questions.run.sheet import of_rows
     from ballscrew.questions.shared import every_row, row_tables
 

@@ -72,7 +72,7 @@ def select(
     candidate is written, with all tables of the need, for duty, axis, warm-up, run and report.
     """
     from ballscrew.faces.cli.progress import progress
-    from ballscrew.questions.select import document as documents
+    from ballscrew.questions.select import answer as documents
     from ballscrew.questions.select.compute import plan
     from ballscrew.questions.select.compute import select as selected
     from ballscrew.questions.select.sheet import cost, sheet
@@ -136,7 +136,7 @@ def _written(path: Path, found: Selection, kept: Sequence[Ranked], rank: int | N
         to_file.write(path, seen, option=_TO)
         return f"{len(kept)} candidates"
     from ballscrew.questions.select import case_text
-    from ballscrew.questions.select.document import verdict
+    from ballscrew.questions.select.answer import verdict
 
     chosen = _chosen(path, found, kept, rank)
     text = verdict(chosen.candidate)

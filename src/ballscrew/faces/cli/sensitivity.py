@@ -53,7 +53,7 @@ def sensitivity(
     from ballscrew.faces.cli import progress
     from ballscrew.faces.sheets import to_file
     from ballscrew.questions.sensitivity import compute
-    from ballscrew.questions.sensitivity.document import document
+    from ballscrew.questions.sensitivity.answer import document
     from ballscrew.questions.sensitivity.sheet import sheet
     from ballscrew.questions.shared.option_values import read
 

@@ -51,7 +51,7 @@ def service(
     from ballscrew.faces.cli.progress import progress
     from ballscrew.faces.sheets import to_file
     from ballscrew.questions.service import compute
-    from ballscrew.questions.service.document import document
+    from ballscrew.questions.service.answer import document
     from ballscrew.questions.service.reading import check_question, reading
     from ballscrew.questions.service.sheet import sheet
     from ballscrew.questions.shared.chart_files import check_picture

@@ -130,7 +130,7 @@ def sweep(
     if verbose:
         say_engine(dataset.attrs)
     if as_json or as_sheet:
-        from ballscrew.questions.sweep import document as documents
+        from ballscrew.questions.sweep import answer as documents
 
         seen = sheets.sheet(loaded, plan, dataset, to)
         document = functools.partial(documents.document, loaded, plan, dataset)

@@ -61,8 +61,8 @@ def warm_up(
     from ballscrew.basis.errors import Fault, InputError, raise_if_any
     from ballscrew.faces.sheets import to_file
     from ballscrew.questions.shared.option_values import read
+    from ballscrew.questions.warm_up import answer as documents
     from ballscrew.questions.warm_up import compute as studies
-    from ballscrew.questions.warm_up import document as documents
     from ballscrew.questions.warm_up.sheet import sheet
 
     drift, cool_down = read(DriftOptions, written), written["cool_down"]

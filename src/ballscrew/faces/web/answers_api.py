@@ -25,8 +25,8 @@ from ballscrew.questions.curves.compute import Curve, curves
 from ballscrew.questions.run import response as run_answers
 from ballscrew.questions.run.compute import Run
 from ballscrew.questions.shared import answer_parts
+from ballscrew.questions.sweep import answer as sweep_documents
 from ballscrew.questions.sweep import compute as sweeps
-from ballscrew.questions.sweep import document as sweep_documents
 from ballscrew.questions.sweep import response as sweep_answers
 
 #: Designs beside the case at most.

@@ -68,8 +68,8 @@ from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.faces.web.sent_files import written
 from ballscrew.physics.sizing.catalogue import catalogue as shipped
+from ballscrew.questions.axis import answer as axis_documents
 from ballscrew.questions.axis import compute as chains
-from ballscrew.questions.axis import document as axis_documents
 from ballscrew.questions.axis.answer import ChainResults
 from ballscrew.questions.axis.options import AxisOptions
 from ballscrew.questions.axis.sheet import sheet as axis_sheet
@@ -79,16 +79,16 @@ from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.catalogue import answer as catalogue_answers
 from ballscrew.questions.check import answer as check_answers
 from ballscrew.questions.check.compute import with_nut_named
-from ballscrew.questions.compare import document as comparison_documents
+from ballscrew.questions.compare import answer as comparison_documents
 from ballscrew.questions.compare.compute import comparison
 from ballscrew.questions.compare.response import Compare
+from ballscrew.questions.duty import answer as duty_documents
 from ballscrew.questions.duty import compute as duties
-from ballscrew.questions.duty import document as duty_documents
 from ballscrew.questions.duty.answer import DutyResults
 from ballscrew.questions.duty.sheet import sheet as duty_sheet
 from ballscrew.questions.optimise.need_schema import json_schema as schema_of_needs
 from ballscrew.questions.run import response as run_answers
-from ballscrew.questions.select import document as selection_documents
+from ballscrew.questions.select import answer as selection_documents
 from ballscrew.questions.select import response as select_answers
 from ballscrew.questions.select.compute import plan as planned_selection
 from ballscrew.questions.select.compute import select as selected
@@ -96,17 +96,17 @@ from ballscrew.questions.select.need import need_of
 from ballscrew.questions.select.options import SelectOptions
 from ballscrew.questions.shared import answer_parts, option_values, schema_answer
 from ballscrew.questions.shared.declared import response
+from ballscrew.questions.sweep import answer as sweep_documents
 from ballscrew.questions.sweep import compute as sweeps
-from ballscrew.questions.sweep import document as sweep_documents
 from ballscrew.questions.sweep import response as sweep_answers
 from ballscrew.questions.sweep.band import INNER, with_band
 from ballscrew.questions.sweep.options import SweepOptions
 from ballscrew.questions.validate import answer as validate_answers
 from ballscrew.questions.validate import compute as validation
 from ballscrew.questions.validate import document as validation_documents
+from ballscrew.questions.warm_up import answer as warm_up_documents
 from ballscrew.questions.warm_up import band as warm_up_bands
 from ballscrew.questions.warm_up import compute as warm_ups
-from ballscrew.questions.warm_up import document as warm_up_documents
 from ballscrew.questions.warm_up.answer import WarmUpResults
 from ballscrew.questions.warm_up.band_answer import BesideWarmUp
 from ballscrew.questions.warm_up.options import WarmUpOptions

@@ -16,8 +16,8 @@ from ballscrew.questions.band import document as band_documents
 from ballscrew.questions.band.sheet import input_counts
 from ballscrew.questions.check import compute as checks
 from ballscrew.questions.check import document as check_documents
+from ballscrew.questions.run import answer as run_documents
 from ballscrew.questions.run import compute as runs
-from ballscrew.questions.run import document as run_documents
 from ballscrew.questions.run import makers
 
 #: Runs that are kept: who has asked for the numbers of a case often asks for its drawing or its checks next.

@@ -30,9 +30,9 @@ from ballscrew.faces.web.log_bodies import (
 )
 from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.files.torque_logs.preview import preview
+from ballscrew.questions.condition import answer as condition_documents
 from ballscrew.questions.condition import compute as conditions
-from ballscrew.questions.condition import document as condition_documents
-from ballscrew.questions.condition import response as condition_answers
+from ballscrew.questions.condition.answer import ConditionResults
 from ballscrew.questions.condition.options import ConditionOptions
 from ballscrew.questions.condition.sheet import sheet as condition_sheet
 from ballscrew.questions.fit import compute as fits
@@ -45,12 +45,14 @@ from ballscrew.questions.fit_motion.log import is_moving
 from ballscrew.questions.hand_over import answer as hand_over_answers
 from ballscrew.questions.hand_over import document as hand_over_documents
 from ballscrew.questions.hand_over.options import HandOverOptions
+from ballscrew.questions.service import answer as service_documents
 from ballscrew.questions.service import compute as services
-from ballscrew.questions.service import document as service_documents
-from ballscrew.questions.service import response as service_answers
+from ballscrew.questions.service.answer import ServiceResults
 from ballscrew.questions.service.options import ServiceOptions
 from ballscrew.questions.service.sheet import sheet as service_sheet
 from ballscrew.questions.shared import option_values
+from ballscrew.questions.shared.answer_parts import OfLogs
+from ballscrew.questions.shared.declared import response
 
 router = APIRouter()
 
@@ -101,7 +103,7 @@ async def fit(request: Request) -> Response:
 @router.post(
     "/service",
     openapi_extra=openapi.body(ServiceBody),
-    response_model=service_answers.Service,
+    response_model=response(ServiceResults, "Service", beside=OfLogs),
     responses=openapi.problems_of(),
 )
 async def service(request: Request) -> Response:
@@ -122,7 +124,7 @@ async def service(request: Request) -> Response:
 @router.post(
     "/condition",
     openapi_extra=openapi.body(ConditionBody),
-    response_model=condition_answers.Condition,
+    response_model=response(ConditionResults, "Condition", beside=OfLogs),
     responses=openapi.problems_of(),
 )
 async def condition(request: Request) -> Response:

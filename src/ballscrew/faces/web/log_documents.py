@@ -14,7 +14,7 @@ from ballscrew.cases.case_files import fitted_case
 from ballscrew.cases.case_files.case import Case
 from ballscrew.exports.export import Export
 from ballscrew.faces.web.documents import texts
-from ballscrew.questions.fit import document as fit_documents
+from ballscrew.questions.fit import answer as fit_documents
 from ballscrew.questions.fit.compute import FitReport
 from ballscrew.questions.hand_over import document as hand_over_documents
 from ballscrew.questions.hand_over import text as hand_over_text

@@ -9,13 +9,13 @@ from ballscrew.faces.web import limits, openapi
 from ballscrew.faces.web.bodies import CaseBody, ReversalBody, RippleBody, case_of, read
 from ballscrew.faces.web.endpoint_parts import heavy, with_sheet
 from ballscrew.faces.web.request_queue import Deadline
+from ballscrew.questions.reversal import answer as reversal_documents
 from ballscrew.questions.reversal import compute as reversals
-from ballscrew.questions.reversal import document as reversal_documents
 from ballscrew.questions.reversal.answer import ReversalResults
 from ballscrew.questions.reversal.options import ReversalOptions
 from ballscrew.questions.reversal.sheet import sheet as reversal_sheet
+from ballscrew.questions.ripple import answer as ripple_documents
 from ballscrew.questions.ripple import compute as ripples
-from ballscrew.questions.ripple import document as ripple_documents
 from ballscrew.questions.ripple.answer import RippleResults
 from ballscrew.questions.ripple.options import RippleOptions
 from ballscrew.questions.ripple.sheet import sheet as ripple_sheet

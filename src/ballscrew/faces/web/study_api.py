@@ -12,18 +12,19 @@ from ballscrew.faces.web import limits, openapi
 from ballscrew.faces.web.bodies import CaseBody, NeedOnly, OptimiseBody, SensitivityBody, case_of, read, refuse_paths
 from ballscrew.faces.web.endpoint_parts import as_json, heavy, queue_of, with_sheet
 from ballscrew.faces.web.request_queue import Deadline
-from ballscrew.questions.optimise import document as optimise_documents
+from ballscrew.questions.optimise import answer as optimise_documents
 from ballscrew.questions.optimise import response as optimise_answers
 from ballscrew.questions.optimise.compute import Plan, optimise, plan
 from ballscrew.questions.optimise.options import OptimiseOptions
 from ballscrew.questions.optimise.sheet import sheet as optimise_sheet
 from ballscrew.questions.select.need import Need, need_of
+from ballscrew.questions.sensitivity import answer as sensitivity_documents
 from ballscrew.questions.sensitivity import compute as sensitivities
-from ballscrew.questions.sensitivity import document as sensitivity_documents
-from ballscrew.questions.sensitivity import response as sensitivity_answers
+from ballscrew.questions.sensitivity.answer import Indices
 from ballscrew.questions.sensitivity.options import SensitivityOptions
 from ballscrew.questions.sensitivity.sheet import sheet as sensitivity_sheet
 from ballscrew.questions.shared import option_values
+from ballscrew.questions.shared.declared import response
 
 router = APIRouter()
 
@@ -31,7 +32,7 @@ router = APIRouter()
 @router.post(
     "/sensitivity",
     openapi_extra=openapi.body(SensitivityBody),
-    response_model=sensitivity_answers.Sensitivity,
+    response_model=response(Indices, "Sensitivity", named="sensitivity"),
     responses=openapi.problems_of(),
 )
 async def sensitivity(request: Request) -> Response:

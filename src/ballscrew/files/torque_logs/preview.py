@@ -21,11 +21,13 @@ class SeenColumn:
     """A column of a file: its heading, the heading without its unit, what it is taken for, and its first cells."""
 
     heading: str
+    #: Without its unit.
     bare_heading: str
     #: The name of a column of a log; empty for one that is not used.
     taken_for: str
     #: As in the heading, the row below it, or the column given by hand; empty where there is none.
     unit: str
+    #: The first cells, as written.
     cells: tuple[str, ...]
 
 

@@ -132,6 +132,7 @@ class Ripple:
     torque: Field
     #: Mean torques by cause, N m: of the loaded balls, between balls, and of the return.
     parts: Mapping[str, Torque]
+    #: The orders that have a cause.
     orders: Sequence[NamedOrder]
     #: Orders of the spectrum, and amplitudes of the torque at them, N m; by a window of Hann.
     spectrum: tuple[Field, Field]
@@ -155,6 +156,11 @@ class Ripple:
     def deviation(self) -> Annotated[Torque, Info("M_s", "standard deviation of the friction torque")]:
         """Standard deviation of the torque over the angle."""
         return float(np.std(self.torque))
+
+    @property
+    def relative(self) -> Annotated[Ratio, Info("M_pp/M_m", "greatest less least friction torque, over the mean")]:
+        """Range of the torque over its mean."""
+        return self.peak_to_peak / self.mean if self.mean else math.nan
 
     def amplitude_of(self, name: str) -> float:
         """Amplitude of a named order, N m."""

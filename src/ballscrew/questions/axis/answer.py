@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping, Sequence
-from typing import Annotated
+from typing import Annotated, Any
 
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Unit
 from ballscrew.questions.axis.compute import FRICTION, LOAD, SERIES, SPEED, ChainReport
-from ballscrew.questions.shared.declared import FINITE, table_of
+from ballscrew.questions.shared.declared import FINITE, from_attributes, table_of
+from ballscrew.questions.shared.envelope import envelope
 
 
 class AtPlace(table_of(SERIES)):
@@ -30,15 +31,14 @@ class ChainResults(table_of(SERIES, of=Sequence[float])):
     guide_friction: Annotated[Force, FRICTION.info]
 
 
-def results(report: ChainReport) -> ChainResults:
-    """The results of a chain; a spring that is not known is null."""
-    return ChainResults(
-        **report.series,
-        shares=report.chain.shares,
-        travel=report.travel,
-        travel_is_known=report.travel_is_known,
-        softest=AtPlace(**{name: values[report.softest] for name, values in report.series.items()}),
-        largest_load=report.largest_load,
-        largest_speed=report.largest_speed,
-        guide_friction=report.guide_friction,
+def document(report: ChainReport) -> dict[str, Any]:
+    """The document of a chain, in SI; a spring that is not known is null."""
+    softest = AtPlace(**{name: values[report.softest] for name, values in report.series.items()})
+    results = from_attributes(ChainResults, report, **report.series, shares=report.chain.shares, softest=softest)
+    return envelope(
+        report.case,
+        results,
+        assumed=report.assumed,
+        warnings=report.case.implausible(),
+        verdicts=report.verdicts,
     )

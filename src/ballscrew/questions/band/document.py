@@ -18,8 +18,8 @@ from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.friction.validity import NUT_CONDITIONS
 from ballscrew.questions.band.answer import results
 from ballscrew.questions.band.compute import OF_MAKERS, BandReport
+from ballscrew.questions.run.answer import document as run_document
 from ballscrew.questions.run.compute import Run
-from ballscrew.questions.run.document import document as run_document
 from ballscrew.questions.shared import declared
 
 _TORQUE = "screw_torque"

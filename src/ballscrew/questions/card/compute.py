@@ -106,3 +106,16 @@ def _point(card: TorqueCard, point: TorquePoint, model: FrictionModel, by_rules:
         laws={name: drag / point.torque for name, drag in by_rules.items()},
         warnings=found.warning_records,
     )
+
+
+def documents(cards: Sequence[TorqueCard]) -> list[dict[str, Any]]:
+    """A document for each card."""
+    return [
+        {
+            "name": card.name,
+            "synthetic": card.synthetic,
+            **document(card),
+            "points": [{name: getattr(point, name) for name in fields_of(TorquePoint)} for point in card.points],
+        }
+        for card in cards
+    ]

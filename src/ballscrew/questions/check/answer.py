@@ -8,13 +8,8 @@ from ballscrew.questions.check.compute import BothRatings, Geometry
 from ballscrew.questions.run.answer import RunResults
 from ballscrew.questions.run.nut_loads import NutLoads
 from ballscrew.questions.run.response import VENDOR_ROWS
-from ballscrew.questions.shared.answer_parts import (
-    JudgedCheck,
-    Provenance,
-    Record,
-    Tables,
-)  # fmt: skip
-from ballscrew.questions.shared.declared import with_answers
+from ballscrew.questions.shared.answer_parts import JudgedCheck
+from ballscrew.questions.shared.declared import response, with_answers
 
 
 class OneCheck(JudgedCheck):
@@ -24,19 +19,16 @@ class OneCheck(JudgedCheck):
     words: str = Field(description="as ``text``")
 
 
-class Checks(
-    with_answers(geometry=Geometry, results=RunResults, loads=NutLoads, vendor_rows=VENDOR_ROWS, ratings=BothRatings)
-):
-    """The checks of a case, with its results."""
+class Beside(with_answers(geometry=Geometry, loads=NutLoads, vendor_rows=VENDOR_ROWS, ratings=BothRatings)):
+    """What the checks of a case have beside its results."""
 
     checks: list[OneCheck]
     judged: int = Field(description="number of the checks that were judged; the others lack an input")
     holds: bool = Field(description="true where all checks were judged and hold")
     verdict: str
-    verdicts: list[Record]
     nut: str = Field(description="kind of the nut; a case without one is checked with a single nut")
-    inputs: Tables
     assumed: list[str]
-    units: Tables
-    warnings: list[Record]
-    provenance: Provenance
+
+
+class Checks(response(RunResults, "Checks", beside=Beside)):
+    """The checks of a case, with its results."""

@@ -10,9 +10,10 @@ from ballscrew.cases.case_files import case_file, provenance
 from ballscrew.cases.screw_tables.nut_kinds import kind_of
 from ballscrew.physics.sizing.checks import Check, judged
 from ballscrew.questions.check.compute import Checked
-from ballscrew.questions.run import document as run
-from ballscrew.questions.shared import declared
+from ballscrew.questions.run import answer as run
+from ballscrew.questions.run.answer import results
 from ballscrew.questions.shared.check_lines import source_document
+from ballscrew.questions.shared.envelope import numbers
 from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
 
@@ -22,21 +23,18 @@ def document(found: Checked) -> dict[str, Any]:
 
 
 def _document(found: Checked) -> dict[str, Any]:
-    case, numbers = found.case, run.numbers(found.run)
-    own = {"geometry": found.geometry, "ratings": found.ratings}
+    case, beside = found.case, {**run.beside(found.run), "geometry": found.geometry, "ratings": found.ratings}
     return {
         "name": found.name,
         "nut": kind_of(found.nut.nut),
         "inputs": case_file.inputs(case),
-        **numbers,
-        **declared.document(own),
+        **numbers(results=results(found.run), **beside),
         "checks": [check_document(check) for check in found.checks],
         "judged": judged(found.checks),
         "holds": found.holds,
         "verdict": found.verdict,
         "verdicts": documents(found.verdicts),
         "assumed": list(found.assumed),
-        "units": {**numbers["units"], **{name: declared.units(each) for name, each in own.items()}},
         "warnings": documents(found.run.warnings),
         "provenance": provenance.of_case(case),
     }

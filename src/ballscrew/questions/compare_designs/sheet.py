@@ -11,8 +11,7 @@ from ballscrew.cases.case_files import descriptions
 from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
 from ballscrew.questions.check import sheet as check_sheet
 from ballscrew.questions.check.compute import Checked
-from ballscrew.questions.compare_designs.compute import SideBySide
-from ballscrew.questions.compare_designs.document import COMPARED, change_of
+from ballscrew.questions.compare_designs.compute import COMPARED, SideBySide, change_of
 from ballscrew.questions.shared.chart_colours import colour_of
 
 _RESULT = quantities_of(FrictionResult)

@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping, Sequence
-from typing import Annotated, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.basis.quantities import Info, TemperatureDifference, Torque
+from ballscrew.basis.records import documents
+from ballscrew.cases.case_files import case_file, fitted_case
+from ballscrew.cases.case_files.case import Case
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
 from ballscrew.evidence.calibration.fit_result import Estimate, Trend
 from ballscrew.evidence.calibration.identifiability import Combination
 from ballscrew.evidence.calibration.oil_temperature import TEMPERATURE_ERROR
 from ballscrew.questions.fit.compute import FitReport
+from ballscrew.questions.shared import declared
 from ballscrew.questions.shared.declared import Column, from_attributes
 
 
@@ -188,3 +192,18 @@ def _rows(model: CalibratedModel) -> FitRows:
         notes=log.notes,
         torque=rows.convention.description,
     )
+
+
+def document(case: Case, report: FitReport) -> dict[str, Any]:
+    """Estimates, residuals, what cannot be identified, the next test, warnings and provenance."""
+    model, found = report.model, results(report)
+    return {
+        **declared.document(found),
+        "units": declared.units(found),
+        "verdicts": documents(model.verdict_records),
+        "checks": [],
+        "warnings": documents(model.warning_records),
+        "inputs": case_file.inputs(case),
+        "provenance": fitted_case.provenance_of(case, model),
+        **({"assumed": list(report.assumed)} if report.assumed else {}),
+    }

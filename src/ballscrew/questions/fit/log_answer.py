@@ -4,38 +4,9 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from ballscrew.questions.shared.answer_parts import Closed, FaultLine, Number, Numbers, Tables
-
-
-class SeenColumn(Closed):
-    """A column of a file."""
-
-    heading: str
-    bare_heading: str = Field(description="without its unit")
-    taken_for: str = Field(description="the name of a column of a log; empty where it is not used")
-    unit: str
-    cells: list[str] = Field(description="the first cells, as written")
-
-
-class KnownColumn(Closed):
-    """A column that a log may have."""
-
-    name: str
-    meaning: str
-    unit: str = Field(description="SI")
-    shown_in: str
-    required: bool
-
-
-class Candidate(Closed):
-    """A number that may be fitted."""
-
-    name: str
-    meaning: str
-    symbol: str
-    unit: str = Field(description="SI")
-    shown_in: str
-    value: Number = Field(description="in the case, SI")
+from ballscrew.questions.fit.log_document import LogColumns
+from ballscrew.questions.shared.answer_parts import Closed, FaultLine, Tables
+from ballscrew.questions.shared.declared import schema
 
 
 class ColumnFault(FaultLine):
@@ -44,17 +15,9 @@ class ColumnFault(FaultLine):
     column: str = Field(description="that it is about; may be empty")
 
 
-class Log(Closed):
+class Log(schema(LogColumns)):
     """The columns of a log, and what may be fitted to it."""
 
-    file: str
-    moving: bool = Field(description="of a moving axis: ballscrew fit takes it, this address does not")
-    columns: list[SeenColumn]
-    more_columns: int
-    constants: Numbers = Field(description="values that count in every row, SI")
-    known: list[KnownColumn]
-    missing: list[str] = Field(description="columns that are needed and not there")
-    free: list[Candidate] = Field(description="numbers that are usually uncertain")
     faults: list[ColumnFault] = Field(description="for which the log cannot be read as it is")
 
 

@@ -1,51 +1,75 @@
-"""The columns of a log as a document: what each heading is taken for, and what may be fitted to it; SI."""
+"""The columns of a log, declared once: what each heading is taken for, and what may be fitted to it; SI."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
 
 from ballscrew.files.tables.headings import NO_COLUMN
 from ballscrew.files.torque_logs.columns import COLUMNS
-from ballscrew.files.torque_logs.preview import Preview
+from ballscrew.files.torque_logs.preview import Preview, SeenColumn
 from ballscrew.questions.fit.compute import Candidate
+from ballscrew.questions.shared import declared
+from ballscrew.questions.shared.declared import from_attributes
+
+
+class KnownColumn(NamedTuple):
+    """A column that a log may have."""
+
+    name: str
+    meaning: str
+    #: SI.
+    unit: str
+    shown_in: str
+    required: bool
+
+
+class FreeNumber(NamedTuple):
+    """A number that may be fitted."""
+
+    name: str
+    meaning: str
+    symbol: str
+    #: SI.
+    unit: str
+    shown_in: str
+    #: In the case, SI.
+    value: float
+
+
+class LogColumns(NamedTuple):
+    """The columns of a log, and what may be fitted to it."""
+
+    file: str
+    #: Of a moving axis: ballscrew fit takes it, this address does not.
+    moving: bool
+    columns: Sequence[SeenColumn]
+    more_columns: int
+    #: Values that count in every row, SI.
+    constants: Mapping[str, float]
+    known: Sequence[KnownColumn]
+    #: Columns that are needed and not there.
+    missing: Sequence[str]
+    #: Numbers that are usually uncertain.
+    free: Sequence[FreeNumber]
 
 
 def document(found: Preview, candidates: Sequence[Candidate], *, moving: bool) -> dict[str, Any]:
     """The columns of a file, the columns that a log may have, and the numbers that may be fitted."""
-    return {
-        "file": found.file,
-        "moving": moving,
-        "columns": [
-            {
-                "heading": one.heading, "bare_heading": one.bare_heading, "taken_for": one.taken_for,
-                "unit": one.unit, "cells": list(one.cells),
-            }
-            for one in found.columns
-        ],
-        "more_columns": found.more_columns,
-        "constants": dict(found.constants),
-        "known": [
-            {
-                "name": column.name,
-                "meaning": column.quantity.info.meaning,
-                "unit": column.quantity.unit,
-                "shown_in": column.quantity.shown_in,
-                "required": column.required,
-            }
+    answer = from_attributes(
+        LogColumns,
+        found,
+        moving=moving,
+        known=[
+            KnownColumn(column.name, quantity.info.meaning, quantity.unit, quantity.shown_in, column.required)
             for column in COLUMNS
-            if column.quantity is not None
+            if (quantity := column.quantity) is not None
         ],
-        "missing": [fault.column for fault in found.faults if fault.id == NO_COLUMN],
-        "free": [
-            {
-                "name": one.name, "meaning": one.quantity.info.meaning, "symbol": one.quantity.info.symbol,
-                "unit": one.quantity.unit, "shown_in": one.quantity.shown_in, "value": one.value,
-            }
-            for one in candidates
+        missing=[fault.column for fault in found.faults if fault.id == NO_COLUMN],
+        free=[
+            FreeNumber(name, quantity.info.meaning, quantity.info.symbol, quantity.unit, quantity.shown_in, value)
+            for name, quantity, value in candidates
         ],
-        "faults": [
-            {**fault.document(), "column": fault.column}
-            for fault in found.faults
-        ],
-    }  # fmt: skip
+    )
+    faults = [{**fault.document(), "column": fault.column} for fault in found.faults]
+    return {**declared.document(answer), "faults": faults}

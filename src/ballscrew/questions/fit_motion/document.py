@@ -9,7 +9,8 @@ from ballscrew.basis.references import documentation, keys_in
 from ballscrew.cases.case_files import case_file, provenance
 from ballscrew.cases.case_files.case import Case
 from ballscrew.evidence.moving_logs.linear_model import NAMES
-from ballscrew.evidence.moving_logs.motion_fit import LINEAR, POWER, SCREW, MotionEstimate, MotionFit
+from ballscrew.evidence.moving_logs.motion_fit import LINEAR, POWER, SCREW, MotionEstimate, MotionFit, fit_motion
+from ballscrew.questions.shared.declared import attributes
 
 
 def document(case: Case, found: MotionFit) -> dict[str, Any]:
@@ -17,7 +18,7 @@ def document(case: Case, found: MotionFit) -> dict[str, Any]:
     crossed = {} if found.test is None else {"cross_error": found.cross_error}
     name, digest = found.equation.log.source or ("log", "")
     settings = {} if found.screw is None else {"free": list(found.screw.friction.asked)}
-    own = keys_in(documentation(type(found))) + keys_in(documentation(_fit()))
+    own = keys_in(documentation(type(found))) + keys_in(documentation(fit_motion))
     return {
         "kind": "motion",
         "model": found.model,
@@ -39,22 +40,11 @@ def document(case: Case, found: MotionFit) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _fit() -> Any:
-    from ballscrew.evidence.moving_logs.motion_fit import fit_motion
-
-    return fit_motion
-
-
 def _estimate(estimate: MotionEstimate) -> dict[str, Any]:
     return {
-        "value": estimate.value,
-        "std": estimate.std,
-        "interval": None if estimate.interval is None else list(estimate.interval),
-        "identified": estimate.identified,
+        **attributes(estimate, "value", "std", "interval", "identified"),
         "unit": estimate.quantity.unit,
-        "model": estimate.model,
-        "at_bound": estimate.at_bound,
-        "given": estimate.given,
+        **attributes(estimate, "model", "at_bound", "given"),
     }
 
 
@@ -70,32 +60,26 @@ def _numbers(found: MotionFit, name: str) -> dict[str, float]:
     if name == LINEAR:
         return dict(zip(NAMES, found.linear.values.tolist(), strict=True))
     if name == POWER:
-        power = found.power
-        assert power is not None
-        return {
-            "mass": power.mass, "offset": power.offset, "constant_force": power.constant_force,
-            "coefficient": power.coefficient, "speed_exponent": power.exponent,
-        }  # fmt: skip
+        assert found.power is not None
+        shared = attributes(found.power, "mass", "offset", "constant_force", "coefficient")
+        return {**shared, "speed_exponent": found.power.exponent}
     screw = found.screw
     assert name == SCREW
     assert screw is not None
     return {
-        "mass": screw.mass, "offset": screw.offset, "constant_force": screw.constant_force,
+        **attributes(screw, "mass", "offset", "constant_force"),
         "remaining_viscous_coefficient": screw.viscous_coefficient,
-        **dict(zip(screw.friction.asked, screw.numbers.tolist(), strict=True)), "carried_mass": screw.carried_mass,
-    }  # fmt: skip
+        **dict(zip(screw.friction.asked, screw.numbers.tolist(), strict=True)),
+        "carried_mass": screw.carried_mass,
+    }
 
 
 def _exponent(found: MotionFit) -> dict[str, Any] | None:
     power = found.power
     if power is None:
         return None
-    return {
-        "value": power.exponent,
-        "bootstrap_interval": list(power.bootstrap),
-        "interval": list(power.interval),
-        "choices": dict(power.choices),
-    }
+    own = {"value": power.exponent, "bootstrap_interval": list(power.bootstrap)}
+    return {**own, **attributes(power, "interval", "choices")}
 
 
 def _filter(found: MotionFit) -> dict[str, Any]:

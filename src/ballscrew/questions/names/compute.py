@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from ballscrew.basis.errors import Fault, InputError, nearest
@@ -99,3 +99,8 @@ KINDS: Mapping[str, Callable[[Case | None], list[Name]]] = {
     "inputs": _inputs,
     "outputs": _outputs,
 }
+
+
+def document(kind: str, found: Sequence[Name]) -> dict[str, Any]:
+    """The names of a kind, with their groups, SI units and meanings."""
+    return {"results": {kind: [one._asdict() for one in found]}, "warnings": []}

@@ -81,6 +81,11 @@ class Member:
     pareto: bool = False
 
     @property
+    def name(self) -> str:
+        """The name of the design."""
+        return self.checked.name
+
+    @property
     def holds(self) -> bool:
         """Whether all checks were judged and hold by the full model."""
         return all(check.holds for check in self.checks)

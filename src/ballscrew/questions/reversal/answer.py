@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping, Sequence
-from typing import Annotated
+from typing import Annotated, Any
 
 from ballscrew.basis.quantities import Info, Torque, Unit, quantities_of
 from ballscrew.physics.moving_balls.friction_states import DahlFit, LuGreFit, SlipElementsFit, WindingUp
 from ballscrew.questions.reversal.compute import ANGLE, TORQUE, TRAVEL, Place, ReversalReport
+from ballscrew.questions.shared.declared import from_attributes
+from ballscrew.questions.shared.envelope import envelope
 
 _CURVE = quantities_of(WindingUp)
 
@@ -43,17 +45,11 @@ class ReversalResults:
     slip_elements: Sequence[SlipElementsFit]
 
 
-def results(report: ReversalReport) -> ReversalResults:
-    """The results of a reversal."""
-    found = report.reversal
-    return ReversalResults(
-        from_rest=found.from_rest,
-        screw_angle=found.screw_angle,
-        travel=found.travel,
-        screw_torque=found.screw_torque,
-        contributions=found.contributions,
-        steady_torque=float(found.steady_torque),
-        steady_contributions={name: float(value) for name, value in found.steady_contributions.items()},
+def document(report: ReversalReport) -> dict[str, Any]:
+    """The document of a reversal, in SI."""
+    results = from_attributes(
+        ReversalResults,
+        report.reversal,
         coulomb_torque=report.curve.coulomb_torque,
         at_once=report.curve.at_once,
         swing=report.places,
@@ -63,3 +59,4 @@ def results(report: ReversalReport) -> ReversalResults:
         lugre=report.lugre,
         slip_elements=report.elements,
     )
+    return envelope(report.case, results, warnings=report.warnings, verdicts=report.verdicts)

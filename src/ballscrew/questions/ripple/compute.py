@@ -7,14 +7,14 @@ import itertools
 import math
 import re
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
 from ballscrew.basis import units
 from ballscrew.basis.arrays import lazy
 from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
-from ballscrew.basis.quantities import Info, Quantity, quantities_of
+from ballscrew.basis.quantities import Info, Quantity, Torque, quantities_of
 from ballscrew.basis.records import Measured, Message, Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.physics.components.chain_force import ChainBallForce
@@ -61,10 +61,11 @@ _KNOWN = quantities_of(Ripple)
 class Range(NamedTuple):
     """The peak to peak of several nuts, N m: the median, and what eight in ten lie between."""
 
+    #: The number of nuts.
     nuts: int
-    low: float
-    median: float
-    high: float
+    low: Annotated[Torque, Info("M_10", "peak to peak that one nut in ten is below")]
+    median: Annotated[Torque, Info("M_50", "median of the peaks to peaks")]
+    high: Annotated[Torque, Info("M_90", "peak to peak that one nut in ten is above")]
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -109,7 +110,7 @@ class RippleReport:
             "({name}), {amplitude}"
         )
         message = message.of(
-            range=_torque(found.peak_to_peak), share=units.percent(relative(found)),
+            range=_torque(found.peak_to_peak), share=units.percent(found.relative),
             order=f"{most.order:.3g}", name=Message(most.name), amplitude=_torque(most.amplitude),
         )  # fmt: skip
         return units.record(message, id="ripple.size", subject="peak_to_peak", value=found.peak_to_peak, unit="N m")
@@ -125,19 +126,14 @@ class RippleReport:
         message = Message(words).of(
             fault=name,
             mean=units.percent(found.mean / self.ripple.mean),
-            range=units.percent(relative(found) / relative(self.ripple)),
+            range=units.percent(found.relative / self.ripple.relative),
         )
         return units.record(message, id=f"ripple.{name.partition('=')[0]}", subject="torque", holds=shown)
 
 
-def relative(found: Ripple) -> float:
-    """The range of a torque over its mean."""
-    return found.peak_to_peak / found.mean if found.mean else math.nan
-
-
 def shows(usual: Ripple, found: Ripple) -> bool:
     """Whether the torque of a nut with a fault differs from that without it by more than nuts of one kind do."""
-    mean, change = found.mean / usual.mean, relative(found) / relative(usual)
+    mean, change = found.mean / usual.mean, found.relative / usual.relative
     return abs(mean - 1) > SHOWS_MEAN or abs(change - 1) > SHOWS_RANGE
 
 

@@ -28,7 +28,7 @@ from ballscrew.basis.output.sheet import (
 from ballscrew.basis.quantities import Array, Info, Quantity, quantities_of
 from ballscrew.cases.case_files import descriptions
 from ballscrew.physics.moving_balls.ripple import NamedOrder, Ripple
-from ballscrew.questions.ripple.compute import RippleReport, relative
+from ballscrew.questions.ripple.compute import RippleReport
 
 _KNOWN, _ORDER = quantities_of(Ripple), quantities_of(NamedOrder)
 _TORQUE = Quantity("torque", "N m", Info("M", "friction torque of the balls"))
@@ -64,7 +64,7 @@ def _sizes(ripples: Mapping[str, Ripple]) -> Table:
             name,
             Number(ripple.mean, _KNOWN["mean"], 3),
             Number(ripple.peak_to_peak, _KNOWN["peak_to_peak"], 3),
-            Share(relative(ripple), bar=False),
+            Share(ripple.relative, bar=False),
             Number(ripple.deviation, _KNOWN["deviation"], 3),
             Number(ripple.share, _KNOWN["share"], 2),
         ]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping, Sequence
-from typing import Annotated, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 from ballscrew.basis.quantities import Info, Ratio, Torque, fields_of, quantities_of
 from ballscrew.cases.case_files.case import Case
@@ -15,7 +15,9 @@ from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction.result import FrictionResult, Quadrant
 from ballscrew.physics.sizing.rules import DRAG_RULES, rule_of
 from ballscrew.questions.run.compute import OF_ONE_BALL, Run
+from ballscrew.questions.run.nut_loads import nut_loads
 from ballscrew.questions.shared.declared import LEFT_OUT, OneOf, table_of
+from ballscrew.questions.shared.envelope import envelope
 
 _OF_CONTACT = quantities_of(RaceState)
 #: The numbers and truth values of a result, without the inputs among them.
@@ -110,3 +112,24 @@ def vendor_rows(case: Case) -> VendorRows | None:
     return VendorRows(
         near.data, near.data if maker is None else maker.maker, calibration, near.mean, near.scatter, near.rows
     )
+
+
+def document(run: Run) -> dict[str, Any]:
+    """The document of a run; with a nut it has the loads of the balls, too."""
+    return envelope(run.case, results(run), beside=beside(run), warnings=run.warnings, verdicts=run.verdicts)
+
+
+def beside(run: Run) -> dict[str, Any]:
+    """The loads of the balls of a nut, and the rows of a vendor that are like it."""
+    loads = None if run.nut is None else nut_loads(run.nut)
+    answers = {"loads": loads, "vendor_rows": vendor_rows(run.case)}
+    return {name: answer for name, answer in answers.items() if answer is not None}
+
+
+def list_document(runs: Mapping[str, Run]) -> list[dict[str, Any]]:
+    """The documents of the screws of a table with their names, without the loads ball by ball."""
+    listed: list[dict[str, Any]] = [{"name": name, **document(run)} for name, run in runs.items()]
+    for each in listed:
+        if "loads" in each:
+            del each["loads"]["balls"], each["units"]["loads"]["balls"]
+    return listed

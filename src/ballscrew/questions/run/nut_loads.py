@@ -10,7 +10,7 @@ from ballscrew.basis.quantities import Info, Unit, quantities_of
 from ballscrew.physics.sizing.rigidity import AxialRigidity
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.run.nut_state import Flank, NutState
-from ballscrew.questions.shared.declared import table_of
+from ballscrew.questions.shared.declared import from_attributes, table_of
 
 _KNOWN = quantities_of(BallLoads)
 _OF_BALLS = {name: _KNOWN[name] for name in ("forward_load", "backward_load", "forward_angle", "backward_angle")}
@@ -54,13 +54,14 @@ class NutLoads(table_of(_OF_ALL_BALLS)):
 
 def nut_loads(nut: NutState) -> NutLoads:
     """The loads of the balls of a nut: least, mean and greatest on both flanks, then ball by ball."""
-    return NutLoads(
-        **{name: getattr(nut.loads, name) for name in _OF_ALL_BALLS},
+    return from_attributes(
+        NutLoads,
+        nut.loads,
         preload_is_lost=nut.preload_is_lost,
         loaded_flank=_on_flank(nut.loaded),
         relieved_flank=_on_flank(nut.relieved),
         axial_rigidity=nut.rigidity,
-        balls=EachBall(**{name: getattr(nut.loads, name) for name in _OF_BALLS}, count=nut.loads.balls),
+        balls=from_attributes(EachBall, nut.loads, count=nut.loads.balls),
     )
 
 

@@ -6,10 +6,12 @@ responses, and the tests validate answers against the description.
 
 from __future__ import annotations
 
+from typing import Any
+
 from ballscrew.questions.run.answer import RunResults, VendorRows
 from ballscrew.questions.run.nut_loads import NutLoads
-from ballscrew.questions.shared.answer_parts import Closed, Provenance, Record, Tables, field
-from ballscrew.questions.shared.declared import with_answers
+from ballscrew.questions.shared.answer_parts import Closed, field
+from ballscrew.questions.shared.declared import response, with_answers
 
 LOADS = (NutLoads, field("loads of the balls of a nut, SI", optional=True))
 VENDOR_ROWS = (VendorRows, field("model over vendor for the rows most like the nut, without load", optional=True))
@@ -25,15 +27,7 @@ class RunWords(Closed):
     rules: list[str] = field("the torque without load beside the rules of makers; none of a nut without preload")
 
 
-class Document(with_answers(results=RunResults, loads=LOADS, vendor_rows=VENDOR_ROWS)):
-    """Inputs, results and units in SI; verdicts, checks and warnings; provenance."""
-
-    inputs: Tables
-    units: Tables
-    verdicts: list[Record]
-    checks: list[Record]
-    warnings: list[Record]
-    provenance: Provenance
+Document: Any = response(RunResults, "Document", beside=with_answers(loads=LOADS, vendor_rows=VENDOR_ROWS))
 
 
 class Run(Document):

@@ -7,15 +7,28 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Literal, NamedTuple
 
-from ballscrew.basis.quantities import Force, Info, Length, Ratio, Torque, quantities_of
+from ballscrew.basis import units
+from ballscrew.basis.quantities import Force, Info, Length, Ratio, Torque, fields_of, quantities_of
+from ballscrew.basis.records import Message, documents
+from ballscrew.cases.case_files import provenance
 from ballscrew.cases.screw_tables.nut_kinds import NUT_FIELDS
+from ballscrew.physics.friction.starvation import STARVED
 from ballscrew.physics.sizing.catalogue import CatalogueRow
+from ballscrew.physics.sizing.checks import failing, judged, verdict_of
+from ballscrew.physics.solvers.load_distribution import BallLoads
+from ballscrew.questions.check import document as check_documents
+from ballscrew.questions.duty import verdicts as duty_verdicts
 from ballscrew.questions.duty.answer import FullBath
 from ballscrew.questions.duty.compute import NUMBERS, DutyReport
+from ballscrew.questions.select import case_text
 from ballscrew.questions.select.candidates import Candidate
-from ballscrew.questions.select.compute import Ranked
+from ballscrew.questions.select.compute import Plan, Ranked, Selection
+from ballscrew.questions.select.need import Need
 from ballscrew.questions.select.objectives import OBJECTIVES
-from ballscrew.questions.shared.declared import FINITE, table_of
+from ballscrew.questions.select.requirements import Requirements
+from ballscrew.questions.shared import declared
+from ballscrew.questions.shared.check_lines import with_unlikely
+from ballscrew.questions.shared.declared import FINITE, from_attributes, table_of
 
 _ROW = quantities_of(CatalogueRow)
 
@@ -102,11 +115,8 @@ class OneCandidate:
     starved: bool
 
 
-class MotorTorque(NamedTuple):
+class MotorTorque(table_of({name: NUMBERS[name] for name in ("torque_peak", "torque_rms")})):
     """The torques that a motor is chosen by."""
-
-    torque_peak: Annotated[Torque, NUMBERS["torque_peak"].info]
-    torque_rms: Annotated[Torque, NUMBERS["torque_rms"].info]
 
 
 class BrakeOfNeed(NamedTuple):
@@ -140,19 +150,15 @@ class OfMotion:
 def candidate(ranked: Ranked, verdict: str, case: Mapping[str, Any]) -> OneCandidate:
     """A candidate with its rank, all checks in a few words, and its case file."""
     found, row = ranked.candidate, ranked.candidate.variant.row
-    return OneCandidate(
+    return from_attributes(
+        OneCandidate,
+        found,
         rank=ranked.rank,
-        name=found.name,
         label=found.variant.label,
         row=RowSizes(row.nominal_diameter, row.lead, row.source),
         nut=found.variant.nut,
-        preload=found.preload,
         oil=found.variant.oil_name,
-        holds=found.holds,
-        complete=found.complete,
-        valid=found.valid,
         pareto=ranked.pareto,
-        rigid_lift_off_load=found.rigid_lift_off_load,
         worst=worst(found),
         fails=fails(found),
         verdict=verdict,
@@ -178,7 +184,7 @@ def of_motion(duty: DutyReport) -> OfMotion:
         CycleOfNeed(**duty.numbers),
         None if duty.by_rule else FullBath(**duty.full_bath),
         MotorTorque(**duty.motor_torque),
-        BrakeOfNeed(*(getattr(duty.brake, name) for name in BrakeOfNeed._fields)),
+        from_attributes(BrakeOfNeed, duty.brake),
     )
 
 
@@ -186,3 +192,108 @@ def objective(name: str) -> OneObjective:
     """An objective with meaning, unit, and the direction that is better."""
     one = OBJECTIVES[name]
     return OneObjective(name, one.quantity.info.meaning, one.quantity.unit, "more" if one.larger_is_better else "less")
+
+
+_LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
+#: What is the same for all candidates, or too long for a list.
+_LEFT_OUT = ("units", "provenance", "loads", "name", "checks", "judged", "holds", "verdict")
+
+
+def document(found: Selection) -> dict[str, Any]:
+    """The document in SI; ``results`` and ``checks`` of a candidate are those of ``ballscrew check --json``."""
+    first = next((each.candidate for each in found.ranked if each.candidate.complete), None)
+    known: dict[str, Any] = {} if first is None else check_documents.list_document([first.checked])[0]["units"]
+    known.pop("loads", None)
+    best, moves = found.best, found.need.moves
+    return {
+        "need": need_document(found.need),
+        "objectives": objectives_document(found.objectives),
+        "best": None if best is None else best.variant.label,
+        "holding": len(found.holding),
+        "ruled_out": sum(not each.candidate.complete for each in found.ranked),
+        "candidates": [candidate_document(each, found.need, found.model) for each in found.ranked],
+        "notes": list(found.notes),
+        "warnings": documents(next((each.candidate.starved for each in found.ranked if each.candidate.starved), [])),
+        "units": {
+            **known,
+            **declared.units_of(OneCandidate),
+            **(declared.units_of(OfMotion) if moves else {}),
+        },
+        "provenance": provenance.of_case(found.ranked[0].candidate.case) if found.ranked else None,
+    }
+
+
+def plan_document(plan: Plan) -> dict[str, Any]:
+    """What a selection would do, before it is done."""
+    return declared.document(plan)
+
+
+def row_document(found: Candidate) -> dict[str, Any]:
+    """A candidate as it comes, before it has a rank: what is seen in the list."""
+    return {
+        "label": found.variant.label,
+        "complete": found.complete,
+        "fits": found.fits,
+        "holds": found.holds,
+        "worst": worst(found),
+        "fails": declared.document(fails(found)),
+        "objectives": dict(found.objectives),
+    }
+
+
+def need_document(need: Need) -> dict[str, Any]:
+    """A need: its tables as they are written, what it requires in SI, and the choices that are open."""
+    required = need.requirements
+    numbers = {name: getattr(required, name) for name in fields_of(Requirements)}
+    return {
+        "name": need.name,
+        "tables": dict(need.tables),
+        "requirements": {
+            **{name: value for name, value in numbers.items() if value is not None},
+            "back_driving": required.back_driving,
+            **({"accuracy": required.accuracy} if required.accuracy else {}),
+        },
+        "choices": {"nut": list(need.nuts), "preload": list(need.preloads), "oils": [dict(oil) for oil in need.oils]},
+        "rows": need.rows,
+        "assumed": list(need.notes),
+    }
+
+
+def objectives_document(names: Any) -> list[dict[str, Any]]:
+    """Objectives with meaning, unit, and the direction that is better."""
+    return [declared.document(objective(name)) for name in names]
+
+
+def candidate_document(ranked: Ranked, need: Need, model: str | None = None) -> dict[str, Any]:
+    """One candidate: the document of its check, with its rank, what fails, the numbers compared, and its case file."""
+    found = ranked.candidate
+    whole: dict[str, Any] = {"results": {}, "verdicts": [], "warnings": [], "assumed": []}
+    if found.run is not None:
+        whole = check_documents.list_document([found.run])[0]
+        if found.duty is not None:  # of the cycle, and not of steady travel
+            for name, more in (("verdicts", duty_verdicts.inertia), ("warnings", duty_verdicts.inertia_warnings)):
+                whole[name] = [one for one in whole[name] if one["id"] != STARVED] + documents(more(found.duty))
+        if not any(one["id"] == STARVED for name in ("verdicts", "warnings") for one in whole[name]):
+            # of the cycle, or of the nut without load
+            whole["warnings"] = [*documents(found.starved), *whole["warnings"]]
+    return {
+        **declared.document(candidate(ranked, verdict(found), case_text.tables(found, need, model))),
+        "results": whole.pop("results"),
+        **({} if found.duty is None else declared.document(of_motion(found.duty))),
+        "checks": [check_documents.check_document(check) for check in found.checks],
+        "judged": judged(found.checks),
+        **{name: part for name, part in whole.items() if name not in (*_LEFT_OUT, "nut")},
+    }
+
+
+def verdict(found: Candidate) -> str:
+    """All checks in a few words, with the utilisation of those that fail."""
+    if found.complete:
+        said = verdict_of(found.checks, passes=Message("holds"), by_how_much=True)
+    else:
+        said = Message("cannot hold: {names}", {"names": [failing(check) for check in found.failed]})
+    text = units.filled(with_unlikely(said, found.case))
+    limit = found.rigid_lift_off_load
+    if limit is not None:
+        text += f"; preload lost (rigid bodies: above {units.shown(limit, _LIFT_OFF)})"
+    return text if found.valid else f"{text}; outside the model's validity"

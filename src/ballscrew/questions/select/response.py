@@ -15,14 +15,18 @@ from ballscrew.questions.shared.declared import schema, with_answers
 Plan: Any = schema(PlanOfNeed)
 
 
-class Candidate(schema(OneCandidate), schema(OfMotion, optional=True), Open):
-    """A row with a nut, a preload and an oil: the document of its check, with its rank."""
+class OfCheck(Open):
+    """The parts of the document of a check that candidates have."""
 
     results: Tables
     checks: list[Tables]
     judged: int = Field(description="number of the checks that were judged; the others lack an input")
     verdicts: list[Record]
     warnings: list[Record]
+
+
+class Candidate(schema(OneCandidate), schema(OfMotion, optional=True), OfCheck):
+    """A row with a nut, a preload and an oil: the document of its check, with its rank."""
 
 
 class Select(with_answers(objectives=Sequence[OneObjective])):

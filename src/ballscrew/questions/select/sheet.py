@@ -31,10 +31,9 @@ from ballscrew.questions.check import sheet as check_sheet
 from ballscrew.questions.duty import verdicts as duty_verdicts
 from ballscrew.questions.duty.compute import NUMBERS, DutyReport
 from ballscrew.questions.run import makers
-from ballscrew.questions.select.answer import BRAKE
+from ballscrew.questions.select.answer import BRAKE, verdict
 from ballscrew.questions.select.candidates import Candidate
 from ballscrew.questions.select.compute import Plan, Ranked, Selection
-from ballscrew.questions.select.document import verdict
 from ballscrew.questions.select.need import Need
 from ballscrew.questions.select.objectives import OBJECTIVES
 from ballscrew.questions.select.requirements import ALLOWED, Requirements

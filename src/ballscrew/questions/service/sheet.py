@@ -34,8 +34,8 @@ from ballscrew.cases.case_files.descriptions import design, model_text, nut_text
 from ballscrew.evidence.service.preload_estimate import PreloadEstimate
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.components.operating_state import OperatingState
+from ballscrew.questions.service.answer import preload_quantity, verdicts
 from ballscrew.questions.service.compute import TORQUE, ServiceReport
-from ballscrew.questions.service.document import preload_quantity, verdicts
 from ballscrew.questions.service.points import curves
 
 #: Causes of an interval that are no input of the model.

@@ -78,6 +78,12 @@ class Shown(Closed):
     sheet: Tables = Field(description="the sheet, as the command prints it with --sheet")
 
 
+class OfLogs(Shown):
+    """What stands beside results of logs: their names and digests are in the provenance."""
+
+    provenance: Tables
+
+
 class Assumed(Shown):
     """What is assumed, in words."""
 
@@ -118,6 +124,15 @@ class JudgedCheck(Record):
     source_text: str | None = field(
         "the same in words beside the verdict; null where the source was read", optional=True
     )
+
+
+class Said(Closed):
+    """What is said of results, and what they rest on."""
+
+    verdicts: list[Record]
+    checks: list[Record]
+    warnings: list[Record]
+    provenance: Provenance
 
 
 class Drawing(Closed):

@@ -39,6 +39,12 @@ class OneOf(NamedTuple):
     words: tuple[str, ...]
 
 
+class Words(NamedTuple):
+    """What a part is, where its annotation comes from another class."""
+
+    text: str
+
+
 class Column(NamedTuple):
     """Said of a part that is a column of the tables in files: its heading."""
 
@@ -62,7 +68,8 @@ class Part(NamedTuple):
     def meaning(self) -> str:
         """What it is, for people."""
         info = info_of(self.annotation)
-        return self.words if info is None else info.meaning
+        words = next((said.text for said in _said(self.annotation) if isinstance(said, Words)), self.words)
+        return words if info is None else info.meaning
 
     @property
     def bare(self) -> Any:
@@ -151,6 +158,15 @@ def parts_of(cls: type) -> Mapping[str, Part]:
     return found
 
 
+def described(cls: type) -> Mapping[str, Part]:
+    """The parts of an answer by name, fields with the first sentence of the comment above them."""
+    said = comments_of(cls)
+    return {
+        name: part._replace(words=said[name].partition(". ")[0]) if name in said else part
+        for name, part in parts_of(cls).items()
+    }
+
+
 def is_answer(annotation: Any) -> bool:
     """True for a class that is an answer of its own."""
     return isinstance(annotation, type) and (
@@ -177,6 +193,13 @@ def table_of(quantities: Mapping[str, Quantity], *, of: Any = float, at_times: C
 
     fields = [(name, annotated(one)) for name, one in quantities.items()]
     return dataclasses.make_dataclass("Numbers", fields, frozen=True, eq=False)
+
+
+def parts_like(cls: type, *names: str) -> type[Any]:
+    """A base of answers: the parts of these names, as another class declares them."""
+    known = described(cls)
+    fields = [(name, Annotated[known[name].annotation, Words(known[name].words)]) for name in names]
+    return dataclasses.make_dataclass("Parts", fields, frozen=True, eq=False)
 
 
 def cells(answer: Any, name: str = "", quantity: Quantity | None = None) -> Cells:
@@ -225,6 +248,11 @@ def _items(answer: Any) -> Iterator[tuple[str, Any]]:
             yield name, document(value)
 
 
+def attributes(value: Any, *names: str) -> dict[str, Any]:
+    """Attributes of a value by name, as they stand in a document."""
+    return {name: document(getattr(value, name)) for name in names}
+
+
 def units(answer: Any) -> dict[str, Any]:
     """The SI units of the numbers of an answer, in tables like its document; parts without numbers are not in it."""
     found: dict[str, Any] = {}
@@ -261,19 +289,19 @@ def units_of(cls: type) -> dict[str, Any]:
 # -- schema ---------------------------------------------------------------------------------------
 
 
-@functools.cache
 def schema(cls: type, *, optional: bool = False) -> Any:
     """The response model of an answer: a name, a type and a description for each part.
 
     ``optional`` where each part of it may be left out.
     """
+    return _schema(cls, optional)
+
+
+@functools.cache
+def _schema(cls: type, optional: bool) -> Any:
     from ballscrew.questions.shared.answer_parts import Closed, model  # pydantic, which the command line does not need
 
-    said = comments_of(cls)
-    fields = {
-        name: _field(part._replace(words=said[name].partition(". ")[0]) if name in said else part, optional=optional)
-        for name, part in parts_of(cls).items()
-    }
+    fields = {name: _field(part, optional=optional) for name, part in described(cls).items()}
     return model(cls.__name__, _first_line(cls), Closed, **fields)
 
 
@@ -288,26 +316,25 @@ def with_answers(**parts: Any) -> Any:
     return with_fields(**{name: (_kind(Part(name, cls)), field) for name, (cls, field) in pairs.items()})
 
 
-def response(cls: type, name: str, *, judged: bool = False, beside: type | None = None) -> Any:
-    """The response model of a document whose results are an answer; ``judged`` where its checks are of a screw.
+def response(cls: type, name: str, *, named: str = "results", judged: bool = False, beside: type | None = None) -> Any:
+    """The response model of a document whose results are an answer, ``named`` so.
 
-    ``beside`` is a model of what it has besides.
+    ``judged`` where its checks are of a screw; ``beside`` is a model of what it has besides, or in another form.
     """
     from ballscrew.questions.shared import answer_parts as parts
 
-    checks = parts.JudgedCheck if judged else parts.Record
-    return parts.model(
-        name,
-        _first_line(cls),
-        parts.Shown if beside is None else beside,
-        inputs=(parts.Tables, ...),
-        results=(schema(cls), ...),
-        units=(parts.Tables, ...),
-        verdicts=(list[parts.Record], ...),
-        checks=(list[checks], ...),
-        warnings=(list[parts.Record], ...),
-        provenance=(parts.Provenance, ...),
-    )
+    base: Any = parts.Shown if beside is None else beside
+    fields = {
+        "inputs": parts.Tables,
+        named: schema(cls),
+        "units": parts.Tables,
+        "verdicts": list[parts.Record],
+        "checks": list[parts.JudgedCheck if judged else parts.Record],
+        "warnings": list[parts.Record],
+        "provenance": parts.Provenance,
+    }
+    own = {name: (kind, ...) for name, kind in fields.items() if name not in base.model_fields}
+    return parts.model(name, _first_line(cls), base, **own)
 
 
 def _first_line(cls: type) -> str:

@@ -8,9 +8,14 @@ from typing import Annotated, Any, NamedTuple
 
 import xarray as xr
 
+from ballscrew.basis import units
+from ballscrew.basis.records import Measured, Message, Record, documents
+from ballscrew.cases.case_files.case import Case
+from ballscrew.cases.case_files.provenance import of_case
 from ballscrew.engine.uncertainty.bands import ENDS, inner_end, inner_levels
+from ballscrew.questions.shared import declared
 from ballscrew.questions.shared.declared import FINITE, LEFT_OUT
-from ballscrew.questions.sweep.compute import Plan
+from ballscrew.questions.sweep.compute import Plan, implausible, starved
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -91,3 +96,32 @@ def results(plan: Plan, dataset: xr.Dataset) -> SweepResults:
         outputs={name: output(name) for name in dict.fromkeys((*plan.outputs, "valid"))},
         band=SweepBand(*(dataset.attrs[f"band_{name}"] for name in SweepBand._fields)) if plan.banded else None,
     )
+
+
+def document(case: Case, plan: Plan, dataset: xr.Dataset) -> dict[str, Any]:
+    """Axes, outputs with the ends of their bands where there are bands, verdicts, checks and warnings, provenance."""
+    return {
+        **declared.document(results(plan, dataset)),
+        "verdicts": [],
+        "checks": [],
+        "warnings": documents([*implausible(case, plan), *starved(dataset), *warnings(dataset)]),
+        "provenance": of_case(case),
+    }
+
+
+def warnings(dataset: xr.Dataset) -> list[Record]:
+    """A warning where the model is not valid at some of the points."""
+    valid = dataset["valid"].to_numpy()
+    count = int(valid.size - valid.sum())
+    if not count:
+        return []
+    message = Message(
+        "{count} of {all} points lie outside the model's validity",
+        {"count": Measured(count, digits=9), "all": Measured(valid.size, digits=9)},
+    )
+    return [
+        units.record(
+            message, id="validity.points", subject="valid", severity="warning", holds=False,
+            value=float(count), limit=0.0,
+        )
+    ]  # fmt: skip

@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-from ballscrew.questions.shared.answer_parts import Provenance, Record
+from ballscrew.questions.shared.answer_parts import Said
 from ballscrew.questions.shared.declared import schema
 from ballscrew.questions.sweep.answer import SweepResults
 
 
-class Sweep(schema(SweepResults)):
+class Sweep(schema(SweepResults), Said):
     """Results over ranges of the operating point or of other fields."""
-
-    verdicts: list[Record]
-    checks: list[Record]
-    warnings: list[Record]
-    provenance: Provenance

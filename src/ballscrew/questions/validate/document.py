@@ -11,6 +11,7 @@ from ballscrew.basis import units
 from ballscrew.basis.records import Message, Record
 from ballscrew.basis.records import documents as documents_of
 from ballscrew.evidence.validation.entries import Entry, Point, ValidationSet
+from ballscrew.questions.shared.declared import attributes
 
 
 def documents(entries: Sequence[Entry]) -> list[dict[str, Any]]:
@@ -24,9 +25,7 @@ def _document(entry: Entry) -> dict[str, Any]:
         "model": entry.model.name,
         "calibration": entry.calibration,
         "n": len(entry.counted),
-        "mean_ratio": entry.mean_ratio,
-        "std_ratio": entry.std_ratio,
-        "share_in_band": entry.share_in_band,
+        **attributes(entry, "mean_ratio", "std_ratio", "share_in_band"),
         **_more(entry),
         "used_for": entry.used_for,
         **({"groups": groups} if (groups := _groups(entry)) else {}),
@@ -57,10 +56,7 @@ def _groups(entry: Entry) -> dict[str, Any]:
     return {
         name: {
             "n": len(group.counted),
-            "mean_ratio": group.mean_ratio,
-            "std_ratio": group.std_ratio,
-            "range_ratio": list(group.range_ratio),
-            "share_in_band": group.share_in_band,
+            **attributes(group, "mean_ratio", "std_ratio", "range_ratio", "share_in_band"),
             **_more(group),
             **_rules(group),
         }
@@ -73,13 +69,10 @@ def _rules(entry: Entry) -> dict[str, Any]:
 
 
 def _row(point: Point, data: ValidationSet) -> dict[str, Any]:
-    ratios = {
-        "definitions": dict(point.definitions),
-        "laws": dict(point.laws),
-        "apart": [{**apart._asdict(), "ratio": apart.ratio} for apart in point.upper_limits],
-    }
     low, high, certain = point.band.low, point.band.high, point.uncertainty
     named = {key: point.definitions.get(name) if name else point.ratio for name, key in data.ratio_names.items()}
+    apart = [{**limit._asdict(), "ratio": limit.ratio} for limit in point.upper_limits]
+    of_others = {**attributes(point, "definitions", "laws"), "apart": apart}
     return {
         "name": point.name,
         "unit": data.quantity.unit,
@@ -87,14 +80,11 @@ def _row(point: Point, data: ValidationSet) -> dict[str, Any]:
         "value": point.value,
         **point.band._asdict(),
         "band": None if low is None or high is None else [low, high],
-        "ratio": point.ratio,
-        "in_band": point.in_band,
-        "residual": point.residual,
+        **attributes(point, "ratio", "in_band", "residual"),
         "residual_in_half_bands": point.deviation,
-        **({} if certain is None else {"uncertainty_band": list(certain)}),
-        **({} if certain is None else {"in_uncertainty_band": point.in_uncertainty_band}),
+        **({} if certain is None else {"uncertainty_band": list(certain), **attributes(point, "in_uncertainty_band")}),
         **{key: ratio for key, ratio in named.items() if ratio is not None},
-        **{name: found for name, found in ratios.items() if found},
+        **{name: ratios for name, ratios in of_others.items() if ratios},
         "descriptors": dict(point.descriptors),
         "warnings": [f"{record.name}: {record.text}" for record in point.warnings],
     }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Sequence
-from typing import Annotated, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
 
 from ballscrew.basis.quantities import (
     AngularSpeed,
@@ -17,8 +17,15 @@ from ballscrew.basis.quantities import (
     Torque,
     Unit,
     fields_of,
-)  # fmt: skip
+)
+from ballscrew.basis.records import documents
+from ballscrew.cases.case_files import duty_tables
+from ballscrew.questions.shared.envelope import envelope
+from ballscrew.questions.warm_up import verdicts
 from ballscrew.questions.warm_up.compute import AT_START, PLACE, Equilibrium, Heat, OverTime, WarmUpReport
+
+if TYPE_CHECKING:
+    from ballscrew.questions.warm_up.band import WarmUpBandReport
 
 _Places = Annotated[Sequence[float], Unit("m"), PLACE.info]
 _GROWTH = Info(r"\Delta L", "growth there", "um")
@@ -96,6 +103,46 @@ class WarmUpResults(FullBath):
     stretch_left: Annotated[Sequence[float] | None, Unit("m"), Info("", "stretch left of a shaft between fixed ends")]
     #: The network of heat.
     network: Network
+
+
+def document(report: WarmUpReport) -> dict[str, Any]:
+    """The document of warming up, in SI, with the surroundings that count where the case gives none."""
+    found = envelope(
+        report.case,
+        results(report),
+        assumed=report.assumed,
+        warnings=verdicts.warnings(report),
+        verdicts=verdicts.verdicts(report),
+    )
+    return {**found, "inputs": {**duty_tables.inputs(None, None, None, report.surroundings), **found["inputs"]}}
+
+
+def with_band(found: WarmUpBandReport) -> dict[str, Any]:
+    """The document of warming up with its bands."""
+    whole, bands = document(found.report), found.bands
+    return {
+        **whole,
+        "warnings": [*whole["warnings"], *documents(verdicts.band_records(found))],
+        "band": {
+            "level": bands.level,
+            "samples": bands.count,
+            "time": list(bands.time),
+            **{
+                name: {"low": list(one.low), "median": list(one.median), "high": list(one.high)}
+                for name, one in bands.series.items()
+            },
+            "known_share": list(bands.known_share),
+            "equilibrium": {
+                "exists_share": bands.steady_share,
+                "margin": bands.margin._asdict(),
+                **{name: one._asdict() for name, one in bands.steady.items()},
+            },
+            "inputs": {
+                name: {"distribution": one.description, "source": one.source, "given": one.given}
+                for name, one in found.inputs.items()
+            },
+        },
+    }
 
 
 def results(report: WarmUpReport) -> WarmUpResults:

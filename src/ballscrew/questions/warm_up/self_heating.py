@@ -21,6 +21,7 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.friction import starvation
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.questions.shared.declared import from_attributes
 from ballscrew.questions.warm_up.compute import (
     EQUILIBRIUM,
     assumed_of,
@@ -105,21 +106,17 @@ class SelfHeating:
     def numbers(self) -> SelfHeatingNumbers:
         """What was taken, and what it stands for."""
         end, oil = self.equilibrium, self.given.lubricant.temperature
-        return SelfHeatingNumbers(
-            oil_temperature=end.oil_temperature,
+        return from_attributes(
+            SelfHeatingNumbers,
+            end,
             oil_temperature_given=float(oil or "nan"),
-            nut_temperature=end.nut_temperature,
-            shaft_temperature=end.shaft_temperature,
-            margin=end.margin,
             gain=1 - end.margin,
-            preload=end.preload,
             preload_given=end.network.preload_set,
             screw_torque=self.torque,
             screw_torque_given=self.torque_given,
             flooded_torque=self.flooded_torque,
             flooded_torque_given=self.flooded_torque_given,
             flooded_oil_temperature=self.flooded.oil_temperature,
-            growth=end.growth,
         )
 
     @property

@@ -1,0 +1,99 @@
+"""The results of an optimisation, declared once: the front, each member by the full model."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any
+
+from ballscrew.basis.quantities import fields_of
+from ballscrew.basis.records import documents
+from ballscrew.physics.sizing.checks import judged
+from ballscrew.questions.check import document as check_documents
+from ballscrew.questions.optimise.compute import Member, Optimisation
+from ballscrew.questions.optimise.design_space import VARIABLES, SearchOptions
+from ballscrew.questions.select.answer import OneObjective, need_document, objective
+from ballscrew.questions.select.candidates import Starved
+from ballscrew.questions.select.objectives import OBJECTIVES
+from ballscrew.questions.shared import declared
+from ballscrew.questions.shared.declared import FINITE, from_attributes, parts_like, table_of
+
+#: What is the same for all members, or too long for a list.
+_LEFT_OUT = ("units", "provenance", "loads", "name", "nut", "results", "checks", "judged", "holds", "verdict")
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class OneMember(parts_like(Member, "name", "variables", "holds", "valid", "pareto", "searched", "objectives")):
+    """A design of the front, with its sizes and the numbers compared."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Search(table_of(fields_of(SearchOptions), of=Annotated[float, FINITE])):
+    """The options of the search, and what it did."""
+
+    quantile: float | None
+    evaluations: int
+    #: Designs of its front, of which the candidates are a choice.
+    front: int
+    engine: str
+    engine_reason: str
+    #: Of each objective from the search to the full model, over the former.
+    largest_change: Mapping[str, float]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Front:
+    """Free geometries for a need: what is free, and how the front was searched."""
+
+    nut: str
+    #: The numbers compared.
+    objectives: Sequence[OneObjective]
+    #: Of the sizes that are free, SI.
+    bounds: Mapping[str, Sequence[Annotated[float, FINITE]]]
+    #: Of sizes, that rows of the catalogue keep.
+    ratios: Mapping[str, Sequence[Annotated[float, FINITE]]]
+    search: Search
+
+
+def document(found: Optimisation) -> dict[str, Any]:
+    """The document in SI; ``results`` and ``checks`` of a member are those of ``ballscrew check --json``."""
+    space = found.space
+    first = check_documents.list_document([found.members[0].checked])[0] if found.members else {}
+    units = {name: unit for name, unit in first.get("units", {}).items() if name != "loads"}
+    search = from_attributes(
+        Search,
+        space.options,
+        evaluations=found.evaluations,
+        front=len(found.front.designs),
+        engine=found.engine[0],
+        engine_reason=found.engine[1],
+        largest_change=found.largest_change,
+    )
+    starved = next(filter(None, (Starved.of(member.checked, None).records for member in found.members)), [])
+    return {
+        "need": need_document(found.need),
+        **declared.document(
+            from_attributes(Front, space, objectives=[objective(name) for name in space.objectives], search=search)
+        ),
+        "candidates": [_member(member) for member in found.members],
+        "notes": list(found.notes),
+        "warnings": documents(starved),
+        "units": {
+            **units,
+            "variables": {name: quantity.unit for name, quantity in VARIABLES.items()},
+            "objectives": {name: one.quantity.unit for name, one in OBJECTIVES.items()},
+        },
+        "provenance": first.get("provenance"),
+    }
+
+
+def _member(member: Member) -> dict[str, Any]:
+    whole = check_documents.list_document([member.checked])[0]
+    return {
+        **declared.document(from_attributes(OneMember, member)),
+        "results": whole["results"],
+        "checks": [check_documents.check_document(check) for check in member.checks],
+        "judged": judged(member.checks),
+        **{name: part for name, part in whole.items() if name not in _LEFT_OUT},
+        "case": dict(member.case),
+    }

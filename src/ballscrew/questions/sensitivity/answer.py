@@ -1,0 +1,163 @@
+"""The results of a sensitivity analysis, declared once: JSON and its schema follow from the annotations."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from typing import Annotated, Any, NamedTuple
+
+from ballscrew.basis import units
+from ballscrew.basis.errors import each_of
+from ballscrew.basis.records import Message, Named, Record
+from ballscrew.cases.case_files import case_file
+from ballscrew.engine.uncertainty.sensitivity import HALF, METHODS
+from ballscrew.engine.uncertainty.sobol import Estimate
+from ballscrew.questions.sensitivity.compute import SensitivityReport
+from ballscrew.questions.shared.declared import FINITE, LEFT_OUT, OneOf, from_attributes
+from ballscrew.questions.shared.envelope import envelope
+
+CORRELATED = "the numbers of the calibration vary one by one, too, though the fit left them correlated"
+
+
+@dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
+class SensitiveInput:
+    """An uncertain input, and what the method says of it: the measures of that method, and no others."""
+
+    #: As in sweeps.
+    name: str
+    #: Its kind and its parameters, SI.
+    distribution: Mapping[str, Any]
+    #: True where the case gives it; otherwise it is taken as usual.
+    given: bool
+    #: Given, judgement, a key of the bibliography, or a calibration.
+    source: str
+    #: With sobol the share of the variance in which it has a part.
+    total: Annotated[Estimate | None, LEFT_OUT] = None
+    #: With sobol the share of the variance that it has by itself.
+    first_order: Annotated[Estimate | None, LEFT_OUT] = None
+    #: Change of the output by one standard deviation of the input.
+    effect: Annotated[Estimate | None, LEFT_OUT] = None
+    #: With morris the standard deviation of these changes.
+    effect_deviation: Annotated[Estimate | None, LEFT_OUT] = None
+    #: With local the share of the variance, were the slopes the same.
+    share: Annotated[Estimate | None, LEFT_OUT] = None
+    #: Share of the standard deviation that is left if it is known.
+    left_if_known: float
+
+
+class IfKnown(NamedTuple):
+    """Some inputs, and the share of the standard deviation that is left if they are known."""
+
+    inputs: Sequence[str]
+    left: float
+
+
+class Indices(NamedTuple):
+    """The inputs of an output, the one that matters most first."""
+
+    output: str
+    method: Annotated[str, OneOf(METHODS)]
+    #: Over all samples; with local the value at the medians of the inputs; SI.
+    mean: float
+    #: SI; null with morris.
+    standard_deviation: float
+    #: The inputs, the one that matters most first.
+    inputs: Sequence[SensitiveInput]
+    #: The largest inputs, one more each time.
+    knowing: Sequence[IfKnown]
+    #: The inputs to find out so that half is left; null where there are none.
+    to_halve: IfKnown | None
+    #: Of the intervals.
+    level: Annotated[float, FINITE]
+    samples: int
+    #: Samples without a number.
+    left_out: int
+    evaluations: int
+    seed: int
+
+
+def document(case: case_file.Case, report: SensitivityReport) -> dict[str, Any]:
+    """Inputs, indices, what to measure next, units and provenance."""
+    result = report.result
+    indices = from_attributes(
+        Indices,
+        result,
+        standard_deviation=result.deviation,
+        inputs=[_input(report, name) for name in result.inputs],
+        knowing=[IfKnown(*known) for known in result.explained_variance],
+        to_halve=None if result.to_halve is None else IfKnown(*result.to_halve),
+    )
+    return envelope(
+        case,
+        indices,
+        named="sensitivity",
+        units={
+            result.output: result.quantity.unit,
+            **{name: report.known[name][1].unit for name in result.inputs},
+        },
+        warnings=warnings(case, report),
+        verdicts=verdicts(report),
+    )
+
+
+def _input(report: SensitivityReport, name: str) -> SensitiveInput:
+    uncertain, kind = report.uncertain[name], type(report.uncertain[name].distribution)
+    return SensitiveInput(
+        name=name,
+        distribution={"kind": kind.__name__.lower(), **dataclasses.asdict(uncertain.distribution)},
+        given=uncertain.given,
+        source=uncertain.source,
+        **{measure: of_input[name] for measure, of_input in report.result.measures.items()},
+        left_if_known=report.result.left_if_known(name),
+    )
+
+
+def verdicts(report: SensitivityReport) -> list[Record]:
+    """The inputs to measure next in order to halve the band."""
+    result, meaning = report.result, Message(report.result.quantity.info.meaning)
+
+    def verdict(
+        name: str, subject: str, message: Message, value: float | None = None, holds: bool | None = None
+    ) -> Record:
+        limit = None if value is None else HALF
+        return units.record(message, id=f"sensitivity.{name}", subject=subject, value=value, limit=limit, holds=holds)
+
+    if result.is_constant:
+        message = Message("the {meaning} does not depend on any of these inputs", {"meaning": meaning})
+        return [verdict("constant", result.output, message)]
+    if result.method == "morris":
+        message = Message("screening ranks the inputs; what to find out next: --method sobol")
+        return [verdict("screening", result.output, message)]
+    if result.to_halve is None:
+        message = Message("to know all of these inputs would not halve the band of the {meaning}", {"meaning": meaning})
+        return [verdict("not_halved", result.output, message, holds=False)]
+    inputs, left = result.to_halve
+    names = [Named(name, report.describe(name)) for name in inputs]
+    message = Message(
+        "to halve the band of the {meaning}, find out: {names} (leaves {left})",
+        {"meaning": meaning, "names": each_of(names), "left": units.percent(left)},
+    )
+    records = [verdict("to_halve", ",".join(inputs), message, left, True)]
+    if len(names) > 1:
+        alone = result.explained_variance[0].remaining
+        message = Message("{name} alone leaves {left}", {"name": names[0], "left": units.percent(alone)})
+        records.append(verdict("first_input", inputs[0], message, alone, False))
+    return records
+
+
+def warnings(case: case_file.Case, report: SensitivityReport) -> list[Record]:
+    """Implausible inputs, samples without a number, and the correlation of a calibration, which is not sampled."""
+    records = case.implausible()
+    result = report.result
+    if result.left_out:
+        message = Message(
+            "{samples} samples or trajectories are left out as they have no number",
+            {"samples": units.fixed(result.left_out)},
+        )
+        of_samples = {"subject": result.output, "value": float(result.left_out), "limit": 0.0}
+        records.append(units.record(message, id="sensitivity.left_out", severity="warning", holds=False, **of_samples))
+    if case.calibration is not None:
+        records.append(
+            units.record(Message(CORRELATED), id="sensitivity.correlated", subject="calibration", severity="warning")
+        )
+    return records
