@@ -59,6 +59,8 @@ class Line:
     text: str
     kind: Kind = "plain"
     name: str = ""
+    #: A verdict that something does not hold, or is to be seen to.
+    is_bad: bool = False
 
 
 @dataclasses.dataclass(frozen=True)
@@ -74,6 +76,16 @@ class Lines:
 def lines(texts: Iterable[str], kind: Kind = "plain", *, detail: bool = False) -> Lines:
     """Texts of one kind, one below the other."""
     return Lines([Line(text, kind) for text in texts], detail)
+
+
+def verdict_lines(records: Iterable[Record]) -> Lines:
+    """Verdicts."""
+    return Lines([verdict_line(record) for record in records])
+
+
+def verdict_line(record: Record) -> Line:
+    """A verdict."""
+    return Line(record.text, "verdict", is_bad=record.severity != "info")
 
 
 def warning_lines(records: Iterable[Record]) -> Lines:
@@ -330,7 +342,9 @@ def _data(part: Any) -> Any:
     if isinstance(part, Number):
         band = {} if part.band is None else {"band": [_data(end) for end in part.band]}
         shown = {"unit": part.quantity.unit, "shown_in": part.quantity.shown_in, "digits": part.digits}
-        return {"value": _data(part.value), **shown, **band}
+        toward = {"toward": part.toward} if part.toward else {}
+        infinite = {"infinite": True} if math.isinf(part.value) and part.value > 0 else {}
+        return {"value": _data(part.value), **shown, **toward, **infinite, **band}
     if isinstance(part, Share):
         band = {} if part.band is None else {"band": [_data(end) for end in part.band]}
         return {"share": _data(part.value), "bar": part.bar, "is_change": part.is_change, **band}

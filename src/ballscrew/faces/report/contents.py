@@ -115,7 +115,7 @@ def _answer(cycle: DutyReport | None, of_point: Paragraph, case: case_file.Case)
         return [of_point]
     from ballscrew.questions.duty.sheet import answers
 
-    of_cycle = " ".join(f"{sentence(text)}." for text in answers(cycle))
+    of_cycle = " ".join(f"{sentence(line.text)}." for line in answers(cycle))
     return [
         Paragraph(of_cycle, strong=True),
         Paragraph(f"At {descriptions.operating_point(case)} alone: {of_point.text}"),

@@ -26,6 +26,7 @@ from ballscrew.basis.output.sheet import (
     Sheet,
     Table,
     Vertical,
+    verdict_lines,
     warning_lines,
 )
 from ballscrew.basis.quantities import Info, Quantity
@@ -56,7 +57,7 @@ def sheet(report: ChainReport) -> Sheet:
                 + [Line(text, "small") for text in element_lines(case)],
                 detail=True,
             ),
-            Lines([Line(record.text, "verdict") for record in report.verdicts]),
+            verdict_lines(report.verdicts),
             warning_lines(case.implausible()),
             _places(report),
             *_springs(report),

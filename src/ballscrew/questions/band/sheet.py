@@ -25,6 +25,7 @@ from ballscrew.basis.output.sheet import (
     Table,
     Vertical,
     lines,
+    verdict_lines,
     warning_lines,
     words,
 )
@@ -69,7 +70,7 @@ def sheet(
         title(case),
         [
             Lines([Line(record.text) for record in heating]),
-            Lines([Line(record.text, "verdict") for record in verdicts(case, report)]),
+            verdict_lines(verdicts(case, report)),
             *([_causes(report), _others(case, report)] if has_band(report) else []),
             *_laws(case, report),
             *_inputs(report),

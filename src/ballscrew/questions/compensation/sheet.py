@@ -14,6 +14,7 @@ from ballscrew.basis.output.sheet import (
     Number,
     Sheet,
     Table,
+    verdict_lines,
     warning_lines,
 )
 from ballscrew.basis.quantities import Info, Quantity
@@ -32,7 +33,7 @@ def sheet(result: PositionCompensation, report: WarmUpReport) -> Sheet:
         f"compensation of {len(positions)} points at steps of {units.shown(result.step, _POSITION)}: "
         f"it holds after {result.hours:g} h of this work only",
         [
-            Lines([Line(record.text, "verdict") for record in verdicts(report)]),
+            verdict_lines(verdicts(report)),
             warning_lines(warnings(report)),
             Table(
                 "range",

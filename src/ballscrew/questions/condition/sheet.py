@@ -25,6 +25,7 @@ from ballscrew.basis.output.sheet import (
     Sheet,
     Table,
     Vertical,
+    verdict_line,
     warning_lines,
 )
 from ballscrew.basis.quantities import Info, Quantity
@@ -57,7 +58,7 @@ def sheet(case: Case, condition: Condition) -> Sheet:
         f"{_tests(condition)}: {nut_text(case.screw.nut)}, {model_text(case)}",
         [
             warning_lines(warnings),
-            Lines([Line(first.text, "verdict"), *(Line(record.text) for record in others)]),
+            Lines([verdict_line(first), *(Line(record.text) for record in others)]),
             _table(condition),
             Lines([Line(design(case, plain_text=True), "small"), Line(_meaning(condition), "small")]),
             Lines([Line(f"note: {text}", "small") for text in (*remarks, *condition.notes)], detail=True),

@@ -31,6 +31,7 @@ from ballscrew.basis.output.sheet import (
     Sheet,
     Table,
     lines,
+    verdict_line,
     warning_lines,
     words,
 )
@@ -39,9 +40,10 @@ from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.schema.duty_schema import MOTIONS
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
 from ballscrew.physics.components.materials import TEMPERATURE
-from ballscrew.questions.duty.compute import CAUSES, IF_ANY, NUMBERS, DutyReport, cause_of
+from ballscrew.questions.duty.compute import CAUSES, IF_ANY, NUMBERS, DutyReport, PhaseNumbers, cause_of
 from ballscrew.questions.duty.verdicts import verdicts, warnings
 from ballscrew.questions.shared.check_lines import check_table
+from ballscrew.questions.shared.declared import parts_of
 from ballscrew.questions.shared.elements_text import element_lines
 
 if TYPE_CHECKING:  # loads xarray
@@ -82,9 +84,10 @@ def sheet(report: DutyReport, bands: DutyBandReport | None = None) -> Sheet:
         title(report),
         [
             lines(_assumptions(report), "small", detail=True),
-            lines(answers(report), "verdict"),
+            Lines(answers(report)),
             warning_lines(warnings(report)),
             _cycle(report, bands),
+            _phases(report),
             _parts(report),
             *_charts(report),
             _states(report),
@@ -97,14 +100,25 @@ def sheet(report: DutyReport, bands: DutyBandReport | None = None) -> Sheet:
     )
 
 
-def answers(report: DutyReport) -> Iterator[str]:
+def answers(report: DutyReport) -> list[Line]:
     """What a cycle asks of the motor and costs in life, then brake, motor and checks, a sentence each."""
     numbers = report.numbers
     peak, rms = (words(Number(numbers[name], _TORQUE)) for name in ("torque_peak", "torque_rms"))
     life = words(Number(numbers["life_time"], NUMBERS["life_time"]))
     known = f"; the L10 life is {life}" if math.isfinite(numbers["life_time"]) else ""
-    yield f"the motor gives {peak} at the peak and {rms} RMS{known}"
-    yield from (record.text for record in verdicts(report))
+    first = Line(f"the motor gives {peak} at the peak and {rms} RMS{known}", "verdict")
+    return [first, *map(verdict_line, verdicts(report))]
+
+
+def _phases(report: DutyReport) -> Table:
+    """What each phase of the motion asks of the motor."""
+    known = {name: part.quantity for name, part in parts_of(PhaseNumbers).items() if part.quantity is not None}
+    rows: list[list[Cell]] = [
+        [phase.name, *(Number(getattr(phase, name), quantity) for name, quantity in known.items())]
+        for phase in report.phases
+    ]
+    headings = ("", "from", "for", "largest load", "peak torque", "RMS torque", "energy")
+    return Table("phases", "Phases of the motion", headings, rows, detail=True)
 
 
 def title(report: DutyReport) -> str:

@@ -33,6 +33,7 @@ from ballscrew.basis.output.sheet import (
     Table,
     columns_of,
     lines,
+    verdict_lines,
     warning_lines,
 )
 from ballscrew.basis.output.sheet import words as words_of
@@ -80,7 +81,7 @@ def sheet(case: Case, report: FitReport) -> Sheet:
     return Sheet(
         f"{log_and_model(case, report)}: {len(log)} of {log.rows} rows used",
         [
-            lines(model.verdicts, "verdict"),
+            verdict_lines(model.verdict_records),
             lines((*_rows(report), design(case, plain_text=True)), "small", detail=True),
             _estimates(model),
             lines(_of_temperature(model)),

@@ -55,7 +55,7 @@ def sheet(optimisation: Optimisation) -> Sheet:
     return Sheet(
         title(optimisation),
         [
-            Lines([] if members else [Line(nothing, "verdict")]),
+            Lines([] if members else [Line(nothing, "verdict", is_bad=True)]),
             *([_front(optimisation)] if members else []),
             Lines([Line("notes:"), *(Line(f"  {note}") for note in _notes(optimisation))]),
             Lines([Line(", ".join(asked(optimisation.need)), "small")], detail=True),

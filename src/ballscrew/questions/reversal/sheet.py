@@ -22,6 +22,7 @@ from ballscrew.basis.output.sheet import (
     Share,
     Sheet,
     Table,
+    verdict_lines,
     warning_lines,
 )
 from ballscrew.basis.output.sheet import words as words_of
@@ -49,7 +50,7 @@ def sheet(report: ReversalReport) -> Sheet:
     return Sheet(
         _title(report),
         [
-            Lines([Line(record.text, "verdict") for record in report.verdicts]),
+            verdict_lines(report.verdicts),
             warning_lines(warnings),
             _mechanisms(report),
             _swing(report),

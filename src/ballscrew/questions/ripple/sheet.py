@@ -23,6 +23,7 @@ from ballscrew.basis.output.sheet import (
     Sheet,
     Table,
     Vertical,
+    verdict_lines,
     warning_lines,
 )
 from ballscrew.basis.quantities import Array, Info, Quantity, quantities_of
@@ -45,7 +46,7 @@ def sheet(report: RippleReport) -> Sheet:
         f"torque over the angle: {descriptions.nut_text(report.case.screw.nut)}",
         [
             Lines([Line(descriptions.design(report.case, plain_text=True), "small")], detail=True),
-            Lines([Line(record.text, "verdict") for record in report.verdicts]),
+            verdict_lines(report.verdicts),
             warning_lines(report.case.implausible()),
             _sizes(ripples),
             *_range(report),

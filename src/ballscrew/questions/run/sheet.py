@@ -17,6 +17,7 @@ from ballscrew.basis.output.sheet import (
     Sheet,
     Table,
     columns_of,
+    verdict_lines,
     warning_lines,
 )
 from ballscrew.basis.quantities import quantities_of
@@ -115,7 +116,7 @@ def sheet(run: Run, bands: Mapping[str, OutputBand] | None = None, heating: Sequ
             ),
             Lines([Line(record.text) for record in heating]),
             results_table(run, SHOWN, bands or {}),
-            Lines([Line(record.text, "verdict") for record in run.verdicts]),
+            verdict_lines(run.verdicts),
             warning_lines(_warnings(run)),
             Lines([Line(text) for text in (descriptions.left_out(case), *descriptions.of_fit(case)) if text]),
             *parts(run),

@@ -19,6 +19,7 @@ from ballscrew.basis.output.sheet import (
     Table,
     Vertical,
     lines,
+    verdict_lines,
     warning_lines,
 )
 from ballscrew.basis.quantities import Info, Quantity
@@ -74,7 +75,7 @@ def sheet(case: Case, report: SensitivityReport) -> Sheet:
         f"what moves the {report.result.quantity.info.meaning}: {title(case)}",
         [
             Lines([Line(design(case, plain_text=True), "small"), Line(_mean_and_deviation(report.result), "small")]),
-            Lines([Line(record.text, "verdict") for record in verdicts(report)]),
+            verdict_lines(verdicts(report)),
             warning_lines(records),
             _table(case, report),
             lines(_remarks(report), "small"),

@@ -25,6 +25,7 @@ from ballscrew.basis.output.sheet import (
     Sheet,
     Table,
     lines,
+    verdict_lines,
     warning_lines,
 )
 from ballscrew.basis.quantities import Info, Quantity, fields_of
@@ -73,7 +74,7 @@ def sheet(case: Case, report: ServiceReport) -> Sheet:
     return Sheet(
         f"{', '.join(names(report))}: {nut_text(case.screw.nut)}, {model_text(case)}",
         [
-            Lines([Line(first.text, "verdict")]),
+            verdict_lines([first]),
             *([_preloads(case, report)] if has_change else []),
             lines(_logs(report)),
             Lines([Line(units.filled(cause)) for cause in causes(report)]),
@@ -148,7 +149,7 @@ def _charts(report: ServiceReport) -> Iterator[Block]:
     lines = curves(report, _MOST_POINTS)
     marks: list[Curve] = []
     for label, curve in lines.items():
-        marks.append(Curve("", curve.measured_speed, curve.measured, _COLOURS[label], "dots"))
+        marks.append(Curve(f"measured, {label}", curve.measured_speed, curve.measured, _COLOURS[label], "dots"))
         marks.append(Curve(label, curve.speed, curve.torque, _COLOURS[label]))
     if report.reading is not None:
         speed, torque = report.reading.screw_speed, report.reading.torque

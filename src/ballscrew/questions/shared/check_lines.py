@@ -43,11 +43,22 @@ def shown(check: Check, value: float | None) -> str:
     return plain(f"{rounded:.6g}") + ("" if quantity.unit == "1" else f" {quantity.shown_in}")
 
 
+#: The field that an input is, of those that checks may lack.
+_FIELDS = {
+    "installation": "installation.unsupported_length",
+    "limits.running_time": "limits.running_time",
+    "dynamic_load_rating": "screw.dynamic_load_rating",
+    "static_load_rating": "screw.static_load_rating",
+}
+
+
 def check_table(checks: Sequence[Check], give: Mapping[str, str] | None = None) -> Table:
     """The checks with their limits; ``give`` names what to give for inputs they lack."""
     rows: list[Sequence[Cell]] = []
+    fields: list[str] = []
     for check in checks:
         text = check.text
+        fields.append(_FIELDS.get(check.missing, ""))
         for missing, remedy in (_GIVE if give is None else give).items():
             text = text.replace(missing, remedy) if check.missing == missing else text
         value, limit = (None if v is None else Number(v, quantity_of(check)) for v in (check.value, check.limit))
@@ -55,7 +66,7 @@ def check_table(checks: Sequence[Check], give: Mapping[str, str] | None = None) 
         share = None if used is None or not math.isfinite(used) else Share(used, bar=False)
         verdict = ": ".join(filter(None, [verdict_of(check), text]))
         rows.append((check.name.replace("_", " "), value, limit, share, verdict))
-    return Table("checks", "Checks", ("", "value", "limit", "used", "verdict"), rows, detail=True)
+    return Table("checks", "Checks", ("", "value", "limit", "used", "verdict"), rows, detail=True, fields=fields)
 
 
 def verdict_of(check: Check) -> str:

@@ -25,6 +25,7 @@ from ballscrew.basis.output.sheet import (
     Number,
     Sheet,
     Table,
+    verdict_lines,
     warning_lines,
 )
 from ballscrew.basis.quantities import Array, Info, Quantity
@@ -69,7 +70,7 @@ def sheet(report: WarmUpReport, bands: WarmUpBandReport | None = None) -> Sheet:
         title(report),
         [
             Lines([Line(descriptions.design(report.case, plain_text=True), "small")], detail=True),
-            Lines([Line(record.text, "verdict") for record in verdicts(report)]),
+            verdict_lines(verdicts(report)),
             warning_lines(records),
             _instants(report, "instants", "Over time"),
             *(() if bath is None else [_instants(bath, "instants in a full bath", f"Over time, {_BATH}")]),
@@ -116,7 +117,7 @@ def _instants(report: WarmUpReport, key: str, heading: str) -> Table:
         cells = [Number(float(report.series[name][index]), SERIES[name]) for name in names]
         state = "" if report.warm_up.works[index] else "stands; torque if it moved"
         rows.append([units.shown(float(report.series["time"][index]), _TIME, 3), *cells, state])
-    columns = ("", *(_SHOWN[name] for name in names), *([""] if _rests(report) else []))
+    columns = ("", *(_SHOWN[name] for name in names), *(["state"] if _rests(report) else []))
     return Table(key, heading, columns, [row[: len(columns)] for row in rows], detail=True)
 
 

@@ -22,7 +22,8 @@ import { text, textOr } from "./texts.js";
  * @property {(colours: Colours) => LegendEntry[]} legend
  * @property {() => [string[], import("./dom.js").Cell[][]]} numbers
  * @property {import("./operating_point.js").Handle} [drag] its diamond, where that can be dragged
- * @property {(place: number) => void} [click] gets the place of what was clicked in its trace
+ * @property {number} [height] of its plot, where it is not that of the page
+ * @property {false} [canSketch] where only plotly can draw it
  */
 
 const CONFIG = { responsive: true, displaylogo: false, displayModeBar: false };
@@ -143,13 +144,13 @@ function legendItem({ kind, name, colour, value }) {
 }
 
 /** @param {Chart} chart */
-async function saveSvg({ name, figure }) {
+async function saveSvg({ name, figure, height = 0 }) {
   const { traces, layout: own } = figure(PAPER);
   const legend = { orientation: "h", y: -0.18, yanchor: "top" };
   const more = { showlegend: true, legend, paper_bgcolor: PAPER.panel, margin: { ...own.margin, b: 110 } };
   const found = await globalThis.Plotly.toImage(
     { data: traces, layout: { ...own, ...more } },
-    { format: "svg", width: 900, height: 520 },
+    { format: "svg", width: 900, height: Math.max(520, height + 160) },
   );
   save(`-${name}.svg`, new Blob([decodeURIComponent(found.slice(found.indexOf(",") + 1))], { type: "image/svg+xml" }));
 }
@@ -166,8 +167,6 @@ class Charts {
   #made = new Map();
   /** Places whose diamond can be dragged. @type {Set<string>} */
   #dragged = new Set();
-  /** Plots that tell what is clicked. @type {WeakSet<Element>} */
-  #clicked = new WeakSet();
   /** @type {Colours | undefined} */
   #colours;
   /** @type {Promise<void> | undefined} */
@@ -229,9 +228,10 @@ class Charts {
    * @param {Chart} chart
    */
   async draw(id, chart) {
-    if (this.#moving || !globalThis.Plotly) this.#sketch(id, chart);
+    if (chart.canSketch !== false && (this.#moving || !globalThis.Plotly)) this.#sketch(id, chart);
     if (this.#moving) return;
     await this.#loaded();
+    if (!document.getElementById(id)) return; // it was taken away meanwhile
     this.#place(id, chart);
     if (this.#visible.has(id)) await this.#show(id, this.#screen);
     else this.#postpone(id);
@@ -328,6 +328,22 @@ class Charts {
   }
 
   /**
+   * Forget a place that was made after the page was loaded, with its chart.
+   *
+   * @param {string} id
+   */
+  remove(id) {
+    this.#charts.delete(id);
+    this.#pending.delete(id);
+    this.#visible.delete(id);
+    const place = this.#made.get(id);
+    if (!place) return;
+    purge(place);
+    this.#observer.unobserve(place);
+    this.#made.delete(id);
+  }
+
+  /**
    * Words in place of a chart.
    *
    * @param {string} id
@@ -361,12 +377,6 @@ class Charts {
     const { traces, layout: own } = chart.figure(palette);
     const plot = within(byId(id), ".plot");
     await globalThis.Plotly.react(plot, traces, { ...own, ...more }, CONFIG);
-    if (chart.click && !this.#clicked.has(plot)) {
-      this.#clicked.add(plot);
-      /** @type {any} */ (plot).on("plotly_click", (/** @type {{ points: { pointNumber: number }[] }} */ { points }) =>
-        this.#charts.get(id)?.click?.(points[0].pointNumber),
-      );
-    }
     byId(id).querySelector("canvas")?.remove();
   }
 
@@ -380,8 +390,8 @@ class Charts {
     for (const [id, chart] of this.#charts) {
       this.#pending.delete(id);
       showLegend(id, chart.legend(palette));
-      const isTall = more?.height && byId(id).classList.contains("tall");
-      this.#show(id, palette, isTall ? { ...more, height: 2 * more.height } : more);
+      const height = more?.height && Math.max(more.height, chart.height ?? 0);
+      this.#show(id, palette, height ? { ...more, height } : more);
     }
   }
 
@@ -429,6 +439,8 @@ export const move = (ids, isHeld, work) => charts.move(ids, isHeld, work);
 export const isVisible = (id) => charts.isVisible(id);
 /** @type {Charts["hide"]} */
 export const hide = (id) => charts.hide(id);
+/** @type {Charts["remove"]} */
+export const remove = (id) => charts.remove(id);
 /** @type {Charts["showWords"]} */
 export const showWords = (id, words) => charts.showWords(id, words);
 /** The reason in place of a chart that could not be computed. @param {string} id @param {string} reason */

@@ -4,7 +4,7 @@
 import { jump } from "./cards.js";
 import { button, opened } from "./controls.js";
 import { csv, element, scrollingTable, within } from "./dom.js";
-import { hide, watch } from "./plot.js";
+import { remove, watch } from "./plot.js";
 import { save } from "./saving.js";
 import { draw, slug } from "./sheet_charts.js";
 import { sentence, text } from "./texts.js";
@@ -14,10 +14,10 @@ import * as units from "./units.js";
 /**
  * A cell: a text, a number, a share, or nothing that is known.
  *
- * @typedef {string | null | Quantity & { value: number | null, digits: number, band?: Ends } | { share: number | null, bar: boolean, is_change: boolean, band?: Ends }} Cell
+ * @typedef {string | null | Quantity & { value: number | null, digits: number, toward?: number, infinite?: boolean, band?: Ends } | { share: number | null, bar: boolean, is_change: boolean, band?: Ends }} Cell
  */
 /** @typedef {[number | null, number | null]} Ends */
-/** @typedef {{ text: string, kind: "plain" | "verdict" | "warning" | "small", name: string }} Line */
+/** @typedef {{ text: string, kind: "plain" | "verdict" | "warning" | "small", name: string, is_bad: boolean }} Line */
 /** @typedef {{ name: string, title: string, columns: string[], rows: Cell[][], notes: string[], fields: string[] }} Table */
 /** @typedef {{ name: string, values: (number | string | null)[], quantity: Quantity | null }} Column */
 /** @typedef {{ kind: string } & Record<string, any>} Block */
@@ -43,28 +43,31 @@ export function sheetPlace(id, beside = () => undefined) {
   let figures = new Map();
   const place = element("div", { class: "sheet", id: `${id}-sheet` });
 
-  /** @param {Block} block */
-  const idOf = ({ title }) => `${id}-${slug(title)}`;
-
-  /** @param {Block} block */
-  function figureOf(block) {
-    const chart = element("div", { id: idOf(block), class: "chart low", hidden: true });
+  /** @param {string} name @param {Block} block */
+  function figureOf(name, block) {
+    const chart = element("div", { id: name, class: "chart low", hidden: true });
     const width = block.kind === "bars" ? "whole-width" : "half";
     return element("figure", { class: width }, element("figcaption", {}, block.title), chart);
   }
 
   /** @param {Sheet} sheet */
   function show({ title, blocks }) {
-    const charts = blocks.filter(({ kind }) => CHARTS.includes(kind));
     const before = figures;
-    figures = new Map(charts.map((block) => [idOf(block), before.get(idOf(block)) ?? figureOf(block)]));
-    for (const name of before.keys()) if (!figures.has(name)) hide(name);
-    const contents = blocks.flatMap((block) =>
-      CHARTS.includes(block.kind) ? (figures.get(idOf(block)) ?? []) : contentOf(block, beside),
-    );
+    figures = new Map();
+    /** @type {[string, Block][]} */
+    const charts = [];
+    const contents = blocks.flatMap((block) => {
+      if (!CHARTS.includes(block.kind)) return contentOf(block, beside);
+      const first = `${id}-chart-${slug(block.title)}`;
+      const name = figures.has(first) ? `${first}-${charts.length}` : first; // two of one title
+      const figure = before.get(name) ?? figureOf(name, block);
+      figures.set(name, figure);
+      charts.push([name, block]);
+      return figure;
+    });
+    for (const name of before.keys()) if (!figures.has(name)) remove(name);
     place.replaceChildren(element("h3", {}, sentence(title)), ...contents);
-    for (const block of charts) {
-      const name = idOf(block);
+    for (const [name, block] of charts) {
       if (!before.has(name)) watch(within(place, `#${name}`));
       draw(name, block);
     }
@@ -88,9 +91,9 @@ function contentOf(block, beside) {
 }
 
 /** @param {Line} line */
-function lineOf({ text: words, kind, name }) {
+function lineOf({ text: words, kind, name, is_bad: isBad }) {
   const shown = sentence(words);
-  if (kind !== "warning") return element("p", { class: CLASSES[kind] }, shown);
+  if (kind !== "warning") return element("p", { class: `${CLASSES[kind]}${isBad ? " careful" : ""}` }, shown);
   return element(
     "p",
     { class: "warning", "data-record": name },
@@ -129,8 +132,11 @@ function cellOf(cell) {
   if (cell === null) return "–";
   if (typeof cell === "string") return cell;
   if ("share" in cell) return shareOf(cell);
-  const { value, digits, band } = cell;
-  const words = units.withPowers(units.formattedIn(value, units.metricOf(cell), cell.unit, digits));
+  const { value, digits, band, toward = 0, infinite = false } = cell;
+  const number = infinite
+    ? text("sheet.infinite")
+    : units.withPowers(units.digits(units.converted(value, cell), digits, toward));
+  const words = value === null ? number : `${number}\u00a0${units.titled("", cell).slice(1, -1)}`.trim();
   const [low, high] = (band ?? []).map((end) => units.converted(end, cell));
   const ends = isBand(low, high) ? ` (${inBand(low, high, (end, to) => units.digits(end, digits, to))})` : "";
   return element("data", { value: String(value ?? "") }, `${words}${ends}`);

@@ -1,4 +1,4 @@
-// The charts of sheets: curves, bars and maps, as the plot draws them.
+// The charts of sheets: curves with bands and lines, bars of parts, and maps, as the plot draws them.
 
 import * as plot from "./plot.js";
 import { text } from "./texts.js";
@@ -41,6 +41,15 @@ const KEYS = { line: "line", area: "area", dashed: "dash", dotted: "dot", dots: 
 /** Pixels: a row of bars, what stands above and below them, letters of their names in a line, and the width of one. */
 const [ROW, FRAME, LINE, LETTER] = [26, 70, 30, 6.4];
 const HEIGHT = 260;
+/** Lines on a map, and its colours from the least value to the greatest. */
+const ON_MAP = "#ffffff";
+const SCALE = [
+  [0, "#000004"],
+  [0.25, "#57106e"],
+  [0.5, "#bc3754"],
+  [0.75, "#f98e09"],
+  [1, "#fcffa4"],
+];
 
 /**
  * Draw a block in its place.
@@ -49,12 +58,11 @@ const HEIGHT = 260;
  * @param {Block} block
  */
 export function draw(id, block) {
-  const bars = block.kind === "bars" ? block.bars.length : 0;
-  document.getElementById(id)?.style.setProperty("--plot-height", `${Math.max(HEIGHT, FRAME + ROW * bars)}px`);
-  const common = { name: slug(block.title).replaceAll("-", "_"), caption: block.title };
-  if (block.kind === "bars") plot.draw(id, { ...common, ...barsOf(block) });
-  else if (block.kind === "map") plot.draw(id, { ...common, ...mapOf(block) });
-  else plot.draw(id, { ...common, ...chartOf(block) });
+  const chart = block.kind === "bars" ? barsOf(block) : block.kind === "map" ? mapOf(block) : chartOf(block);
+  const height = Math.max(HEIGHT, "height" in chart ? chart.height : 0);
+  document.getElementById(id)?.style.setProperty("--plot-height", `${height}px`);
+  const name = slug(block.title).replaceAll("-", "_");
+  plot.draw(id, { name, caption: block.title, canSketch: false, ...chart, height });
 }
 
 /** The name of a chart in addresses: letters, digits and hyphens. @param {string} words */
@@ -72,6 +80,11 @@ function shade(colour, { ink }) {
   return SHADES[colour] ?? ink;
 }
 
+/** @param {number | null} one @param {number | null} other */
+function difference(one, other) {
+  return one === null || other === null ? null : one - other;
+}
+
 /** @param {Values} values @param {Axis} axis @returns {Values} */
 function all(values, { quantity }) {
   return values.map((value) => converted(value, quantity));
@@ -79,7 +92,7 @@ function all(values, { quantity }) {
 
 /** @param {Axis} axis */
 function heading({ name, quantity }) {
-  return titled(name, quantity);
+  return asText(titled(name, quantity));
 }
 
 /** An axis as the plot has it. @param {Axis} axis */
@@ -101,7 +114,7 @@ function chartOf(block) {
   /** @type {Band[]} */
   const bands = marks.filter((mark) => "low" in mark);
   /** @type {Mark[]} */
-  const levels = marks.filter((mark) => !("style" in mark) && !("low" in mark));
+  const levels = marks.filter((mark) => isPlaced(mark));
   const axisOf = (/** @type {Curve} */ curve) => (curve.second && second ? second : y);
   const one = { title: block.title, x: heading(x), y: heading(y) };
   return {
@@ -110,6 +123,7 @@ function chartOf(block) {
       traces: [
         ...bands.flatMap((band) => areaOf(band, x, y, colours)),
         ...curves.flatMap((curve) => curveOf(curve, x, axisOf(curve), colours)),
+        ...keysOf(levels, colours),
       ],
       layout: plot.layout(colours, one.x, one.y, {
         margin: { l: 72, r: second ? 72 : 26, t: 8, b: 42 },
@@ -120,8 +134,8 @@ function chartOf(block) {
         ...(second ? { yaxis2: secondAxis(second, colours) } : {}),
       }),
     }),
-    legend: (/** @type {Colours} */ colours) => legendOf([...bands, ...curves, ...levels], colours),
-    numbers: () => numbersOf(curves, bands, x, axisOf),
+    legend: (/** @type {Colours} */ colours) => legendOf([...bands, ...curves, ...levels], colours, x, y),
+    numbers: () => numbersOf(curves, bands, x, y, axisOf),
   };
 }
 
@@ -153,12 +167,13 @@ function curveOf(curve, x, y, colours) {
     marker: { color: colour, ...style.marker },
     fillcolor: `${colour}${TRANSPARENT}`,
     hovertemplate: "%{y:.4g}",
-    ...(curve.name ? {} : { hoverinfo: "skip", hovertemplate: undefined }),
+    ...(curve.name ? {} : { showlegend: false, hoverinfo: "skip", hovertemplate: undefined }),
   };
   if (!curve.labels.length) return [trace];
   const few = curve.labels.length;
   const labels = { x: points.x.slice(0, few), y: points.y.slice(0, few), text: curve.labels.map(asText) };
-  return [trace, { ...labels, mode: "text", textposition: "top right", hoverinfo: "skip" }];
+  const yaxis = points.yaxis;
+  return [trace, { ...labels, yaxis, mode: "text", textposition: "top right", hoverinfo: "skip", showlegend: false }];
 }
 
 /** @param {Band} band @param {Axis} x @param {Axis} y @param {Colours} colours */
@@ -166,9 +181,35 @@ function areaOf(band, x, y, colours) {
   const colour = shade(band.colour, colours);
   const end = { x: all(band.x, x), mode: "lines", line: { color: colour, width: 0 }, hoverinfo: "skip" };
   return [
-    { ...end, y: all(band.low, y) },
-    { ...end, y: all(band.high, y), fill: "tonexty", fillcolor: band.solid ? colour : `${colour}${TRANSPARENT}` },
+    { ...end, y: all(band.low, y), showlegend: false },
+    {
+      ...end,
+      y: all(band.high, y),
+      name: asText(band.name),
+      showlegend: Boolean(band.name),
+      fill: "tonexty",
+      fillcolor: band.solid ? colour : `${colour}${TRANSPARENT}`,
+    },
   ];
+}
+
+/** Test whether a mark is a level or a vertical line that has a place. @param {any} mark */
+function isPlaced(mark) {
+  return !("style" in mark) && !("low" in mark) && typeof (mark.y ?? mark.x) === "number";
+}
+
+/** The names of lines, which are shapes, for a legend of the plot: that of a saved picture. @param {Mark[]} marks @param {Colours} colours */
+function keysOf(marks, colours) {
+  return marks
+    .filter(({ name }) => name)
+    .map(({ name, colour }) => ({
+      x: [null],
+      y: [null],
+      name: asText(name),
+      mode: "lines",
+      line: { color: shade(colour, colours), width: 1.3, dash: "dot" },
+      hoverinfo: "skip",
+    }));
 }
 
 /** A level or a vertical line. @param {Mark} mark @param {Axis} x @param {Axis} y @param {Colours} colours */
@@ -183,19 +224,24 @@ function lineOf(mark, x, y, colours) {
 }
 
 /**
- * The marks that have names, each name once.
+ * The marks that have names, each name once; lines have their values beside them.
  *
  * @param {(Curve | Band | Mark)[]} marks
  * @param {Colours} colours
+ * @param {Axis} x
+ * @param {Axis} y
  * @returns {LegendEntry[]}
  */
-function legendOf(marks, colours) {
+function legendOf(marks, colours, x, y) {
   const named = new Map(marks.filter(({ name }) => name).map((mark) => [mark.name, mark]));
-  return [...named.values()].map((mark) => ({
-    kind: "style" in mark ? KEYS[mark.style] : "low" in mark ? "area" : "dot",
-    name: mark.name,
-    colour: shade(mark.colour, colours),
-  }));
+  return [...named.values()].map((mark) => {
+    const colour = shade(mark.colour, colours);
+    if ("style" in mark) return { kind: KEYS[mark.style], name: mark.name, colour };
+    if ("low" in mark) return { kind: "area", name: mark.name, colour };
+    const [value, { quantity }] = mark.y === undefined ? [mark.x, x] : [mark.y, y];
+    const shown = `${digits(Number(converted(Number(value), quantity)))} ${titled("", quantity)}`.trim();
+    return { kind: "dot", name: `${mark.name} ${shown}`, colour };
+  });
 }
 
 /**
@@ -204,10 +250,11 @@ function legendOf(marks, colours) {
  * @param {Curve[]} curves
  * @param {Band[]} bands
  * @param {Axis} x
+ * @param {Axis} y
  * @param {(curve: Curve) => Axis} axisOf
  * @returns {[string[], import("./dom.js").Cell[][]]}
  */
-function numbersOf(curves, bands, x, axisOf) {
+function numbersOf(curves, bands, x, y, axisOf) {
   const columns = [
     ...curves.map((curve) => ({
       name: curve.name,
@@ -215,14 +262,27 @@ function numbersOf(curves, bands, x, axisOf) {
       values: all(curve.y, axisOf(curve)),
       axis: axisOf(curve),
     })),
-    ...bands.flatMap((band) =>
-      ["low", "high"].map((end) => ({
-        name: text(end === "low" ? "sheet.low" : "sheet.high", { name: band.name }),
+    ...bands.flatMap((band) => {
+      const [low, high] = [all(band.low, y), all(band.high, y)];
+      const column = (/** @type {string} */ name, /** @type {Values} */ values) => ({
+        name,
         x: band.x,
-        values: all(end === "low" ? band.low : band.high, axisOf(curves[0])),
-        axis: axisOf(curves[0]),
-      })),
-    ),
+        values,
+        axis: y,
+      });
+      // what is stacked is a part of a whole
+      if (band.solid)
+        return [
+          column(
+            band.name,
+            high.map((value, row) => difference(value, low[row])),
+          ),
+        ];
+      return [
+        column(text("sheet.low", { name: band.name }), low),
+        column(text("sheet.high", { name: band.name }), high),
+      ];
+    }),
   ];
   const first = JSON.stringify(columns[0]?.x);
   const titles = columns.map(({ name, axis }) => titled(name || axis.name, axis.quantity));
@@ -242,16 +302,19 @@ function numbersOf(curves, bands, x, axisOf) {
 function barsOf(block) {
   /** @type {{ title: string, quantity: Quantity, bars: Bar[], marks: Mark[], origin: number }} */
   const { title, quantity, bars, marks, origin } = /** @type {any} */ (block);
-  const zero = Number(converted(0, quantity));
-  const width = (/** @type {number | null} */ value) => Number(converted(Number(value), quantity)) - zero;
-  const placed = bars.map((bar) => stacked(bar, width, Number(converted(bar.start ?? origin, quantity))));
+  const placed = bars.map((bar) => stacked(bar, quantity, Number(converted(bar.start ?? origin, quantity))));
   const axis = { name: "", quantity, log: false, least: null };
   const x = titled("", quantity);
   const count = Math.max(0, ...bars.map(({ parts }) => parts.length));
   const names = bars.map(({ name }) => inLines(asText(name)));
   const letters = Math.max(0, ...names.flatMap((name) => name.split("<br>").map(({ length }) => length)));
+  const lines = marks.filter((mark) => isPlaced(mark));
+  const named = new Map(
+    bars.flatMap(({ parts }) => parts.filter(([name, value]) => name && value)).map((part) => [part[0], part[2]]),
+  );
   return {
     description: text("sheet.bars", { title, count: bars.length }),
+    height: FRAME + ROW * bars.length,
     figure: (/** @type {Colours} */ colours) => ({
       traces: [
         ...Array.from({ length: count }, (_, part) => ({
@@ -261,20 +324,29 @@ function barsOf(block) {
           x: placed.map(({ parts }) => parts[part]?.width ?? null),
           base: placed.map(({ parts }) => parts[part]?.base ?? null),
           width: 0.7,
+          showlegend: false,
           marker: {
             color: bars.map(({ parts }) => (parts[part] ? shade(parts[part][2], colours) : null)),
             pattern: { shape: bars.map(({ hatched }) => (hatched ? "/" : "")) },
           },
-          customdata: bars.map((bar) => wordsOf(bar, part, quantity)),
+          customdata: bars.map((_bar, row) => wordsOf(bars, row, part, quantity)),
           hovertemplate: "%{customdata}<extra></extra>",
         })),
-        ...bars.flatMap(({ band }, row) => (band ? [errorOf(band, placed[row].end, row, quantity, colours)] : [])),
+        ...bars.flatMap(({ band }, row) => errorOf(band, placed[row].end, row, quantity, colours)),
+        ...[...named].map(([name, colour]) => ({
+          type: "bar",
+          x: [null],
+          y: [null],
+          name: asText(name),
+          marker: { color: shade(colour, colours) },
+        })),
+        ...keysOf(lines, colours),
       ],
       layout: plot.layout(colours, x, "", {
         barmode: "overlay",
         hovermode: "closest",
         margin: { l: 16 + LETTER * letters, r: 26, t: 8, b: 42 },
-        shapes: [{ name: "", x: origin, colour: "grey" }, ...marks].map((mark) => lineOf(mark, axis, axis, colours)),
+        shapes: [{ name: "", x: origin, colour: "grey" }, ...lines].map((mark) => lineOf(mark, axis, axis, colours)),
         xaxis: { rangemode: "normal" },
         yaxis: {
           range: [bars.length - 0.4, -0.6],
@@ -286,48 +358,58 @@ function barsOf(block) {
       }),
     }),
     legend: (/** @type {Colours} */ colours) => [
-      ...[
-        ...new Map(
-          bars.flatMap(({ parts }) => parts.filter(([name, value]) => name && value)).map((part) => [part[0], part]),
-        ).values(),
-      ].map(([name, , colour]) => ({ kind: "area", name, colour: shade(colour, colours) })),
-      ...legendOf(marks, colours),
+      ...[...named].map(([name, colour]) => ({ kind: "area", name, colour: shade(colour, colours) })),
+      ...legendOf(lines, colours, axis, axis),
     ],
     numbers: () => numbersOfBars(bars, quantity),
   };
+}
+
+/** The size of a part in the unit of the page: a difference, which no offset changes. @param {number | null} value @param {Quantity} quantity */
+function sizeOf(value, quantity) {
+  return value === null ? null : Number(converted(value, quantity)) - Number(converted(0, quantity));
 }
 
 /**
  * The parts of a bar from its origin, negative ones to the left.
  *
  * @param {Bar} bar
- * @param {(value: number | null) => number} width
+ * @param {Quantity} quantity
  * @param {number} origin
  */
-function stacked({ parts }, width, origin) {
+function stacked({ parts }, quantity, origin) {
   const ends = { left: origin, right: origin };
   const found = parts.map(([, value]) => {
-    const size = width(value);
-    const side = size < 0 ? "left" : "right";
+    const width = sizeOf(value, quantity);
+    const side = Number(width) < 0 ? "left" : "right";
     const base = ends[side];
-    ends[side] += size;
-    return { base, width: size };
+    ends[side] += Number(width);
+    return { base, width };
   });
   return { parts: found, end: ends.left + ends.right - origin };
 }
 
-/** The ends of a band of a bar. @param {Values} band @param {number} end @param {number} row @param {Quantity} quantity @param {Colours} colours */
+/** The ends of the band of a bar, where both are known. @param {Values | null} band @param {number} end @param {number} row @param {Quantity} quantity @param {Colours} colours */
 function errorOf(band, end, row, quantity, { ink }) {
-  const [low, high] = band.map((one) => Number(converted(Number(one), quantity)));
-  const whiskers = { type: "data", symmetric: false, array: [high - end], arrayminus: [end - low], color: ink };
-  return { x: [end], y: [row], mode: "markers", marker: { size: 1, color: ink }, error_x: whiskers, hoverinfo: "skip" };
+  if (!band || band.includes(null)) return [];
+  const [low, high] = band.map((one) => Number(converted(one, quantity)));
+  const sizes = { array: [Math.max(high - end, 0)], arrayminus: [Math.max(end - low, 0)] };
+  const whiskers = { type: "data", symmetric: false, ...sizes, color: ink };
+  const trace = { x: [end], y: [row], mode: "markers", marker: { size: 1, color: ink }, error_x: whiskers };
+  return [{ ...trace, hoverinfo: "skip", showlegend: false }];
 }
 
-/** What is read of a part of a bar. @param {Bar} bar @param {number} part @param {Quantity} quantity */
-function wordsOf({ name, parts, text: beside }, part, quantity) {
+/** The name of a bar: one without is a second bar of the one above. @param {Bar[]} bars @param {number} row */
+function nameOf(bars, row) {
+  return bars.slice(0, row + 1).findLast(({ name }) => name)?.name ?? "";
+}
+
+/** What is read of a part of a bar. @param {Bar[]} bars @param {number} row @param {number} part @param {Quantity} quantity */
+function wordsOf(bars, row, part, quantity) {
+  const { parts, text: beside } = bars[row];
   const [words, value] = parts[part] ?? ["", null];
-  const [number, unit] = [digits(Number(converted(value, quantity))), titled("", quantity)];
-  const read = [[name, words].filter(Boolean).join(", "), `${number} ${unit}`.trim(), beside];
+  const [number, unit] = [digits(sizeOf(value, quantity)), titled("", quantity)];
+  const read = [[nameOf(bars, row), words].filter(Boolean).join(", "), `${number} ${unit}`.trim(), beside];
   return asText(read.filter(Boolean).join(": "));
 }
 
@@ -343,17 +425,24 @@ function inLines(name) {
   return lines.join("<br>");
 }
 
-/** @param {Bar[]} bars @param {Quantity} quantity @returns {[string[], import("./dom.js").Cell[][]]} */
+/**
+ * A row for each part; the ends of a band, which is of the sum of all parts, stand beside the last.
+ *
+ * @param {Bar[]} bars
+ * @param {Quantity} quantity
+ * @returns {[string[], import("./dom.js").Cell[][]]}
+ */
 function numbersOfBars(bars, quantity) {
-  const rows = bars.flatMap(({ name, parts, band }) =>
-    parts.map(([words, value]) => [
-      [name, words].filter(Boolean).join(", "),
-      converted(value, quantity),
-      ...(band ?? [null, null]).map((end) => converted(end, quantity)),
+  const rows = bars.flatMap(({ parts, band, text: beside }, row) =>
+    parts.map(([words, value], part) => [
+      [nameOf(bars, row), words].filter(Boolean).join(", "),
+      sizeOf(value, quantity),
+      ...((part === parts.length - 1 && band) || [null, null]).map((end) => converted(end, quantity)),
+      part ? "" : beside,
     ]),
   );
-  const value = titled(text("sheet.value"), quantity);
-  return [["", value, text("sheet.low", { name: "" }).trim(), text("sheet.high", { name: "" }).trim()], rows];
+  const ends = [text("sheet.low", { name: "" }), text("sheet.high", { name: "" })].map((one) => one.trim());
+  return [["", titled(text("sheet.value"), quantity), ...ends, ""], rows];
 }
 
 // -- maps -------------------------------------------------------------------------------------------
@@ -364,6 +453,8 @@ function mapOf(block) {
   const { x, y, value, places, values, marks } = /** @type {any} */ (block);
   /** @type {Curve[]} */
   const curves = marks.filter((mark) => "style" in mark);
+  /** @type {Mark[]} */
+  const lines = marks.filter((mark) => isPlaced(mark)).map((mark) => ({ ...mark, colour: "ink" }));
   const grid = values.map((row) => all(row, value));
   const one = { title: block.title, x: heading(x), y: heading(y) };
   return {
@@ -375,7 +466,7 @@ function mapOf(block) {
           y: all(places[1], y),
           z: grid,
           type: "contour",
-          colorscale: "Inferno",
+          colorscale: SCALE,
           ncontours: 12,
           name: value.name,
           contours: { coloring: "heatmap" },
@@ -389,12 +480,12 @@ function mapOf(block) {
       layout: plot.layout(colours, one.x, one.y, {
         hovermode: "closest",
         margin: { l: 72, r: 90, t: 8, b: 42 },
-        shapes: marks.filter((mark) => !("style" in mark)).map((mark) => lineOf(mark, x, y, colours)),
+        shapes: lines.map((mark) => lineOf(mark, x, y, { ...colours, ink: ON_MAP })),
         xaxis: scale(x),
         yaxis: scale(y),
       }),
     }),
-    legend: (/** @type {Colours} */ colours) => legendOf(curves, colours),
+    legend: (/** @type {Colours} */ colours) => legendOf([...curves, ...lines], colours, x, y),
     numbers: /** @returns {[string[], import("./dom.js").Cell[][]]} */ () => [
       [`${one.y} \\ ${one.x}`, ...all(places[0], x).map((at) => String(Number(Number(at).toPrecision(6))))],
       all(places[1], y).map((at, row) => [at, ...grid[row]]),

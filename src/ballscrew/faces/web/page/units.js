@@ -325,6 +325,7 @@ export function metricOf({ unit, shown_in: metric }) {
  */
 export function converted(value, quantity) {
   if (typeof value !== "number" || !quantity || quantity.unit === "1") return value;
+  if (quantity.unit === "m" && Math.abs(value) < SMALLEST_LENGTH) return 0;
   return fromSI(value, inSystem(metricOf(quantity)), quantity.unit);
 }
 

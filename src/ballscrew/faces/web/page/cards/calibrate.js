@@ -213,6 +213,7 @@ export function setUp(holder) {
   }
 
   function follow() {
+    fit.showAgain();
     clearTimeout(timer);
     timer = setTimeout(inspect, REST);
   }

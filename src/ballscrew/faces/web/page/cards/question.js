@@ -62,12 +62,11 @@ export function question({ address, result: own, beside, show, place, isLarge = 
   function shown(found) {
     answer = found;
     system = units.currentSystem();
-    result.hidden = false;
     sheet?.show(found.sheet);
-    show?.(found);
+    if (own) show?.(found);
   }
 
-  /** Show the answer again where the units of the page have changed. */
+  /** Show the answer again where the units of the page have changed; one that is hidden stays so. */
   function showAgain() {
     if (answer && system !== units.currentSystem()) shown(answer);
   }
@@ -195,6 +194,8 @@ export function question({ address, result: own, beside, show, place, isLarge = 
       place([]);
       answered = key;
       shown(found);
+      if (sheet) show?.(found);
+      result.hidden = false;
       line.replaceChildren();
       mark(false, false);
     } catch (error) {
@@ -246,5 +247,5 @@ export function question({ address, result: own, beside, show, place, isLarge = 
     line.replaceChildren(...(isEarlier ? [element("p", {}, earlier())] : []));
   }
 
-  return { line, result, follow, compare, resume, stop };
+  return { line, result, follow, compare, resume, stop, showAgain };
 }
