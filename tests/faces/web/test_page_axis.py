@@ -19,10 +19,18 @@ def test_a_feed_axis_from_its_sketch_to_its_numbers(visit, server):
     shows(here, "axis", answer["sheet"])
     # the chart has the whole at all places
     x, y = drawn(here, page.locator("#axis .sheet .chart").first.get_attribute("id")).evaluate(
-        "({ data }) => [data.at(-1).x, data.at(-1).y]"
+        "({ data }) => (({ x, y }) => [x, y])(data.find((one) => one.x.length > 1))"
     )
     assert len(x) == len(results["position"])
     assert abs(min(y) - min(results["total"]) / 1e6) < 1e-9 * min(y)
+    # the sheet follows the units of the page
+    page.locator("#system").select_option("inch")
+    page.wait_for_selector("#axis .sheet td:has-text('lbf')")
+    page.locator("#system").select_option("metric")
+    page.wait_for_selector("#axis .sheet td:has-text('N/µm')")
+    shares = page.locator("#axis figure:has(figcaption:text-is('share of the compliance'))")
+    shares.locator("summary").click()
+    assert shares.locator("tbody tr").count() == len(results["position"])
     # each part shows its input, and what the case lacks is dashed
     assert {name: part(here, name) for name in ("table", "fixed", "ends", "shaft", "motor", "mount")} == {
         "table": "500 kg", "fixed": "800 N/µm", "ends": "fixed-supported", "shaft": "1100 mm", "motor": "not given",

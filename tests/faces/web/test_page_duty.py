@@ -113,7 +113,8 @@ def test_a_duty_from_an_example_to_a_fault_and_back(visit, server):
     here.go("duty.axis")
     edited(here, "duty", lambda: page.locator("#f-axis-mass").fill("200"))
     edited(here, "duty", lambda: page.locator("#f-motor-largest_speed").fill("100"))
-    assert here.page.locator("#duty .sheet").text_content().count("fails") >= 1
+    page.wait_for_selector("#duty .sheet tr:has-text('motor peak torque'):has-text('FAILS')")
+    assert page.locator("#duty .verdict.careful:has-text('fails')").count() == 1
     edited(here, "duty", lambda: page.locator("#motor-toggle").press("Enter"))
     case = case_of(here)
     assert (case["motion"]["kind"], case["axis"]["mass"]) == ("s-curve", "200 kg")

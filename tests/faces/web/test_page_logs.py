@@ -70,6 +70,10 @@ def test_a_log_is_fitted_and_used(visit, server):
     free = ["friction.boundary_friction_coefficient", "constant_torque"]
     found = server.post("fit", {"case": case, "log": log, "free": free, "holdout": 0.3, "seed": 3}).json()
     shows(here, "calibration", found["sheet"])
+    page.locator("#system").select_option("inch")
+    page.wait_for_selector("#calibration .sheet td:has-text('lbf')")
+    page.locator("#system").select_option("metric")
+    page.wait_for_selector("#calibration .sheet td:has-text('N·m')")
     assert "residuals against time" in here.page.locator("#calibration figcaption").all_text_contents()
     drawn(here, page.locator("#calibration .sheet .chart").first.get_attribute("id"))
     saved = here.download("#calibrate-save").decode()
@@ -117,6 +121,9 @@ def test_two_logs_tell_the_preload_that_is_left(visit, server):
     page.wait_for_selector("#service .fault")
     assert "tolerance" in here.text("#service .fault")
     assert not page.locator("#service .sheet").is_visible()  # no number stands below a fault
+    page.locator("#system").select_option("inch")
+    here.rest(AFTER_AN_EDIT).settle()
+    assert not page.locator("#service .sheet").is_visible()  # in no units
     assert violations(here) == []
 
 

@@ -23,7 +23,14 @@ def curve(name, x, y, style="line", **more):
     return {"name": name, "x": x, "y": y, "colour": "blue", "style": style, "second": False, "labels": [], **more}
 
 
-LINES = [("the motor suffices", "verdict", ""), ("it is hot", "warning", "warm"), ("as usual", "small", "")]
+def line(text, kind, name="", *, is_bad=False):
+    return {"text": text, "kind": kind, "name": name, "is_bad": is_bad}
+
+
+LINES = [
+    line("the motor suffices", "verdict"), line("it falls", "verdict", is_bad=True),
+    line("it is hot", "warning", name="warm"), line("as usual", "small"), line("a_log.csv: 3 rows", "plain"),
+]  # fmt: skip
 TABLE = {
     "kind": "table", "name": "sizes", "title": "Sizes", "columns": ["", "value", "share", "words"],
     "rows": [
@@ -67,8 +74,8 @@ COLUMNS = {
 SHEET = {
     "title": "a sheet",
     "blocks": [
-        {"kind": "lines", "detail": False, "lines": [{"text": t, "kind": k, "name": n} for t, k, n in LINES]},
-        {"kind": "lines", "detail": True, "lines": [{"text": "an assumption", "kind": "small", "name": ""}]},
+        {"kind": "lines", "detail": False, "lines": LINES},
+        {"kind": "lines", "detail": True, "lines": [line("an assumption", "small")]},
         TABLE, CHART, BARS, MAP, COLUMNS,
     ],
 }  # fmt: skip
@@ -89,7 +96,9 @@ def page(visit):
 
 def test_lines_and_tables(page):
     assert page.locator("#made-sheet h3").inner_text() == "A sheet."
-    assert page.locator("#made-sheet .verdict").inner_text() == "The motor suffices."
+    assert page.locator("#made-sheet .verdict").all_inner_texts() == ["The motor suffices.", "It falls."]
+    assert page.locator("#made-sheet .verdict.careful").all_inner_texts() == ["It falls."]
+    assert page.locator("#made-sheet p >> text=a_log.csv: 3 rows.").count() == 1  # the name of a file stays as it is
     assert page.locator("#made-sheet .warning[data-record=warm]").inner_text() == "Beware: It is hot."
     assert not page.locator("#made-sheet details >> text=An assumption.").is_visible()
     rows = page.locator("#made-sheet > div table tbody tr")
@@ -106,9 +115,9 @@ def test_lines_and_tables(page):
 
 
 def plot(page, name):
-    page.locator(f"#made-{name}").scroll_into_view_if_needed()
-    page.wait_for_selector(f"#made-{name} .main-svg")
-    return page.locator(f"#made-{name} .plot")
+    page.locator(f"#made-chart-{name}").scroll_into_view_if_needed()
+    page.wait_for_selector(f"#made-chart-{name} .main-svg")
+    return page.locator(f"#made-chart-{name} .plot")
 
 
 def test_charts(page):
@@ -123,15 +132,15 @@ def test_charts(page):
     assert (found["shapes"], found["least"]) == (2, 0)
     assert ["model", [1, 2], [0.1, 0.2], "y", "lines"] in found["traces"]
     assert ["ratio", [1, 2], [1, 2], "y2", "lines"] in found["traces"]
-    legend = page.locator("#made-torque-over-length ul.legend li").all_inner_texts()
-    assert legend == ["band", "model", "tests", "ratio", "limit", "end"]
-    page.locator("#made-torque-over-length summary").click()
-    headings = page.locator("#made-torque-over-length thead th").all_inner_texts()
+    legend = page.locator("#made-chart-torque-over-length ul.legend li").all_inner_texts()
+    assert legend == ["band", "model", "tests", "ratio", "limit 0.25 N\u00b7m", "end 2 mm"]
+    page.locator("#made-chart-torque-over-length summary").click()
+    headings = page.locator("#made-chart-torque-over-length thead th").all_inner_texts()
     assert headings == [
         "length (mm)", "model (N\u00b7m)", "tests (N\u00b7m)", "ratio", "band lower end (N\u00b7m)",
         "band upper end (N\u00b7m)",
     ]  # fmt: skip
-    assert page.locator("#made-torque-over-length tbody tr").count() == 2
+    assert page.locator("#made-chart-torque-over-length tbody tr").count() == 2
 
 
 def test_bars_and_maps(page):
@@ -148,6 +157,51 @@ def test_bars_and_maps(page):
     assert x == [1, 2, 3]
 
 
+def band(name, low, high):
+    return {"name": name, "x": [0.001, 0.002], "low": low, "high": high, "colour": "blue", "solid": True}
+
+
+#: Bands alone, stacked; values that nobody knows; a unit with an offset; names that look like markup.
+KELVIN = {"unit": "K", "shown_in": "degC"}
+STACKED = {
+    "kind": "chart", "title": "stacked", "x": axis("length", LENGTH), "y": axis("torque", TORQUE), "second": None,
+    "detail": False,
+    "marks": [
+        band("<b>one</b>", [0.0, 0.0], [0.2, 0.3]), band("other", [0.2, 0.3], [1.0, None]),
+        {"name": "nowhere", "y": None, "colour": "red"},
+    ],
+}  # fmt: skip
+UNKNOWN = {
+    "kind": "bars", "title": "unknown", "quantity": KELVIN, "origin": 0.0, "detail": False, "marks": [],
+    "bars": [
+        {"name": "<i>warmer</i>", "parts": [["", 2.0, "red"]], "band": [1.0, None], "text": "taken", "hatched": False,
+         "start": 293.15},
+        {"name": "", "parts": [["", None, "blue"]], "band": None, "text": "", "hatched": False, "start": None},
+    ],
+}  # fmt: skip
+
+
+def test_what_is_unknown_is_not_drawn_as_nothing(page):
+    page.evaluate(SHOW, {"title": "another", "blocks": [STACKED, UNKNOWN]})
+    found = plot(page, "stacked").evaluate("({ data, layout }) => [data.map(({ name }) => name), layout.shapes]")
+    assert found == [[None, "&lt;b>one&lt;/b>", None, "other"], []]
+    page.locator("#made-chart-stacked summary").click()
+    page.wait_for_selector("#made-chart-stacked tbody tr")
+    cells = page.locator("#made-chart-stacked tbody tr >> nth=0").locator("th, td").all_inner_texts()
+    assert cells == ["1", "0.2", "0.8"]  # what is stacked is a part, not the place of its ends
+    bars = plot(page, "unknown")
+    (trace,) = bars.evaluate("({ data }) => data.map(({ x, base, customdata }) => [x, base, customdata])")
+    assert trace[:2] == [[2, None], [20, 20 - 293.15]]
+    assert trace[2] == ["&lt;i>warmer&lt;/i>: 2 \u00b0C: taken", "&lt;i>warmer&lt;/i>: \u2013 \u00b0C"]
+    assert bars.evaluate("({ layout }) => layout.yaxis.ticktext[0]") == "&lt;i>warmer&lt;/i>"
+    page.locator("#made-chart-unknown summary").click()
+    page.wait_for_selector("#made-chart-unknown tbody tr")
+    rows = page.locator("#made-chart-unknown tbody tr")
+    assert [row.locator("th, td").all_inner_texts() for row in rows.all()] == [
+        ["<i>warmer</i>", "2", "-272.15", "", "taken"], ["<i>warmer</i>", "", "", "", ""]
+    ]  # fmt: skip
+
+
 def test_columns_are_saved_and_units_change(page):
     with page.expect_download() as saved:
         page.locator("#made-sheet [data-columns='long table']").click()
@@ -158,7 +212,7 @@ def test_columns_are_saved_and_units_change(page):
     page.evaluate(SHOW, SHEET)
     assert page.locator("#made-sheet > div table data").first.inner_text() == "0.486\u00a0in (0.4724 to 0.5119)"
     page.wait_for_function(
-        "() => document.querySelector('#made-torque-over-length .plot').layout.xaxis.title.text === 'length (in)'"
+        "() => document.querySelector('#made-chart-torque-over-length .plot').layout.xaxis.title.text === 'length (in)'"
     )
     # a chart that is no more is gone
     page.evaluate(SHOW, {**SHEET, "blocks": SHEET["blocks"][:3]})

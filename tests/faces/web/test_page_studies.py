@@ -77,7 +77,7 @@ def test_an_optimum_is_taken(visit, server):
     shows(here, "optimise", answer["sheet"])
     rows = page.locator("#optimise .sheet table").first.locator("tbody tr")
     assert rows.count() == len(found) > 1
-    plot = drawn(here, "optimise-life-against-loss")
+    plot = drawn(here, "optimise-chart-life-against-loss")
     assert plot.evaluate("one => one.layout.yaxis.title.text").endswith("(h)")
     assert violations(here) == []
     rows.nth(1).locator("button").last.click()

@@ -23,6 +23,7 @@ from ballscrew.basis.output.sheet import (
     Sheet,
     Table,
     columns_of,
+    lines,
 )
 from ballscrew.basis.output.wrapping import wrapped
 from ballscrew.basis.quantities import Info, Quantity
@@ -57,7 +58,7 @@ def sheet(optimisation: Optimisation) -> Sheet:
         [
             Lines([] if members else [Line(nothing, "verdict", is_bad=True)]),
             *([_front(optimisation)] if members else []),
-            Lines([Line("notes:"), *(Line(f"  {note}") for note in _notes(optimisation))]),
+            lines(f"note: {note}" for note in _notes(optimisation)),
             Lines([Line(", ".join(asked(optimisation.need)), "small")], detail=True),
             *_charts(optimisation),
             of_optimisation(members),

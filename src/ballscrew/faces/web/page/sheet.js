@@ -136,7 +136,7 @@ function cellOf(cell) {
   const number = infinite
     ? text("sheet.infinite")
     : units.withPowers(units.digits(units.converted(value, cell), digits, toward));
-  const words = value === null ? number : `${number}\u00a0${units.titled("", cell).slice(1, -1)}`.trim();
+  const words = value === null ? number : `${number}\u00a0${units.symbolOf(cell)}`.trim();
   const [low, high] = (band ?? []).map((end) => units.converted(end, cell));
   const ends = isBand(low, high) ? ` (${inBand(low, high, (end, to) => units.digits(end, digits, to))})` : "";
   return element("data", { value: String(value ?? "") }, `${words}${ends}`);

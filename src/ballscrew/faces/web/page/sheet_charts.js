@@ -2,7 +2,7 @@
 
 import * as plot from "./plot.js";
 import { text } from "./texts.js";
-import { converted, digits, titled } from "./units.js";
+import { converted, digits, symbolOf, titled } from "./units.js";
 
 /** @typedef {import("./units.js").Quantity} Quantity */
 /** @typedef {import("./sheet.js").Block} Block */
@@ -62,7 +62,7 @@ export function draw(id, block) {
   const height = Math.max(HEIGHT, "height" in chart ? chart.height : 0);
   document.getElementById(id)?.style.setProperty("--plot-height", `${height}px`);
   const name = slug(block.title).replaceAll("-", "_");
-  plot.draw(id, { name, caption: block.title, canSketch: false, ...chart, height });
+  plot.draw(id, { name, caption: text("sheet.numbers", { title: block.title }), canSketch: false, ...chart, height });
 }
 
 /** The name of a chart in addresses: letters, digits and hyphens. @param {string} words */
@@ -239,7 +239,7 @@ function legendOf(marks, colours, x, y) {
     if ("style" in mark) return { kind: KEYS[mark.style], name: mark.name, colour };
     if ("low" in mark) return { kind: "area", name: mark.name, colour };
     const [value, { quantity }] = mark.y === undefined ? [mark.x, x] : [mark.y, y];
-    const shown = `${digits(Number(converted(Number(value), quantity)))} ${titled("", quantity)}`.trim();
+    const shown = `${digits(Number(converted(Number(value), quantity)))} ${symbolOf(quantity)}`.trim();
     return { kind: "dot", name: `${mark.name} ${shown}`, colour };
   });
 }
@@ -408,7 +408,7 @@ function nameOf(bars, row) {
 function wordsOf(bars, row, part, quantity) {
   const { parts, text: beside } = bars[row];
   const [words, value] = parts[part] ?? ["", null];
-  const [number, unit] = [digits(sizeOf(value, quantity)), titled("", quantity)];
+  const [number, unit] = [digits(sizeOf(value, quantity)), symbolOf(quantity)];
   const read = [[nameOf(bars, row), words].filter(Boolean).join(", "), `${number} ${unit}`.trim(), beside];
   return asText(read.filter(Boolean).join(": "));
 }

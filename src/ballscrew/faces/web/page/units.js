@@ -329,7 +329,13 @@ export function converted(value, quantity) {
   return fromSI(value, inSystem(metricOf(quantity)), quantity.unit);
 }
 
+/** The symbol of the unit in which a number is displayed; none for a plain number. @param {Quantity} quantity */
+export function symbolOf(quantity) {
+  return quantity.unit === "1" ? "" : symbol(inSystem(metricOf(quantity)));
+}
+
 /** A name with the unit in which its values are displayed. @param {string} words @param {Quantity} quantity */
 export function titled(words, quantity) {
-  return quantity.unit === "1" ? words : `${words} (${symbol(inSystem(metricOf(quantity)))})`.trimStart();
+  const unit = symbolOf(quantity);
+  return unit ? `${words} (${unit})`.trimStart() : words;
 }
