@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Mapping, Sequence
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeVar
 
 from ballscrew.basis import units
 from ballscrew.basis.quantities import Info, Ratio, Torque, Unit, quantities_of
@@ -18,8 +18,9 @@ from ballscrew.engine.evaluation.comparison import Spread as TwoRows
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.physics.friction.validity import NUT_REASONS
 from ballscrew.questions.shared import declared
-from ballscrew.questions.shared.declared import LEFT_OUT, OneOf
+from ballscrew.questions.shared.declared import LEFT_OUT, OneOf, from_attributes
 
+T = TypeVar("T")
 _KNOWN = quantities_of(FrictionResult)
 _SLOTS = OneOf(tuple(LAWS))
 
@@ -118,9 +119,9 @@ class ByRules:
 def compared(found: Comparison) -> Compared:
     """A comparison as it is answered."""
     return Compared(
-        case=ComparedModel(**_numbers(found.case)),
-        models=[ComparedModel(**_numbers(row)) for row in found.models],
-        laws=[ComparedLaw(**_numbers(row), slot=row.candidate.slot, counts=row.candidate.counts) for row in found.laws],
+        case=_row(ComparedModel, found.case),
+        models=[_row(ComparedModel, row) for row in found.models],
+        laws=[_row(ComparedLaw, row, slot=row.candidate.slot, counts=row.candidate.counts) for row in found.laws],
         spread=Spread(_ends(found.spread_of_models), _ends(found.spread_of_laws), found.spans),
     )
 
@@ -130,17 +131,9 @@ def by_rules(found: Comparison) -> ByRules:
     return ByRules(found.rules, found.drag_torque, found.of_balls)
 
 
-def _numbers(row: Row) -> dict[str, Any]:
-    """The fields of :class:`ComparedModel`."""
-    of_result = ("screw_torque", "efficiency", "back_driving_efficiency", "holding_torque", "self_locking")
-    return {
-        "name": row.candidate.name,
-        "change": row.change,
-        "contributions": row.result.contributions,
-        **{name: getattr(row.result, name) for name in of_result},
-        "valid": not row.outside,
-        "not_valid_because": row.outside,
-    }
+def _row(cls: type[T], row: Row, **of_law: Any) -> T:
+    known = {"name": row.candidate.name, "change": row.change, "valid": not row.outside}
+    return from_attributes(cls, row.result, **known, not_valid_because=row.outside, **of_law)
 
 
 def _ends(spread: TwoRows | None) -> Ends | None:

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from pydantic import Field
 
-from ballscrew.questions.shared.answer_parts import Closed, Record, Tables
+from ballscrew.questions.hand_over.document import HandOverResults
+from ballscrew.questions.shared.answer_parts import Closed, Tables
+from ballscrew.questions.shared.declared import response
 
 
 class Choice(Closed):
@@ -44,15 +48,12 @@ class HandOverWords(Closed):
     ranges: list[str] = Field(description="ranges and worst errors alone")
 
 
-class HandOver(Closed):
-    """A model handed over: its files, their range and their worst error."""
+class Beside(Closed):
+    """What stands beside the results of a hand-over."""
 
-    inputs: Tables
-    results: Tables
-    units: Tables
-    warnings: list[Record]
-    verdicts: list[Record]
-    checks: list[Record]
     provenance: Tables
     words: HandOverWords
     file: SentContent
+
+
+HandOver: Any = response(HandOverResults, "HandOver", beside=Beside)

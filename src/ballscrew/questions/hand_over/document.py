@@ -2,36 +2,38 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import PurePath
 from typing import Any
 
 from ballscrew.basis import units
-from ballscrew.basis.records import documents
-from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 from ballscrew.exports.export import Export
 from ballscrew.exports.targets import TARGETS, Option, options_of
+from ballscrew.exports.worst_error import WorstError
+from ballscrew.questions.shared.declared import from_attributes, parts_like
+from ballscrew.questions.shared.envelope import envelope
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class HandOverResults(parts_like(Export, "target", "files", "valid_range", "measured_range", "worst_error")):
+    """The files of an export, their range and their worst error."""
+
+    #: The files that were written.
+    files: Sequence[str]
+    #: The worst error of each output over the range.
+    worst_error: Mapping[str, WorstError]
 
 
 def document(export: Export, case: Case, written: Sequence[PurePath]) -> dict[str, Any]:
     """The document of an export that was written."""
-    return {
-        "inputs": case_file.inputs(case),
-        "results": {
-            "target": export.target,
-            "files": [str(path) for path in written],
-            "valid_range": {name: list(ends) for name, ends in export.valid_range.items()},
-            "measured_range": {name: list(ends) for name, ends in export.measured_range.items()},
-            "worst_error": {one.output: one.document() for one in export.worst_error},
-        },
-        "units": {one.output: one.unit for one in export.worst_error},
-        "warnings": documents([*case.implausible(), *export.warnings]),
-        "verdicts": [],
-        "checks": [],
-        "provenance": dict(export.provenance),
-    }
+    errors = {error.output: error for error in export.worst_error}
+    results = from_attributes(HandOverResults, export, files=list(map(str, written)), worst_error=errors)
+    units = {name: error.unit for name, error in errors.items()}
+    whole = envelope(case, results, units=units, warnings=[*case.implausible(), *export.warnings])
+    return {**whole, "provenance": dict(export.provenance)}
 
 
 def targets() -> dict[str, Any]:

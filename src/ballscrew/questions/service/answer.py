@@ -184,10 +184,15 @@ def verdicts(case: Case, report: ServiceReport) -> list[Record]:
     severity = "warning" if change.verdict == "lost" else "info"
     records = [
         units.record(
-            text, id="service.preload_left", subject=PRELOAD, severity=severity, holds=holds, value=change.ratio,
+            text,
+            id="service.preload_left",
+            subject=PRELOAD,
+            severity=severity,
+            holds=holds,
+            value=change.ratio,
             limit=limit,
         )
-    ]  # fmt: skip
+    ]
     return [*records, *(_of_alternative(one) for one in change.alternatives)]
 
 
@@ -211,9 +216,14 @@ def _of_alternative(one: Alternative) -> Record:
     if one.explains:
         text += f"; {_KNOWN[one.plausible]}"
     return units.record(
-        text, id="service.alternative", subject=one.name, value=one.value, limit=one.instead_of,
-        unit=one.quantity.unit, holds=one.explains,
-    )  # fmt: skip
+        text,
+        id="service.alternative",
+        subject=one.name,
+        value=one.value,
+        limit=one.instead_of,
+        unit=one.quantity.unit,
+        holds=one.explains,
+    )
 
 
 def _of_reading(case: Case, report: ServiceReport) -> Record:

@@ -121,7 +121,12 @@ def warnings(dataset: xr.Dataset) -> list[Record]:
     )
     return [
         units.record(
-            message, id="validity.points", subject="valid", severity="warning", holds=False,
-            value=float(count), limit=0.0,
+            message,
+            id="validity.points",
+            subject="valid",
+            severity="warning",
+            holds=False,
+            value=float(count),
+            limit=0.0,
         )
-    ]  # fmt: skip
+    ]

@@ -160,10 +160,15 @@ def results(report: WarmUpReport) -> WarmUpResults:
         shaft=Shaft(found.places.tolist(), found.shaft_temperature.tolist()),
         stretch_left=found.stretch_left,
         network=Network(
-            network.ball_conductance, network.shaft.convection, network.nut_mass, network.shaft.length,
-            report.duty.mean_speed, report.duty.states.stroke, network.bearing_power,
+            network.ball_conductance,
+            network.shaft.convection,
+            network.nut_mass,
+            network.shaft.length,
+            report.duty.mean_speed,
+            report.duty.states.stroke,
+            network.bearing_power,
         ),
-    )  # fmt: skip
+    )
 
 
 def _over_time(report: WarmUpReport) -> dict[str, Any]:
