@@ -54,9 +54,12 @@ def call(function: Callable[..., Result], *arguments: object, memory: int = MEMO
     try:
         process = subprocess.run(
             [sys.executable, "-P", "-c", _PROGRAM],
-            input=pickle.dumps((memory, function, arguments)), capture_output=True, check=False, timeout=seconds,
+            input=pickle.dumps((memory, function, arguments)),
+            capture_output=True,
+            check=False,
+            timeout=seconds,
             env=environment,
-        )  # fmt: skip
+        )
     except subprocess.TimeoutExpired:
         raise ChildError(f"takes longer than {seconds:g} s") from None
     if process.returncode == 0:

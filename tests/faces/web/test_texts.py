@@ -19,7 +19,7 @@ _WORDS = re.compile(r"[A-Za-z]{2,}[,:;]? [a-z]{2,}")
 #: Two words that nobody reads: classes of elements, units, selectors, and a defect of the page.
 CODES = {
     "(prefers-color-scheme: dark)", "chart low", "chart low whole-width",
-    "chart tall whole-width", "chart whole-width", "field given",
+    "chart whole-width", "field given",
     "field start given",
     "input, select", "kg cm^2", "lbf in", "line thin", "mm rpm",
     "no element #…", "no element …", "part absent", "part-of-axis absent", "scroll whole", "top right",

@@ -75,9 +75,7 @@ def duty_band(
     if not isinstance(driven, ModelledScrew):
         raise InputError(Fault("model", "has no inputs that are uncertain", "", 'take a model such as "reference"'))
     subject = Configuration(driven.model, driven.screw, driven.lubricant)
-    raise_if_any(
-        [*faults_of_options((), samples, seed, level, None), *faults_of_inputs(subject, distributions, None)]
-    )  # fmt: skip
+    raise_if_any([*faults_of_options((), samples, seed, level, None), *faults_of_inputs(subject, distributions, None)])
     states = np.stack([duty.axial_load, duty.screw_speed], axis=1)
     distinct, back = np.unique(states, axis=0, return_inverse=True)
     load, speed = distinct.T

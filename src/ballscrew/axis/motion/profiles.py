@@ -71,9 +71,7 @@ class _Stroke(ByValue):
         forth = (0.0, self.stroke, self.force, "forth")
         back = (self.stroke, -self.stroke, self.return_force, "back")
         for start, distance, force, name in (forth, back)[: 2 if self.returns else 1]:
-            found += move(
-                start, distance, self.speed, self.acceleration, self.limit_of_jerk, force=force, name=name
-            )  # fmt: skip
+            found += move(start, distance, self.speed, self.acceleration, self.limit_of_jerk, force=force, name=name)
             if self.dwell:
                 found.append(rest(start + distance, self.dwell))
         return found

@@ -207,7 +207,7 @@ def states_of(phases: Sequence[Phase], nodes: int = NODES, cuts: Iterable[float]
     names = tuple(phase.name for phase in phases)
     return MotionStates(
         time, weight, x, v, a, direction, force, temperature, index.astype(np.intp), names, tuple(ends), tuple(phases)
-    )  # fmt: skip
+    )
 
 
 def _cut(share: Numbers, weight: Numbers, at: Sequence[float]) -> tuple[Numbers, Numbers]:

@@ -63,9 +63,16 @@ def read_trajectory(path: Path) -> Trajectory:
             good = checked(path, headings, first, body, COLUMNS)
             texts = (cell for row in body for cell in row.cells if isinstance(cell, str))
             layout = Layout(
-                path.name, {h.column.name: h for h in good}, {}, first.line, len(first.cells),
-                decimals.evidence(texts), "", unused(first, good, body[:WITHIN]), frozenset(),
-            )  # fmt: skip
+                path.name,
+                {h.column.name: h for h in good},
+                {},
+                first.line,
+                len(first.cells),
+                decimals.evidence(texts),
+                "",
+                unused(first, good, body[:WITHIN]),
+                frozenset(),
+            )
             _check_columns(path, layout)
             cells = NumberReader(layout, keep_going=False, may_keep_going=False)
             parts: list[dict[str, Numbers]] = []

@@ -141,6 +141,6 @@ def torque_at(subject: Configuration, inputs: dict[str, Any]) -> Numbers:
     if np.prod(shape) * subject.balls > WORTH_COMPILING:
         ready = evaluator(
             subject.model, subject.screw, subject.lubricant, inputs=tuple(inputs), outputs=["screw_torque"]
-        )  # fmt: skip
+        )
         return ready(**inputs)["screw_torque"]
     return subject.at({name: np.broadcast_to(values, shape) for name, values in inputs.items()}).screw_torque

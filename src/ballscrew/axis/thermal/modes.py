@@ -64,9 +64,15 @@ class Modes(ByValue):
             return np.einsum("kni,kn->ki", to, heat)
 
         return cls(
-            np.maximum(rates, 0.0), to, back, in_modes(given), in_modes(source), in_modes(losses),
-            -np.sum(losses * outside, axis=1), np.sum(given - losses * outside, axis=1),
-        )  # fmt: skip
+            np.maximum(rates, 0.0),
+            to,
+            back,
+            in_modes(given),
+            in_modes(source),
+            in_modes(losses),
+            -np.sum(losses * outside, axis=1),
+            np.sum(given - losses * outside, axis=1),
+        )
 
     def weights(self, of_temperatures: Numbers) -> Numbers:
         """Weights of the modes in sums of temperatures, whose weights are given: networks by temperatures."""
@@ -85,11 +91,17 @@ class Modes(ByValue):
         e, p1, p2, p3 = functions(self.rates * length)
         h, beta, sigma, lost = length, self.constant, self.source, self.losses
         return Step(
-            h, e, h * p1 * beta, h * p1 * sigma, h * p2 * sigma,
-            h * p1 * lost, h * (np.sum(h * p2 * beta * lost, axis=1) + self.loss_at_zero),
-            h**2 * np.sum(p2 * sigma * lost, axis=1), h**2 * np.sum(p3 * sigma * lost, axis=1),
+            h,
+            e,
+            h * p1 * beta,
+            h * p1 * sigma,
+            h * p2 * sigma,
+            h * p1 * lost,
+            h * (np.sum(h * p2 * beta * lost, axis=1) + self.loss_at_zero),
+            h**2 * np.sum(p2 * sigma * lost, axis=1),
+            h**2 * np.sum(p3 * sigma * lost, axis=1),
             h * self.of_bearings,
-        )  # fmt: skip
+        )
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

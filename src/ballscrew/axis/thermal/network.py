@@ -201,9 +201,7 @@ class Network(ByValue):
 
     def inside(self, temperatures: Numbers) -> bool:
         """True where the friction is known: oil and preload within the map."""
-        return self.friction.has(
-            float(self.of_oil @ temperatures), float(self.preload(self.of_excess @ temperatures))
-        )  # fmt: skip
+        return self.friction.has(float(self.of_oil @ temperatures), float(self.preload(self.of_excess @ temperatures)))
 
 
 def network_of(

@@ -256,9 +256,14 @@ class WarmUp(ByValue):
         last = int(np.flatnonzero(self.works)[-1])
         work = float(self.time[last])
         return warm_up(
-            full, self.network.surroundings, time=max(work, _SHORTEST), cool_down=float(self.time[-1]) - work,
-            outputs=max(last + 1, 2), shaft_length=self.network.shaft.length, moving=self.along is not None,
-        )  # fmt: skip
+            full,
+            self.network.surroundings,
+            time=max(work, _SHORTEST),
+            cool_down=float(self.time[-1]) - work,
+            outputs=max(last + 1, 2),
+            shaft_length=self.network.shaft.length,
+            moving=self.along is not None,
+        )
 
     @lazy
     def flooded_torque(self) -> Torque:

@@ -131,9 +131,7 @@ def warm_up_band(
 
     Raises :class:`~ballscrew.basis.errors.InputError` for unknown names and options, and as ``warm_up`` does.
     """
-    central = warm_up(
-        duty, surroundings, time=time, cool_down=cool_down, outputs=outputs, shaft_length=shaft_length
-    )  # fmt: skip
+    central = warm_up(duty, surroundings, time=time, cool_down=cool_down, outputs=outputs, shaft_length=shaft_length)
     if samples is None:
         samples = SAMPLES if central.along is None else SAMPLES_ALONG
     drawn = dict(uncertain_surroundings(central.network) if distributions is None else distributions)
@@ -145,12 +143,18 @@ def warm_up_band(
     exist = np.array([end.exists for end in ends])
     margins = np.array([end.margin for end in ends])
     return WarmUpBand(
-        central, level, samples, drawn, np.concatenate(instants), outputs - 1,
+        central,
+        level,
+        samples,
+        drawn,
+        np.concatenate(instants),
+        outputs - 1,
         {name: SeriesBand(*_quantiles(of, level)) for name, of in series.items()},
         np.mean(np.isfinite(series["screw_torque"]), axis=1),
         {name: _interval(of[exist], level) for name, of in steady.items()},
-        _interval(margins[exist], level), float(np.mean(exist)),
-    )  # fmt: skip
+        _interval(margins[exist], level),
+        float(np.mean(exist)),
+    )
 
 
 class _Draws(NamedTuple):
@@ -275,9 +279,7 @@ def _factors(central: WarmUp, values: Mapping[str, Numbers], samples: int) -> li
     cold = float(central.network.surroundings.ambient)
     warm = max(float(central.oil_temperature[last]), cold + _APART)
     heated = duty.states.weight * np.abs(duty.screw_speed)
-    states, back = np.unique(
-        np.stack([duty.axial_load, duty.screw_speed])[:, heated > 0], axis=1, return_inverse=True
-    )  # fmt: skip
+    states, back = np.unique(np.stack([duty.axial_load, duty.screw_speed])[:, heated > 0], axis=1, return_inverse=True)
     weights = np.bincount(back.reshape(-1), weights=heated[heated > 0], minlength=states.shape[1])
     most = np.argsort(weights)[::-1][:_STATES]
     load, speed = states[:, most]
@@ -288,9 +290,13 @@ def _factors(central: WarmUp, values: Mapping[str, Numbers], samples: int) -> li
             screw = dataclasses.replace(screw, nut=screw.nut.changed("preload", float(central.preload[at])))
         engine = "numpy" if samples * load.size < WORTH_RECORDING else None
         ready = evaluator(
-            driven.model, screw, oil, inputs=("axial_load", "screw_speed", *names), outputs=["screw_torque"],
+            driven.model,
+            screw,
+            oil,
+            inputs=("axial_load", "screw_speed", *names),
+            outputs=["screw_torque"],
             engine=engine,
-        )  # fmt: skip
+        )
         here = {name: values[name] for name in names}
         if "viscosity" in here:  # drawn about that at the temperature of the oil as it is given
             here["viscosity"] = here["viscosity"] * float(oil.viscosity) / float(driven.lubricant.viscosity)

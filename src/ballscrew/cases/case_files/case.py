@@ -276,11 +276,14 @@ def _of_fit(table: Mapping[str, Any]) -> list[Record]:
     """What the fit that a case is from said of its own numbers: which of them no screw has."""
     return [
         units.record(
-            _CALIBRATED.of(verdict=text), id="calibration.implausible", subject=f"calibration.{place}",
-            severity="warning", holds=False,
+            _CALIBRATED.of(verdict=text),
+            id="calibration.implausible",
+            subject=f"calibration.{place}",
+            severity="warning",
+            holds=False,
         )
         for place, text in enumerate(table.get("verdicts", ()))
-    ]  # fmt: skip
+    ]
 
 
 def _of_other_nuts(calibration: Calibration | None, nut: Nut) -> list[Record]:
@@ -294,10 +297,15 @@ def _of_other_nuts(calibration: Calibration | None, nut: Nut) -> list[Record]:
     )
     return [
         units.record(
-            message, id="calibration.other_nuts", subject="model.calibration", severity="warning", holds=False,
-            value=float(nut.contacts_per_ball), limit=float(calibration.contacts_per_ball[0]),
+            message,
+            id="calibration.other_nuts",
+            subject="model.calibration",
+            severity="warning",
+            holds=False,
+            value=float(nut.contacts_per_ball),
+            limit=float(calibration.contacts_per_ball[0]),
         )
-    ]  # fmt: skip
+    ]
 
 
 def _not_reacted(model: FrictionModel, lubricant: Lubricant) -> list[Record]:
@@ -311,10 +319,15 @@ def _not_reacted(model: FrictionModel, lubricant: Lubricant) -> list[Record]:
     message = template.of(fresh=Measured(FRESH_BOUNDARY_FRICTION), given=Measured(float(friction)))
     return [
         units.record(
-            message, id="friction.not_reacted", subject="model.friction", severity="warning", holds=False,
-            value=float(friction), limit=FRESH_BOUNDARY_FRICTION,
+            message,
+            id="friction.not_reacted",
+            subject="model.friction",
+            severity="warning",
+            holds=False,
+            value=float(friction),
+            limit=FRESH_BOUNDARY_FRICTION,
         )
-    ]  # fmt: skip
+    ]
 
 
 def _too_many_balls(screw: BallScrew, row: CatalogueRow | None) -> list[Record]:
@@ -330,7 +343,13 @@ def _too_many_balls(screw: BallScrew, row: CatalogueRow | None) -> list[Record]:
     message = _TOO_MANY.of(row=row.name, **{name: Measured(float(value)) for name, value in numbers.items()})
     return [
         Record(
-            id=IMPLAUSIBLE, subject="screw.loaded_balls", text=message.filled(Measured.plain), severity="warning",
-            holds=False, value=float(screw.loaded_balls), limit=float(most), message=message,
+            id=IMPLAUSIBLE,
+            subject="screw.loaded_balls",
+            text=message.filled(Measured.plain),
+            severity="warning",
+            holds=False,
+            value=float(screw.loaded_balls),
+            limit=float(most),
+            message=message,
         )
-    ]  # fmt: skip
+    ]

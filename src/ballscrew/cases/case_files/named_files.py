@@ -18,10 +18,11 @@ def moved(value: Any, old: Path, new: Path) -> Any:
     """
     if isinstance(value, Mapping):
         return {
-            key: _from(new, old / item) if key in FIELDS and isinstance(item, str) and not Path(item).is_absolute()
+            key: _from(new, old / item)
+            if key in FIELDS and isinstance(item, str) and not Path(item).is_absolute()
             else moved(item, old, new)
             for key, item in value.items()
-        }  # fmt: skip
+        }
     return [moved(item, old, new) for item in value] if isinstance(value, list) else value
 
 

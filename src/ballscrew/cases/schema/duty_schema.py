@@ -64,13 +64,19 @@ def duty_sections() -> Mapping[str, type[BaseModel]]:
     for cls in reversed(list(MOTIONS.values())):
         of_motions |= fields_of(cls)
     segment = section_of(
-        "Segment", fields_of(Segment), Segment, required=False,
+        "Segment",
+        fields_of(Segment),
+        Segment,
+        required=False,
         name=(Annotated[str, Field(description="name of the segment in results")], None),
-    )  # fmt: skip
+    )
     back: Any = {"return": (_flag("whether the cycle has the way back, true if left out"), None)}
     return {
         "axis": section_of(
-            "Axis", {name: q for name, q in axis.items() if name != "counterweight"}, Axis, required=True,
+            "Axis",
+            {name: q for name, q in axis.items() if name != "counterweight"},
+            Axis,
+            required=True,
             counterweight=(
                 Annotated[Any, BeforeValidator(read_counterweight), WithJsonSchema(weight), axis["counterweight"]],
                 Field(default=None),
@@ -78,7 +84,10 @@ def duty_sections() -> Mapping[str, type[BaseModel]]:
             brake_holds=(_flag("whether a brake holds the axis in rests, and the motor gives no torque there"), None),
         ),
         "motion": section_of(
-            "Motion", of_motions, Trapezoid, required=False,
+            "Motion",
+            of_motions,
+            Trapezoid,
+            required=False,
             kind=(_one_of((*MOTIONS, TRAJECTORY), "kind of motion"), None),
             file=(Annotated[str, Field(description="table of a recorded motion, beside the case file")], None),
             segment=(
@@ -92,14 +101,21 @@ def duty_sections() -> Mapping[str, type[BaseModel]]:
         ),
         "segment": segment,
         "motor": section_of(
-            "Motor", fields_of(Motor), Motor, required=True,
+            "Motor",
+            fields_of(Motor),
+            Motor,
+            required=True,
             curve=(Annotated[list[Any], WithJsonSchema(_curve())], Field(default=None)),
         ),
         "surroundings": section_of(
-            "Surroundings", fields_of(Surroundings), Surroundings, required=False, uncertain=VARIED,
+            "Surroundings",
+            fields_of(Surroundings),
+            Surroundings,
+            required=False,
+            uncertain=VARIED,
             bracing=(_one_of(BRACINGS, "how the halves of a nut are braced: pushed apart, or together"), None),
         ),
-    }  # fmt: skip
+    }
 
 
 def efficiency_field() -> tuple[Any, Any]:

@@ -25,23 +25,29 @@ OIL = ("grade", "oil", "oil_file")
 def support_sections() -> Mapping[str, type[BaseModel]]:
     """The models of the sections."""
     bearing = section_of(
-        "Bearing", {**fields_of_laws(BEARING_LAWS), **MOUNTING}, SupportBearing, required=False,
+        "Bearing",
+        {**fields_of_laws(BEARING_LAWS), **MOUNTING},
+        SupportBearing,
+        required=False,
         uncertain=UNCERTAIN,
         law=(_one_of(BEARING_LAWS, "law of the friction of the bearing, contacts if left out"), None),
         catalogue=(_text("name of a support unit of a catalogue; the other fields then override it"), None),
         **_oil(),
-    )  # fmt: skip
+    )
     places: dict[str, Any] = dict.fromkeys(PLACES, (bearing, None))
     return {
         "bearings": section_of("Bearings", {}, MountedBearing, required=False, **places),
         "guides": section_of(
-            "Guides", {**fields_of_laws(GUIDE_LAWS), **STATICS}, LinearGuide, required=False,
+            "Guides",
+            {**fields_of_laws(GUIDE_LAWS), **STATICS},
+            LinearGuide,
+            required=False,
             uncertain=UNCERTAIN,
             law=(_one_of(GUIDE_LAWS, "law of the friction of the guides, maker if left out"), None),
             catalogue=(_text("name of a carriage of a catalogue; the other fields then override it"), None),
             **_oil(),
         ),
-    }  # fmt: skip
+    }
 
 
 def _oil() -> dict[str, Any]:

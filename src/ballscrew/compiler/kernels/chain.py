@@ -93,10 +93,13 @@ def balanced_chains(
     opening = np.zeros((2, wide))
     of_rings = ([], []) if rings is None else ([_padded(rings.stiffness, wide)], [*opening, *np.empty_like(scratch)])
     kernel.at_addresses(
-        slice(0 if rings is None else rings.second_from, links), slice(0, wide), wide, steps,
+        slice(0 if rings is None else rings.second_from, links),
+        slice(0, wide),
+        wide,
+        steps,
         [*given, bars, *forces, np.array([chains.rounding]), *of_rings[0]],
         [moved, *found, *scratch, *of_rings[1]],
-    )  # fmt: skip
+    )
     open_, force, slope, left = found[:, :count]
     return Balanced(moved[:links, :count], open_ == 0, force, slope, left, opening[:, :count])
 

@@ -261,9 +261,7 @@ class Evaluator:
         )
         block_size = min(block_size, max(size, 1))
         # a number is the same in every block, and so is its array
-        flat = [
-            np.full(block_size, array.item()) if array.size == 1 else _whole(array, shape) for array in arrays
-        ]  # fmt: skip
+        flat = [np.full(block_size, array.item()) if array.size == 1 else _whole(array, shape) for array in arrays]
 
         def evaluate(part: slice) -> None:
             count = part.stop - part.start

@@ -378,7 +378,11 @@ def _plain(value: Any) -> Any:
 def _read(header: bytes, machine_code: bytes) -> StructureKernel:
     held = json.loads(header)
     layout = Layout(
-        tuple(held["inputs"]), tuple(held["outputs"]), tuple(held["masks"]), held["constants"], held["lanes"],
+        tuple(held["inputs"]),
+        tuple(held["outputs"]),
+        tuple(held["masks"]),
+        held["constants"],
+        held["lanes"],
         held["formulas"],
-    )  # fmt: skip
+    )
     return StructureKernel(layout, machine_code)

@@ -63,9 +63,15 @@ def reversal(
     not above zero, a gap below zero, balls without load, and for a model without slip across the path.
     """
     found = moving_balls.reversal(
-        model, screw, lubricant, axial_load=axial_load, screw_speed=screw_speed, travel=travel, from_rest=from_rest,
+        model,
+        screw,
+        lubricant,
+        axial_load=axial_load,
+        screw_speed=screw_speed,
+        travel=travel,
+        from_rest=from_rest,
         gap=gap,
-    )  # fmt: skip
+    )
     operation = {"axial_load": axial_load, "screw_speed": screw_speed}
     return dataset_of(Configuration(model, screw, lubricant), found, operation)
 

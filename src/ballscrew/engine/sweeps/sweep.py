@@ -87,9 +87,16 @@ def sweep(
         if engine == "model":
             raise InputError(Fault("sweep.engine", "fills no store", engine, 'take engine="numpy"'))
         return stream(
-            plan, to, engine=engine, block_size=block_size, threads=threads, done=done, cluster=cluster,
-            verify=verify, trust=trust,
-        )  # fmt: skip
+            plan,
+            to,
+            engine=engine,
+            block_size=block_size,
+            threads=threads,
+            done=done,
+            cluster=cluster,
+            verify=verify,
+            trust=trust,
+        )
     return in_memory(plan, engine, block_size=block_size, threads=threads, done=done)
 
 

@@ -48,9 +48,13 @@ class Conditions:
     def rows(self, chosen: NDArray[np.bool_]) -> Conditions:
         """Some of the rows."""
         return Conditions(
-            self.axial_load[chosen], self.screw_speed[chosen], self.ideal_torque[chosen], self.helping[chosen],
-            self.weights[:, chosen], self.sensor[chosen],
-        )  # fmt: skip
+            self.axial_load[chosen],
+            self.screw_speed[chosen],
+            self.ideal_torque[chosen],
+            self.helping[chosen],
+            self.weights[:, chosen],
+            self.sensor[chosen],
+        )
 
 
 #: Rows by which Stribeck's speed is searched for, of a longer log evenly spread.

@@ -38,7 +38,13 @@ def constant_torque_missed(model: CalibratedModel, refit: Callable[[Sequence[str
     message = _FREE_MORE.of(after=units.in_unit(after, "N m", 2), before=units.in_unit(before, "N m", 2))
     return [
         units.record(
-            message, id="fit.free_more", subject=CONSTANT_TORQUE.name, severity="warning", holds=False,
-            value=after, limit=_WORTH * before, unit="N m",
+            message,
+            id="fit.free_more",
+            subject=CONSTANT_TORQUE.name,
+            severity="warning",
+            holds=False,
+            value=after,
+            limit=_WORTH * before,
+            unit="N m",
         )
-    ]  # fmt: skip
+    ]

@@ -121,9 +121,16 @@ def moving_layout(path: Path, found: Sequence[Record], flags: Mapping[str, str])
     words = frozenset(cell for record in above for cell in record.cells if isinstance(cell, str) and cell)
     named = {heading.column.name: heading for heading in good}
     return Layout(
-        path.name, named, {}, above[-1].line, len(found[start].cells), decimals.evidence(texts_in(good, body)), dates,
-        rest, words,
-    )  # fmt: skip
+        path.name,
+        named,
+        {},
+        above[-1].line,
+        len(found[start].cells),
+        decimals.evidence(texts_in(good, body)),
+        dates,
+        rest,
+        words,
+    )
 
 
 def has_columns(found: Sequence[Record], flags: Mapping[str, str]) -> bool:

@@ -245,15 +245,26 @@ def fit_motion(
     estimates = _estimates(linear, power, found_screw, delay, carried_mass)
     warnings += _unidentified(estimates)
     found = MotionFit(
-        estimates, errors, {}, linear, power, found_screw, delay, _filter_effects(equation), equation, None,
+        estimates,
+        errors,
+        {},
+        linear,
+        power,
+        found_screw,
+        delay,
+        _filter_effects(equation),
+        equation,
+        None,
         tuple(warnings),
-    )  # fmt: skip
+    )
     if test is None:
         return found
     other = _equation(
-        _log_of(test, screw).checked(keep_going=keep_going), cutoff=equation.cutoff,
-        path_cutoff=equation.kinematics.cutoff, shift=equation.shift,
-    )  # fmt: skip
+        _log_of(test, screw).checked(keep_going=keep_going),
+        cutoff=equation.cutoff,
+        path_cutoff=equation.kinematics.cutoff,
+        shift=equation.shift,
+    )
     crossed = {name: relative_error(found.force(name, other) - other.force, other.force) for name in errors}
     return dataclasses.replace(found, cross_errors=crossed, test=other)
 
@@ -355,9 +366,14 @@ def _estimates(
         low, high = power.interval
         std = (power.bootstrap[1] - power.bootstrap[0]) / 4
         found["speed_exponent"] = MotionEstimate(
-            "speed_exponent", QUANTITIES["speed_exponent"], POWER, power.exponent, std, (low, high),
+            "speed_exponent",
+            QUANTITIES["speed_exponent"],
+            POWER,
+            power.exponent,
+            std,
+            (low, high),
             bool(np.isfinite([low, high]).all()),
-        )  # fmt: skip
+        )
     if screw is not None:
         values = [screw.constant_force, screw.viscous_coefficient, *screw.numbers.tolist(), screw.carried_mass]
         asked = screw.friction.asked
@@ -366,9 +382,16 @@ def _estimates(
         for place, (name, value, quantity) in enumerate(zip(names, values, quantities, strict=True), start=2):
             given = name == "carried_mass" and carried is not None
             add(
-                name, SCREW, float(value), float(screw.errors[place]), float(screw.half_widths[place]),
-                quantity=quantity, at_bound=bool(screw.at_bound[place]), given=given, positive=True,
-            )  # fmt: skip
+                name,
+                SCREW,
+                float(value),
+                float(screw.errors[place]),
+                float(screw.half_widths[place]),
+                quantity=quantity,
+                at_bound=bool(screw.at_bound[place]),
+                given=given,
+                positive=True,
+            )
     return found
 
 

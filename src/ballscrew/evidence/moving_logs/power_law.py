@@ -71,10 +71,15 @@ def power_law(equation: Equation, *, replicates: int = REPLICATES, seed: int = 0
     solved = LeastSquares.of(_columns(equation, exponent), equation.force)
     mass, offset, constant, coefficient = solved.values.tolist()
     return PowerLaw(
-        exponent, _bootstrap(sides, equation.force, solved, exponent, replicates, seed),
-        _choices(equation, sides), mass, offset, constant, coefficient,
+        exponent,
+        _bootstrap(sides, equation.force, solved, exponent, replicates, seed),
+        _choices(equation, sides),
+        mass,
+        offset,
+        constant,
+        coefficient,
         relative_error(solved.residuals, equation.force),
-    )  # fmt: skip
+    )
 
 
 def _columns(equation: Equation, exponent: float) -> Floats:

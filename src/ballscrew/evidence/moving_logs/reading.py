@@ -220,7 +220,9 @@ def _force(name: str, found: _Numbers, lead: float, torque_constant: float | Non
     if column == "voltage" and not math.isfinite(gain):
         raise InputError(Fault(f"{name} column {column}", "needs the gain to the force", "", '--gain "35 N/V"'))
     scale = {
-        "force": 1.0, "torque": 2 * math.pi / lead, "current": 2 * math.pi / lead * (torque_constant or 0.0),
+        "force": 1.0,
+        "torque": 2 * math.pi / lead,
+        "current": 2 * math.pi / lead * (torque_constant or 0.0),
         "voltage": gain,
-    }[column]  # fmt: skip
+    }[column]
     return scale * values

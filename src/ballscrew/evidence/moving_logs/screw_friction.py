@@ -87,9 +87,13 @@ class ScrewFriction:
         # a grid of some hundred points does not pay for the compiler, which takes seconds for a preloaded nut
         subject = self.subject
         return evaluator(
-            subject.model, subject.screw, subject.lubricant, inputs=("axial_load", "screw_speed", *self.names),
-            outputs=("screw_torque",), engine="numpy",
-        )  # fmt: skip
+            subject.model,
+            subject.screw,
+            subject.lubricant,
+            inputs=("axial_load", "screw_speed", *self.names),
+            outputs=("screw_torque",),
+            engine="numpy",
+        )
 
     def at(self, values: Floats, speed: Floats, load: Floats) -> Floats:
         """The friction force of the model itself, at speeds > 0 (m/s) and loads (N) against the motion."""

@@ -105,9 +105,15 @@ def fit_screw_model(
     inside = np.clip(begin, low + room, high - room)[free]
     jac: Any = slopes  # the hints of SciPy know only the names of methods
     solved = least_squares(
-        residuals, inside, jac, bounds=(low[free], high[free]), method="trf", max_nfev=_EVALUATIONS,
-        xtol=1e-5, ftol=1e-7,
-    )  # fmt: skip
+        residuals,
+        inside,
+        jac,
+        bounds=(low[free], high[free]),
+        method="trf",
+        max_nfev=_EVALUATIONS,
+        xtol=1e-5,
+        ftol=1e-7,
+    )
     found = _placed(begin, free, solved.x)
     final, derivatives = problem.at(found)
     near = (found - low <= _AT_BOUND + room) | (high - found <= _AT_BOUND + room)
@@ -125,11 +131,20 @@ def fit_screw_model(
         return None
     load = _load(equation, values[-1], values[OFFSET])[equation.used]
     return ScrewModelFit(
-        friction, float(values[MASS]), float(values[OFFSET]), float(values[CONSTANT]), float(values[VISCOUS]), numbers,
-        float(values[-1]), errors * scales, widths * scales, near & free, bool(solved.status > 0),
+        friction,
+        float(values[MASS]),
+        float(values[OFFSET]),
+        float(values[CONSTANT]),
+        float(values[VISCOUS]),
+        numbers,
+        float(values[-1]),
+        errors * scales,
+        widths * scales,
+        near & free,
+        bool(solved.status > 0),
         relative_error(final, equation.force),
         friction.table_error(numbers, np.abs(equation.speed[equation.used]), load),
-    )  # fmt: skip
+    )
 
 
 def _placed(begin: Floats, free: NDArray[np.bool_], some: Floats) -> Floats:

@@ -128,10 +128,15 @@ def alternatives(
         change, rms = _explained(cause, held, rows)
         made.append(
             Alternative(
-                cause.name, cause.quantity, cause.value(change), cause.instead_of, rms, of_preload,
+                cause.name,
+                cause.quantity,
+                cause.value(change),
+                cause.instead_of,
+                rms,
+                of_preload,
                 cause.plausible(change),
             )
-        )  # fmt: skip
+        )
     return made
 
 

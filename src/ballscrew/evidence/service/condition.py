@@ -229,10 +229,18 @@ def _states(
         warm = float(np.mean(means.temperature[means.test == i]))
         states.append(
             State(
-                label, float(means.times[i]), warm if used[i] else None, torque[1], torque[0], torque[2], preload[1],
-                preload[0], preload[2], parts[i],
+                label,
+                float(means.times[i]),
+                warm if used[i] else None,
+                torque[1],
+                torque[0],
+                torque[2],
+                preload[1],
+                preload[0],
+                preload[2],
+                parts[i],
             )
-        )  # fmt: skip
+        )
     return states
 
 

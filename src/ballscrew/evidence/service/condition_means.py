@@ -140,18 +140,26 @@ def of_logs(subject: Configuration, logs: Sequence[Any], kind: Kind, inertia: fl
         if not (np.any(clean.forward) and np.any(clean.backward)):
             warnings.append(
                 units.record(
-                    _ONE_DIRECTION.of(log=name), id="condition.one_direction", subject=name, severity="warning",
+                    _ONE_DIRECTION.of(log=name),
+                    id="condition.one_direction",
+                    subject=name,
+                    severity="warning",
                     holds=False,
                 )
-            )  # fmt: skip
+            )
     raise_if_any(faults)
     raise_if_any(_faults_of_jumps(parts, labels))
     columns = [np.array([getattr(one, name) for _, one in parts]) for name in _Mean.__annotations__]
     return Means(
-        np.array([number for number, _ in parts], dtype=np.int64), *columns, labels=labels,
-        times=np.arange(1.0, len(labels) + 1), per="test", sources=tuple(sources), warnings=tuple(warnings),
+        np.array([number for number, _ in parts], dtype=np.int64),
+        *columns,
+        labels=labels,
+        times=np.arange(1.0, len(labels) + 1),
+        per="test",
+        sources=tuple(sources),
+        warnings=tuple(warnings),
         notes=tuple(notes),
-    )  # fmt: skip
+    )
 
 
 def _faults_of_sources(logs: Sequence[TorqueLog]) -> list[Fault]:

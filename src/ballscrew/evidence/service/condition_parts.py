@@ -86,7 +86,7 @@ def parts_of(subject: Configuration, means: Means, found: Reduction, baseline: i
             for i, key in enumerate([PRELOAD, *(BOUNDARY_FRICTION for _ in names), CONSTANT, WARMER])
         }
         for test in range(means.count)
-    ]  # fmt: skip
+    ]
 
 
 def _part(key: str, value: float, deviation: float, told: bool) -> Part:

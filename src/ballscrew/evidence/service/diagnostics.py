@@ -202,10 +202,15 @@ def _of_temperatures(logs: dict[str, PreloadEstimate], subject: Configuration) -
             severity = "info" if graded else "warning"
             records.append(
                 _record(
-                    "temperatures_differ", "temperature", message, severity=severity, value=warmer,
-                    limit=TEMPERATURE_DIFFERENCE, unit="K",
+                    "temperatures_differ",
+                    "temperature",
+                    message,
+                    severity=severity,
+                    value=warmer,
+                    limit=TEMPERATURE_DIFFERENCE,
+                    unit="K",
                 )
-            )  # fmt: skip
+            )
     return records
 
 

@@ -265,9 +265,17 @@ def _read(
     """The rows of a log, with a first fit of the preload alone. Faults name the log."""
     try:
         found = fit(
-            subject.model, subject.screw, subject.lubricant, log, free, kind=kind, inertia=inertia, holdout=0.0,
-            temperature_error=0.0, done=done,  # the posterior has it, with what the other numbers say of it
-        )  # fmt: skip
+            subject.model,
+            subject.screw,
+            subject.lubricant,
+            log,
+            free,
+            kind=kind,
+            inertia=inertia,
+            holdout=0.0,
+            temperature_error=0.0,
+            done=done,  # the posterior has it, with what the other numbers say of it
+        )
     except InputError as error:
         raise _naming(log, label, error) from None
     return Readings.of(found)

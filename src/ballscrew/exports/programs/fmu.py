@@ -114,9 +114,12 @@ def export(handed: HandOver) -> Export:
         units.in_unit(speed, "rad/s", 6) for speed in (REGULARISATION_SPEED, _MOVING * REGULARISATION_SPEED)
     )
     warning = units.record(
-        _AT_REST.of(slow=slow, moving=moving), id="hand_over.rest", subject="regularisation_speed",
-        severity="warning", holds=False,
-    )  # fmt: skip
+        _AT_REST.of(slow=slow, moving=moving),
+        id="hand_over.rest",
+        subject="regularisation_speed",
+        severity="warning",
+        holds=False,
+    )
     return Export.of(
         handed,
         "fmu",

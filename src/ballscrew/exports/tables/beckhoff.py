@@ -51,9 +51,14 @@ def export(handed: HandOver) -> Export:
         {"percent": units.to_significant(100 * share, 2)},
     )
     record = units.record(
-        message, id="hand_over.rounding", subject="screw_torque", severity="warning" if share > 0.01 else "info",
-        holds=share <= 0.01, value=share, limit=0.01,
-    )  # fmt: skip
+        message,
+        id="hand_over.rounding",
+        subject="screw_torque",
+        severity="warning" if share > 0.01 else "info",
+        holds=share <= 0.01,
+        value=share,
+        limit=0.01,
+    )
     return found if share <= 1e-3 else _with(found, record)
 
 

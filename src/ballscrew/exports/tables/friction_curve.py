@@ -154,9 +154,14 @@ def _one_load(curve: FrictionCurve) -> Record:
         {"load": units.in_unit(load, "N", 6), "difference": units.in_unit(curve.at_other_loads, "N m", 2)},
     )
     return units.record(
-        message, id="hand_over.one_load", subject=INTERPOLATED[0], severity="warning", holds=False,
-        value=curve.at_other_loads, unit="N m",
-    )  # fmt: skip
+        message,
+        id="hand_over.one_load",
+        subject=INTERPOLATED[0],
+        severity="warning",
+        holds=False,
+        value=curve.at_other_loads,
+        unit="N m",
+    )
 
 
 def about(handed: HandOver, curve: FrictionCurve) -> Sequence[str]:

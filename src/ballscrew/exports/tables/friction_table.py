@@ -121,10 +121,15 @@ class FrictionTable:
         )
         return [
             units.record(
-                message, id="hand_over.tolerance", subject="screw_torque", severity="warning", holds=False,
-                value=self.error, limit=tolerance,
+                message,
+                id="hand_over.tolerance",
+                subject="screw_torque",
+                severity="warning",
+                holds=False,
+                value=self.error,
+                limit=tolerance,
             )
-        ]  # fmt: skip
+        ]
 
 
 def friction_table(handed: HandOver) -> FrictionTable:

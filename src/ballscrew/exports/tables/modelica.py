@@ -226,10 +226,15 @@ def _gear_is_off(gear: LossTable) -> list[Record]:
     )
     return [
         units.record(
-            message, id="hand_over.lossy_gear", subject=INTERPOLATED[0], severity="warning" if severe else "info",
-            holds=not severe, value=gear.of_largest, limit=LARGE,
+            message,
+            id="hand_over.lossy_gear",
+            subject=INTERPOLATED[0],
+            severity="warning" if severe else "info",
+            holds=not severe,
+            value=gear.of_largest,
+            limit=LARGE,
         )
-    ]  # fmt: skip
+    ]
 
 
 def _vector(values: Any) -> str:

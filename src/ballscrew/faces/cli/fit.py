@@ -97,9 +97,18 @@ def fit(
         from ballscrew.faces.cli.fit_rows import fit_rows
 
         fit_rows(
-            case, rows, row, written, settings=settings or [], model=model, calibration=calibration,
-            allow_code=allow_code, as_json=as_json, as_sheet=as_sheet, to=to,
-        )  # fmt: skip
+            case,
+            rows,
+            row,
+            written,
+            settings=settings or [],
+            model=model,
+            calibration=calibration,
+            allow_code=allow_code,
+            as_json=as_json,
+            as_sheet=as_sheet,
+            to=to,
+        )
         return
     assert log is not None
     tables = case_file.override(case_file.read(case), settings or [])

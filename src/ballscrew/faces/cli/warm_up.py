@@ -96,9 +96,14 @@ def _banded(case: Case, options: WarmUpOptions) -> WarmUpBandReport:
 
     with progress("band") as done:
         return studies.band(
-            case, options.hours, options.cool_down, samples=options.samples, level=options.level,
-            only_given=options.only_given, done=done,
-        )  # fmt: skip
+            case,
+            options.hours,
+            options.cool_down,
+            samples=options.samples,
+            level=options.level,
+            only_given=options.only_given,
+            done=done,
+        )
 
 
 def _files(place: Path, band: bool) -> list[Path]:

@@ -108,9 +108,12 @@ def _areas(result: FrictionResult) -> Figure:
         name: np.broadcast_to(np.asarray(part, dtype=float), shape)[order] for name, part in _parts(result).items()
     }
     panel.stackplot(
-        x, list(parts.values()), labels=[MECHANISMS.get(n, n) for n in parts],
-        colors=[charts.MECHANISM_COLOURS.get(n, charts.GREY) for n in parts], linewidth=0,
-    )  # fmt: skip
+        x,
+        list(parts.values()),
+        labels=[MECHANISMS.get(n, n) for n in parts],
+        colors=[charts.MECHANISM_COLOURS.get(n, charts.GREY) for n in parts],
+        linewidth=0,
+    )
     panel.plot(x, np.asarray(result.screw_torque)[order], color=charts.INK, label="total")
     _shade(panel, x, np.broadcast_to(np.asarray(result.valid), shape)[order])
     panel.set_xlabel(_label(_OPERATION[along]))

@@ -138,9 +138,13 @@ def _map(panel: Axes, curves: Curves, values: Any) -> None:
         outside = np.where(curves.valid_everywhere, 0.0, 1.0)
         panel.contourf(curves.map_speeds, curves.map_loads, outside, levels=[0.5, 1.5], colors=[_VEIL], alpha=_THIN)
     panel.plot(
-        *curves.here, "o", color=charts.RED, markersize=6, clip_on=False,
+        *curves.here,
+        "o",
+        color=charts.RED,
+        markersize=6,
+        clip_on=False,
         path_effects=[patheffects.withStroke(linewidth=2.5, foreground="white")],
-    )  # fmt: skip
+    )
     panel.set_xlim(0, float(curves.map_speeds[-1]))
     panel.set_ylim(0, float(curves.map_loads[-1]))
     panel.set_xlabel(_SPEED)

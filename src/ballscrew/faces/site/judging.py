@@ -223,7 +223,9 @@ def contents_of_judging(judging: Judging) -> dict[str, Any]:
         "rating_sources": list(RATING_SOURCES),
         "ends": {
             one.name.lower().replace("_", "-"): {
-                "words": one.words, "buckling_root": one.buckling_root, "whirling_root": one.whirling_root,
+                "words": one.words,
+                "buckling_root": one.buckling_root,
+                "whirling_root": one.whirling_root,
             }
             for one in Ends
         },
@@ -240,7 +242,7 @@ def contents_of_judging(judging: Judging) -> dict[str, Any]:
             **{row.id: _described(in_shown_unit(row.name, row.unit)) for row in CHECKS},
         },
         "units": _units(tables),
-    }  # fmt: skip
+    }
 
 
 def of_start(name: str) -> dict[str, Any]:

@@ -255,9 +255,14 @@ async def warm_up(request: Request) -> Response:
             warmed = warm_ups.warmed_up(case, options.hours, options.cool_down)
             return with_sheet(warm_up_documents.document(warmed), warm_up_sheet(warmed))
         found = warm_up_bands.band(
-            case, options.hours, options.cool_down, samples=options.samples, level=options.level,
-            only_given=options.only_given, done=done,
-        )  # fmt: skip
+            case,
+            options.hours,
+            options.cool_down,
+            samples=options.samples,
+            level=options.level,
+            only_given=options.only_given,
+            done=done,
+        )
         return with_sheet(warm_up_documents.with_band(found), warm_up_sheet(found.report, found))
 
     return await heavy(request, work)
@@ -282,10 +287,14 @@ async def select(request: Request) -> Response:
         need = limits.check_need(need_of(body.need))
         with written({} if body.table is None else {"table": body.table}) as paths:
             found = selected(
-                need, rows=paths.get("table"), words=options.words or None, keep_going=bool(paths),
-                complete=options.complete, done=done,
+                need,
+                rows=paths.get("table"),
+                words=options.words or None,
+                keep_going=bool(paths),
+                complete=options.complete,
+                done=done,
                 found_one=lambda one: done.row(as_bytes(selection_documents.row_document(one))),
-            )  # fmt: skip
+            )
         return as_json(selection_documents.document(found))
 
     return await heavy(request, work)

@@ -155,8 +155,16 @@ class _Server(uvicorn.Server):
 def serve(application: FastAPI, listening: socket.socket) -> None:
     """Serve until a signal ends it."""
     settings = uvicorn.Config(
-        application, http=_TimeoutProtocol, ws="none", lifespan="off", log_level="error", access_log=False,
-        proxy_headers=False, server_header=False, timeout_keep_alive=75, timeout_graceful_shutdown=_SHUTDOWN_TIMEOUT,
+        application,
+        http=_TimeoutProtocol,
+        ws="none",
+        lifespan="off",
+        log_level="error",
+        access_log=False,
+        proxy_headers=False,
+        server_header=False,
+        timeout_keep_alive=75,
+        timeout_graceful_shutdown=_SHUTDOWN_TIMEOUT,
         h11_max_incomplete_event_size=LONGEST_HEAD,
-    )  # fmt: skip
+    )
     _Server(settings, application.state.requests, application.state.jobs).run([listening])

@@ -47,9 +47,11 @@ class _Folder(StaticFiles):
         headers = {name: found.headers[name] for name in ("etag", "last-modified", "cache-control", "vary")}
         packed = _packed_file(str(full_path), stat_result.st_mtime_ns)
         return Response(
-            packed, status_code, {**headers, "Content-Encoding": "gzip", "ETag": f"W/{headers['etag']}"},
+            packed,
+            status_code,
+            {**headers, "Content-Encoding": "gzip", "ETag": f"W/{headers['etag']}"},
             media_type=found.media_type,
-        )  # fmt: skip
+        )
 
 
 def add_to(app: FastAPI) -> None:

@@ -142,9 +142,12 @@ def spawned() -> Process:
     """A process that starts from nothing."""
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(path or str(Path.cwd()) for path in sys.path)}
     made = subprocess.Popen(
-        [sys.executable, "-P", *_PROGRAM], stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment,
+        [sys.executable, "-P", *_PROGRAM],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        env=environment,
         start_new_session=os.name != "nt",
-    )  # fmt: skip
+    )
     assert made.stdin is not None
     assert made.stdout is not None
 

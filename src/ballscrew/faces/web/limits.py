@@ -150,10 +150,15 @@ def check_reversal(case: Case, options: ReversalOptions) -> None:
     if not case.operation.screw_speed:
         return
     steps = step_count(
-        case.model, case.screw, case.lubricant, axial_load=case.operation.axial_load,
-        screw_speed=float(case.operation.screw_speed), travel=options.travel, gap=options.gap,
+        case.model,
+        case.screw,
+        case.lubricant,
+        axial_load=case.operation.axial_load,
+        screw_speed=float(case.operation.screw_speed),
+        travel=options.travel,
+        gap=options.gap,
         strokes=STROKES,
-    )  # fmt: skip
+    )
     if steps > MOST_STEPS_OF_REVERSAL:
         remedy = "a shorter travel, or more load or preload; the rest by ballscrew reversal"
         raise InputError(Fault("--travel", "takes too many steps of the contacts", f"{steps:,}", remedy))

@@ -103,6 +103,8 @@ def _asked(options: OptimiseOptions) -> dict[str, Any]:
     """What both a search and its plan take."""
     return {
         "objectives": [name.replace("-", "_") for name in options.objectives] or None,
-        "population": options.population, "generations": options.generations, "members": options.members,
+        "population": options.population,
+        "generations": options.generations,
+        "members": options.members,
         "quantile": options.quantile,
-    }  # fmt: skip
+    }

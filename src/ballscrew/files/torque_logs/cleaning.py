@@ -109,8 +109,9 @@ def without_repeats(log: Log) -> Log:
         return log
     note = filled_text(
         "{again} of {rows} rows repeat earlier ones, one after the other: counted once",
-        again=Measured(int(np.count_nonzero(again))), rows=Measured(len(log)),
-    )  # fmt: skip
+        again=Measured(int(np.count_nonzero(again))),
+        rows=Measured(len(log)),
+    )
     return log.select(~again, REPEATED).with_notes(note)
 
 
@@ -144,8 +145,9 @@ def describe_runs(runs: int) -> str:
     """The note on a log whose time begins anew."""
     return filled_text(
         "time begins anew {times} times: read as {runs} logs, one after the other",
-        times=Measured(runs - 1), runs=Measured(runs),
-    )  # fmt: skip
+        times=Measured(runs - 1),
+        runs=Measured(runs),
+    )
 
 
 def moving(log: LogRows) -> NDArray[np.bool_]:

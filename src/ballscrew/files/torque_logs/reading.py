@@ -104,23 +104,25 @@ def _read(
         notes.append(
             filled_text(
                 "{count} cells hold errors of a spreadsheet ({kinds}): they count as missing",
-                count=Measured(count), kinds=kinds,
+                count=Measured(count),
+                kinds=kinds,
             )
-        )  # fmt: skip
+        )
     if rates is not None:
         through = Measured(2 * rates.lines.half_width + 1)
         notes.append(
             filled_text(
                 "the speed is that of the position over the time, from straight lines through {through} rows, "
                 "as the noise in the first {held} allows",
-                through=through, held=Measured(held),
+                through=through,
+                held=Measured(held),
             )
             if rates.rows > held
             else filled_text(
                 "the speed is that of the position over the time, from straight lines through {through} rows",
                 through=through,
             )
-        )  # fmt: skip
+        )
     if source.empty_bytes:
         notes.append(
             filled_text(

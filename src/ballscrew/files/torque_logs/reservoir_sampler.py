@@ -107,7 +107,7 @@ class ReservoirSampler:
                     "rows are not in the order of time, and too many to sort (over {held}): sort the file",
                     held=Measured(self._held),
                 )
-            )  # fmt: skip
+            )
             columns.pop("time")
             motion = None
         elif self._runs > 1:

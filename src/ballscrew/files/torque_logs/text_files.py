@@ -122,12 +122,20 @@ class TextLog:
         first = layout.line  # where the line of empty cells stands
         try:
             reader = pd.read_csv(
-                _Below(text, width + 1, self._delimiter), sep=self._delimiter, header=None, usecols=used,
-                index_col=False, chunksize=rows, na_values=list(MISSING), keep_default_na=False,
-                skip_blank_lines=False, skipinitialspace=True, low_memory=False,
+                _Below(text, width + 1, self._delimiter),
+                sep=self._delimiter,
+                header=None,
+                usecols=used,
+                index_col=False,
+                chunksize=rows,
+                na_values=list(MISSING),
+                keep_default_na=False,
+                skip_blank_lines=False,
+                skipinitialspace=True,
+                low_memory=False,
                 decimal="," if layout.decimal == COMMA else ".",
                 quoting=csv.QUOTE_MINIMAL if self._quoted else csv.QUOTE_NONE,
-            )  # fmt: skip
+            )
             held: Any = None
             for frame in reader:
                 if held is not None:

@@ -266,9 +266,15 @@ def read(path: Path, columns: Mapping[str, str] | None = None, keep_going: bool 
     nuts = [str(row.values.get("nut", "")) for row in found] if "nut" in table.headings else []
     digest = hashlib.sha256(path.read_bytes()).hexdigest()
     return TorqueSeries(
-        **values, time=time, labels=labels, per=per, line=lines, nuts=nuts, notes=tuple(notes),
+        **values,
+        time=time,
+        labels=labels,
+        per=per,
+        line=lines,
+        nuts=nuts,
+        notes=tuple(notes),
         source=(path.name, digest),
-    )  # fmt: skip
+    )
 
 
 def _refuse_log(path: Path) -> None:

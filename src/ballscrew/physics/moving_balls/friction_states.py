@@ -469,12 +469,16 @@ class _Shares:
             return self._squares(np.exp(logarithms))
 
         found: Any = optimize.minimize(
-            squares, start, method="Nelder-Mead",
+            squares,
+            start,
+            method="Nelder-Mead",
             options={
-                "xatol": 1e-10, "fatol": math.inf, "maxiter": 4000,
+                "xatol": 1e-10,
+                "fatol": math.inf,
+                "maxiter": 4000,
                 "initial_simplex": np.vstack([start, start + 0.1 * np.eye(len(start))]),
             },
-        )  # fmt: skip
+        )
         return np.exp(found.x)
 
     def _squares(self, slides: Vector) -> float:

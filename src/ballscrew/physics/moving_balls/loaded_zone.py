@@ -268,9 +268,13 @@ def _speed_on_two(
     found = ball_friction(model, screw, lubricant, model.laws.frame(screw), load, omega, push)
     on_screw, on_nut, L = found.screw, found.nut, found.frame.path_radius
     w = kinematics.ball_surface_speed(
-        found.entrainment_speed, on_screw.creep_speed, on_nut.creep_speed,
-        on_screw.contact_radius, on_nut.contact_radius, L,
-    )  # fmt: skip
+        found.entrainment_speed,
+        on_screw.creep_speed,
+        on_nut.creep_speed,
+        on_screw.contact_radius,
+        on_nut.contact_radius,
+        L,
+    )
     speed = kinematics.orbital_speed(kinematics.orbital_rotation(w + on_nut.creep_speed, on_nut.contact_radius), L)
     return speed, on_screw.friction_coefficient + on_nut.friction_coefficient
 

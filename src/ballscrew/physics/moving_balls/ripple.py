@@ -215,10 +215,16 @@ def torque_ripple(
     for half, (carrier, load) in enumerate(_halves(whole, axial_load)):
         for number in range(int(circuits)):
             zone = loaded_zone(
-                model, carrier, lubricant,
-                axial_load=load, screw_speed=screw_speed, groove_deviation=groove_deviation,
-                seed=_seed_of(int(seed), half, number), circuits=int(circuits), relief=relief,
-            )  # fmt: skip
+                model,
+                carrier,
+                lubricant,
+                axial_load=load,
+                screw_speed=screw_speed,
+                groove_deviation=groove_deviation,
+                seed=_seed_of(int(seed), half, number),
+                circuits=int(circuits),
+                relief=relief,
+            )
             at_defect = half == number == 0
             if at_defect or isinstance(defect, NutGroove):
                 zone = with_defect(zone, defect)

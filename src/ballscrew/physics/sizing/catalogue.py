@@ -127,10 +127,13 @@ class CatalogueRow(ByValue):
     preload_share: Annotated[
         Ratio | None,
         Info(
-            "p", "preload / dynamic load rating, instead of the preload", at_least=0, at_most=1,
+            "p",
+            "preload / dynamic load rating, instead of the preload",
+            at_least=0,
+            at_most=1,
             hint="vendors have 2 to 10 %",
         ),
-    ] = None  # fmt: skip
+    ] = None
     seal_torque: Annotated[
         Torque | None,
         Info("M_W", "torque of all seals of the nut", at_least=0, hint="rubber: 0.08 N m at 16 mm, 0.4 N m at 40 mm"),

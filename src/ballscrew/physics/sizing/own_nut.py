@@ -269,9 +269,7 @@ def _ball(row: CatalogueRow) -> tuple[Estimate, list[Record]]:
 
 def _no_room(row: CatalogueRow, pitch: float) -> Fault:
     """The fault of a lead or of starts that are listed, in place of one of the ball, which is none of the user's."""
-    lead, apart = (
-        Measured(size, QUANTITIES["lead"], written=f"{size * 1e3:.4g} mm") for size in (row.lead, pitch)
-    )  # fmt: skip
+    lead, apart = (Measured(size, QUANTITIES["lead"], written=f"{size * 1e3:.4g} mm") for size in (row.lead, pitch))
     name, given = ("starts", str(int(row.starts))) if row.starts > 1 else ("lead", Message("{lead}", {"lead": lead}))
     remedy = Message("neighbouring grooves are {apart} apart: give a larger lead or fewer starts", {"apart": apart})
     return Fault(f"{row.name}.{name}", "leaves no room for balls", given, remedy)

@@ -231,7 +231,7 @@ RULES: Mapping[str, Rule] = {
             label="Rexroth",
         ),
     )
-}  # fmt: skip
+}
 
 #: The rules that give a drag of their own, not one that another of the list has, too.
 DRAG_RULES = ("jis", "rexroth", "hiwin")

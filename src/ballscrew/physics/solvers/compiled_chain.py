@@ -136,9 +136,7 @@ def compiled_loads(springs: BallSprings, displacement: Field, works: Field, *, s
     kernel, names, sums, spare = _load_kernel(len(springs.flanks), springs.constant_angle, swells, sources)
     found = {n: aligned_array(count + spare if n in sums else links * count, float) for n in names}
     whole = [np.ascontiguousarray(_whole(number, links, count)) for number in inputs]
-    kernel(
-        slice(0, links), slice(0, count), count, whole, list(found.values()), past_cache=False, tile=TILE
-    )  # fmt: skip
+    kernel(slice(0, links), slice(0, count), count, whole, list(found.values()), past_cache=False, tile=TILE)
     return CarriedLoads(**{n: held[:count] if n in sums else held.reshape(links, count) for n, held in found.items()})
 
 

@@ -30,11 +30,22 @@ FRICTION = Quantity("guide_friction", "N", Info("F_g", "friction of the guides a
 LOAD = Quantity("largest_load", "N", Info("F_max", "largest size of the axial load", "kN"))
 SPEED = Quantity("largest_speed", "rad/s", Info("n_max", "largest speed of the screw", "rpm"))
 #: What is known at each place.
-SERIES: Mapping[str, Quantity] = {
-    name: _KNOWN[name] for name in (
-        "position", "total", "nut", "shaft", "bearings", "mount", "torsion",
-    )
-} | {LOST_MOTION.name: LOST_MOTION} | {name: _KNOWN[name] for name in ("critical_speed", "buckling_load")}  # fmt: skip
+SERIES: Mapping[str, Quantity] = (
+    {
+        name: _KNOWN[name]
+        for name in (
+            "position",
+            "total",
+            "nut",
+            "shaft",
+            "bearings",
+            "mount",
+            "torsion",
+        )
+    }
+    | {LOST_MOTION.name: LOST_MOTION}
+    | {name: _KNOWN[name] for name in ("critical_speed", "buckling_load")}
+)
 #: The springs of the chain.
 SPRINGS = ("nut", "shaft", "bearings", "mount", "torsion")
 
@@ -135,9 +146,15 @@ class ChainReport:
             },
         )
         return units.record(
-            message, id="verdict.critical_speed", subject="critical_speed", value=self.largest_speed,
-            limit=share * critical, unit="rad/s", holds=holds, severity="info" if holds else "warning",
-        )  # fmt: skip
+            message,
+            id="verdict.critical_speed",
+            subject="critical_speed",
+            value=self.largest_speed,
+            limit=share * critical,
+            unit="rad/s",
+            holds=holds,
+            severity="info" if holds else "warning",
+        )
 
     def _load_record(self) -> Record:
         at, safety = self.least_buckling_load, float(self.case.limits.buckling_safety)
@@ -155,9 +172,15 @@ class ChainReport:
             },
         )
         return units.record(
-            message, id="verdict.buckling", subject="buckling_load", value=self.largest_load,
-            limit=buckling / safety, unit="N", holds=holds, severity="info" if holds else "warning",
-        )  # fmt: skip
+            message,
+            id="verdict.buckling",
+            subject="buckling_load",
+            value=self.largest_load,
+            limit=buckling / safety,
+            unit="N",
+            holds=holds,
+            severity="info" if holds else "warning",
+        )
 
     def _place(self, at: int) -> Measured:
         return Measured(float(self.chain.position[at]), SERIES["position"])

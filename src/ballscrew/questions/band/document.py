@@ -162,10 +162,16 @@ def _full_bath(report: BandReport) -> list[Record]:
         )
     return [
         units.record(
-            message, id="band.flooded", subject=_TORQUE, severity="warning", holds=flooded <= high,
-            value=flooded, limit=high, unit=_KNOWN.unit,
+            message,
+            id="band.flooded",
+            subject=_TORQUE,
+            severity="warning",
+            holds=flooded <= high,
+            value=flooded,
+            limit=high,
+            unit=_KNOWN.unit,
         )
-    ]  # fmt: skip
+    ]
 
 
 def _rules(case: Case, report: BandReport) -> list[Record]:
@@ -189,10 +195,14 @@ def _rules(case: Case, report: BandReport) -> list[Record]:
         )
         found.append(
             units.record(
-                message, id=f"band.rule_{one.rule.name}", subject="preload_drag", holds=within, value=torque,
+                message,
+                id=f"band.rule_{one.rule.name}",
+                subject="preload_drag",
+                holds=within,
+                value=torque,
                 unit=_KNOWN.unit,
             )
-        )  # fmt: skip
+        )
     return found
 
 

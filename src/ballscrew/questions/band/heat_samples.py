@@ -76,8 +76,9 @@ def heat_samples(heating: SelfHeating, *, only_given: bool = False) -> HeatSampl
     held = np.maximum(np.array([end.preload for end in known]), 1e-6 * network.preload_set)
     name = next((name for name in ("preload", "nut.preload") if name in every), "preload")
     spread = float(np.exp(np.std(np.log(held))))
-    inputs[name] = Uncertain(LogNormal(float(np.median(held)), max(spread, 1 + 1e-9)), JUDGEMENT, False,
-                             _range(held, _PRELOAD), _REASON)  # fmt: skip
+    inputs[name] = Uncertain(
+        LogNormal(float(np.median(held)), max(spread, 1 + 1e-9)), JUDGEMENT, False, _range(held, _PRELOAD), _REASON
+    )
     return HeatSamples(JointSamples((TEMPERATURE.name, name), np.stack([oil, held])), inputs)
 
 

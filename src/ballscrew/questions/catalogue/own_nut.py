@@ -42,10 +42,13 @@ def _estimate(one: Estimate) -> dict[str, Any]:
 def text(found: OwnNut) -> str:
     """What was estimated, one line each, and what does not go together."""
     rows = [
-        (one.name.replace("_", " "), *(units.shown(value, one.quantity, digits=4) for value in _values(one)),
-         units.filled(one.source))
+        (
+            one.name.replace("_", " "),
+            *(units.shown(value, one.quantity, digits=4) for value in _values(one)),
+            units.filled(one.source),
+        )
         for one in found.estimates
-    ]  # fmt: skip
+    ]
     lines = aligned([_COLUMNS, *rows], (0, len(_COLUMNS) - 1))
     return "\n".join([*lines, *(f"warning: {line}" for line in warnings(found))])
 

@@ -27,9 +27,14 @@ def _cells(row: CatalogueRow) -> list[str]:
     numbers = [
         _number(row, name)
         for name in (
-            "ball_diameter", "turns", "balls_per_turn", "loaded_balls", "dynamic_load_rating", "static_load_rating",
+            "ball_diameter",
+            "turns",
+            "balls_per_turn",
+            "loaded_balls",
+            "dynamic_load_rating",
+            "static_load_rating",
         )
-    ]  # fmt: skip
+    ]
     return [row.name, size, *numbers, row.source]
 
 

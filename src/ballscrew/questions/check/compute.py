@@ -289,9 +289,13 @@ def checked(name: str, case: Case, notes: Sequence[str] = (), known: Run | None 
     computed = _computed(case)
     rated, stand_ins = _rated(case, computed)
     found = _judged(
-        case, _of_known_preload(run.case.screw.nut, run.nut.preload), rated, float(run.nut.loads.remaining_preload),
-        run.nut.maximum_pressure, stand_ins,
-    )  # fmt: skip
+        case,
+        _of_known_preload(run.case.screw.nut, run.nut.preload),
+        rated,
+        float(run.nut.loads.remaining_preload),
+        run.nut.maximum_pressure,
+        stand_ins,
+    )
     of_ratings = [f"{name.replace('_', ' ')} computed from the geometry: none is listed" for name in stand_ins]
     of_rigidity = [f"rigidity: {text}" for text in run.nut.rigidity.assumed]
     of_life = ["life: by the loads of both flanks in the model; a duty has those of ISO 3408-5"] * (run.nut.preload > 0)

@@ -95,10 +95,17 @@ def _rules(case: case_file.Case, balls: OfBalls) -> list[ComparedRule]:
         friction, idle = float(found.screw_torque), float(found.drag_torque)
         rows.append(
             ComparedRule(
-                rule.name, rule.title, rule.formula, rule.source, friction, _change(friction, balls.screw_torque),
-                found.efficiency(subject.ideal_torque), idle, _change(idle, balls.drag_torque),
+                rule.name,
+                rule.title,
+                rule.formula,
+                rule.source,
+                friction,
+                _change(friction, balls.screw_torque),
+                found.efficiency(subject.ideal_torque),
+                idle,
+                _change(idle, balls.drag_torque),
             )
-        )  # fmt: skip
+        )
     return rows
 
 

@@ -57,20 +57,32 @@ def of_files(
     else:
         tests = [
             reading.read(
-                path, options.columns, torque_constant=options.torque_constant, lead=float(case.screw.lead),
-                keep_going=options.keep_going, done=done,
+                path,
+                options.columns,
+                torque_constant=options.torque_constant,
+                lead=float(case.screw.lead),
+                keep_going=options.keep_going,
+                done=done,
             )
             for path in paths
-        ]  # fmt: skip
+        ]
         speed = None
     try:
         found = condition(
-            case.model, case.screw, case.lubricant, tests,
-            screw_speed=speed, baseline=options.baseline, false_alarms=options.false_alarms,
-            tolerance=options.tolerance, reference_temperature=options.reference_temperature,
-            distributions=distributions(case), joint=joint_of(case, all_of(case)), kind=options.kind,
+            case.model,
+            case.screw,
+            case.lubricant,
+            tests,
+            screw_speed=speed,
+            baseline=options.baseline,
+            false_alarms=options.false_alarms,
+            tolerance=options.tolerance,
+            reference_temperature=options.reference_temperature,
+            distributions=distributions(case),
+            joint=joint_of(case, all_of(case)),
+            kind=options.kind,
             inertia=options.inertia,
-        )  # fmt: skip
+        )
     except InputError as error:
         raise InputError(*(_with_option(fault) for fault in error.faults)) from None
     records = (*units.in_display_units_of(found.warning_records), *case.implausible())

@@ -18,17 +18,24 @@ class ConditionOptions:
     speed: Annotated[
         float | None,
         Option(
-            'Screw speed of the tests of a table without speeds: "100 rpm".', metavar="VALUE",
-            unit="rad/s", shown_in="rpm", above=0, hint="check the number and its unit",
+            'Screw speed of the tests of a table without speeds: "100 rpm".',
+            metavar="VALUE",
+            unit="rad/s",
+            shown_in="rpm",
+            above=0,
+            hint="check the number and its unit",
         ),
-    ] = None  # fmt: skip
+    ] = None
     reference_temperature: Annotated[
         float | None,
         Option(
-            'Temperature to reduce the torques to: "20 degC"; else the first.', metavar="VALUE",
-            flag="at", unit="K", shown_in="degC",
+            'Temperature to reduce the torques to: "20 degC"; else the first.',
+            metavar="VALUE",
+            flag="at",
+            unit="K",
+            shown_in="degC",
         ),
-    ] = None  # fmt: skip
+    ] = None
     baseline: Annotated[int, Option("Number of first tests that count as healthy.", metavar="TESTS")] = 5
     tolerance: Annotated[float, Option("Share of the preload that may be lost.", metavar="SHARE")] = 0.1
     false_alarms: Annotated[float, Option("Share of healthy tests that may give an alarm.", metavar="SHARE")] = 0.002

@@ -499,10 +499,16 @@ NUMBERS: Mapping[str, Quantity] = quantities_of(CycleNumbers)
 OF_BATH: Mapping[str, Quantity] = {
     name: quantities_of(BathNumbers)[name]
     for name in (
-        "torque_peak", "torque_rms", "power_peak", "power_returned_peak", "energy_drawn", "energy_returned",
-        "energy_lost", "screw_torque",
+        "torque_peak",
+        "torque_rms",
+        "power_peak",
+        "power_returned_peak",
+        "energy_drawn",
+        "energy_returned",
+        "energy_lost",
+        "screw_torque",
     )
-}  # fmt: skip
+}
 
 
 #: Energies that are zero in most cycles, and shown only where they are not.

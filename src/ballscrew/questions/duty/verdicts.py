@@ -72,10 +72,14 @@ def inertia(report: DutyReport) -> list[Record]:
             message = Message("{counted}; not given: {missing}", {"counted": message, "missing": missing})
     return [
         units.record(
-            message, id="verdict.inertia", subject="inertia", severity="info", value=axis.turning_inertia,
+            message,
+            id="verdict.inertia",
+            subject="inertia",
+            severity="info",
+            value=axis.turning_inertia,
             unit=_INERTIA.unit,
         )
-    ]  # fmt: skip
+    ]
 
 
 def _part(report: DutyReport, name: str) -> Message:
@@ -129,9 +133,14 @@ def _brake(report: DutyReport) -> Record:
     if brake.load_torque and report.duty.starved:
         message = Message("{brake}; with the smaller friction, that of the track starved of oil", {"brake": message})
     return units.record(
-        message, id="verdict.brake", subject="brake", severity="warning" if brake.falls else "info",
-        holds=not brake.falls, value=brake.holding_torque, unit="N m",
-    )  # fmt: skip
+        message,
+        id="verdict.brake",
+        subject="brake",
+        severity="warning" if brake.falls else "info",
+        holds=not brake.falls,
+        value=brake.holding_torque,
+        unit="N m",
+    )
 
 
 def _way(report: DutyReport) -> Message:
@@ -200,9 +209,15 @@ def _warning(
     name: str, subject: str, message: Message, value: float, limit: float | None, quantity: Quantity
 ) -> Record:
     return units.record(
-        message, id=f"duty.{name}", subject=subject, severity="warning", holds=False, value=value, limit=limit,
+        message,
+        id=f"duty.{name}",
+        subject=subject,
+        severity="warning",
+        holds=False,
+        value=value,
+        limit=limit,
         unit=quantity.unit,
-    )  # fmt: skip
+    )
 
 
 def inertia_warnings(report: DutyReport) -> list[Record]:
@@ -314,10 +329,15 @@ def _short_reversal(report: DutyReport) -> list[Record]:
     )
     return [
         units.record(
-            message, id="duty.short_reversal", subject="stroke", severity="info", value=found.stroke, limit=found.back,
+            message,
+            id="duty.short_reversal",
+            subject="stroke",
+            severity="info",
+            value=found.stroke,
+            limit=found.back,
             unit=TRAVEL.unit,
         )
-    ]  # fmt: skip
+    ]
 
 
 def _too_fast(report: DutyReport) -> list[Record]:
@@ -405,10 +425,15 @@ def _validity(report: DutyReport) -> list[Record]:
         message = _PART_OF_TIME.of(condition=condition.message, share=Measured(share, digits=2))
         found.append(
             units.record(
-                message, id=f"validity.{name}", subject=condition.subject, severity="warning", holds=False,
-                value=share, limit=0.0,
+                message,
+                id=f"validity.{name}",
+                subject=condition.subject,
+                severity="warning",
+                holds=False,
+                value=share,
+                limit=0.0,
             )
-        )  # fmt: skip
+        )
     return found
 
 
@@ -429,8 +454,12 @@ def _validity_of_elements(report: DutyReport) -> list[Record]:
                 found.append(
                     units.record(
                         Message("{element}: {condition}", {"element": Message(element), "condition": of_time}),
-                        id=f"validity.{name}", subject=element.replace(" ", "_"), severity="warning", holds=False,
-                        value=share, limit=0.0,
+                        id=f"validity.{name}",
+                        subject=element.replace(" ", "_"),
+                        severity="warning",
+                        holds=False,
+                        value=share,
+                        limit=0.0,
                     )
-                )  # fmt: skip
+                )
     return found

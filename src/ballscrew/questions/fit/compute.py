@@ -76,11 +76,21 @@ def fit(case: Case, log: TorqueLog, options: FitOptions, done: Callable[[int, in
 
     def refit(free: Sequence[str]) -> CalibratedModel:
         return fitted(
-            case.model, case.screw, case.lubricant, log, free, priors=priors, bounds=options.bounds,
-            kind=options.kind, inertia=options.inertia, holdout=options.holdout,
-            temperature_error=_temperature_error(case, log, options), dynamic_load_rating=_rating(case),
-            seed=options.seed, done=done,
-        )  # fmt: skip
+            case.model,
+            case.screw,
+            case.lubricant,
+            log,
+            free,
+            priors=priors,
+            bounds=options.bounds,
+            kind=options.kind,
+            inertia=options.inertia,
+            holdout=options.holdout,
+            temperature_error=_temperature_error(case, log, options),
+            dynamic_load_rating=_rating(case),
+            seed=options.seed,
+            done=done,
+        )
 
     priors = {
         name: case.uncertain[full]
@@ -106,10 +116,13 @@ def fit(case: Case, log: TorqueLog, options: FitOptions, done: Callable[[int, in
         warnings += [
             units.record(
                 Message("no next test: {fault}", {"fault": _with_option(fault).message}),
-                id="fit.no_next_test", subject="next_test", severity="warning", holds=False,
+                id="fit.no_next_test",
+                subject="next_test",
+                severity="warning",
+                holds=False,
             )
             for fault in error.faults
-        ]  # fmt: skip
+        ]
     verdicts = units.in_display_units_of(model.verdict_records)
     judged = dataclasses.replace(model, verdict_records=tuple(verdicts), warning_records=tuple(warnings))
     return FitReport(judged, test, log)

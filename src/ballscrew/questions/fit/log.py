@@ -44,7 +44,11 @@ def steady_log(
     used.
     """
     log = reading.read(
-        path, options.columns, torque_constant=options.torque_constant, lead=float(case.screw.lead),
-        keep_going=options.keep_going, done=done,
-    )  # fmt: skip
+        path,
+        options.columns,
+        torque_constant=options.torque_constant,
+        lead=float(case.screw.lead),
+        keep_going=options.keep_going,
+        done=done,
+    )
     return log.cleaned(inertia=options.inertia)

@@ -43,9 +43,12 @@ class FitOptions:
         Option(
             'Uncertainty of the oil temperature of the whole log, half the width of its 95 % interval, such as "2 K"; '
             "if left out, 2 K where it is logged, else 10 K.",
-            metavar="VALUE", unit="K", at_least=0, is_difference=True,
+            metavar="VALUE",
+            unit="K",
+            at_least=0,
+            is_difference=True,
         ),
-    ] = None  # fmt: skip
+    ] = None
     seed: Annotated[int, Option("Seed of the choice of held-out operating points.", metavar="N")] = 0
     keep_going: Annotated[
         bool, Option("Leave faulty rows out, and say how many; write a fit that is warned against.")

@@ -19,9 +19,16 @@ def fit(case: Case, log: MovingLog, test: MovingLog | None, options: FitMotionOp
     """Fit of a case to a moving log. Raises ``InputError`` that names options of the command line."""
     try:
         found = fit_motion(
-            case.model, case.screw, case.lubricant, log, options.free or None,
-            carried_mass=options.carried_mass, test=test, keep_going=options.keep_going, seed=options.seed,
-        )  # fmt: skip
+            case.model,
+            case.screw,
+            case.lubricant,
+            log,
+            options.free or None,
+            carried_mass=options.carried_mass,
+            test=test,
+            keep_going=options.keep_going,
+            seed=options.seed,
+        )
     except InputError as error:
         faults = (dataclasses.replace(one, where=_FLAGS.get(one.where, one.where)) for one in error.faults)
         raise InputError(*faults) from None

@@ -34,10 +34,13 @@ def document(case: Case, found: MotionFit) -> dict[str, Any]:
         "rows": _rows(found),
         "inputs": case_file.inputs(case),
         "provenance": {
-            **provenance.of_case(case), "log": name, "sha256": digest, "settings": settings,
+            **provenance.of_case(case),
+            "log": name,
+            "sha256": digest,
+            "settings": settings,
             "references": list(dict.fromkeys([*provenance.references(case), *own])),
         },
-    }  # fmt: skip
+    }
 
 
 def _estimate(estimate: MotionEstimate) -> dict[str, Any]:

@@ -27,6 +27,11 @@ def moving_log(case: Case, path: Path, options: FitMotionOptions, usual_gain: fl
     Raises :class:`~ballscrew.basis.errors.InputError` for a log that cannot be used.
     """
     return reading.read_moving(
-        path, options.columns, lead=float(case.screw.lead), torque_constant=options.torque_constant,
-        gain=options.gain, usual_gain=usual_gain, keep_going=options.keep_going,
-    )  # fmt: skip
+        path,
+        options.columns,
+        lead=float(case.screw.lead),
+        torque_constant=options.torque_constant,
+        gain=options.gain,
+        usual_gain=usual_gain,
+        keep_going=options.keep_going,
+    )

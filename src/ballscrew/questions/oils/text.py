@@ -29,17 +29,27 @@ def _cells(sheet: DataSheet) -> list[str]:
 
     lowest = "lowest_temperature" if sheet.lowest_temperature is not None else "pour_point"
     return [
-        sheet.name, number("kinematic_viscosity_40"), number("kinematic_viscosity_100"), f"{sheet.viscosity_index:.0f}",
-        number("density_15"), number(lowest), number("highest_temperature"), sheet.thickener or "-", sheet.source,
-    ]  # fmt: skip
+        sheet.name,
+        number("kinematic_viscosity_40"),
+        number("kinematic_viscosity_100"),
+        f"{sheet.viscosity_index:.0f}",
+        number("density_15"),
+        number(lowest),
+        number("highest_temperature"),
+        sheet.thickener or "-",
+        sheet.source,
+    ]
 
 
 def show_text(sheet: DataSheet) -> str:
     """What a data sheet states, and the oil over the temperature, where it may be computed."""
     lines = [f"{sheet.name} ({sheet.source})", ""]
     if sheet.is_grease:
-        lines += [f"  grease: {sheet.base_oil or 'base oil'}, {sheet.thickener}, NLGI {sheet.nlgi or '-'}",
-                  "  the viscosities are those of the base oil", ""]  # fmt: skip
+        lines += [
+            f"  grease: {sheet.base_oil or 'base oil'}, {sheet.thickener}, NLGI {sheet.nlgi or '-'}",
+            "  the viscosities are those of the base oil",
+            "",
+        ]
     for name, quantity in _FIELDS.items():
         value = getattr(sheet, name)
         if value is not None:

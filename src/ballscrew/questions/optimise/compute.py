@@ -186,17 +186,27 @@ def optimise(
     own = space.options
     told = done or _untold
     found = search(
-        ready.costs, space.lower, space.upper, population=int(own.population), generations=int(own.generations),
-        seed=int(own.seed), done=lambda finished: told(finished, planned.total),
-    )  # fmt: skip
+        ready.costs,
+        space.lower,
+        space.upper,
+        population=int(own.population),
+        generations=int(own.generations),
+        seed=int(own.seed),
+        done=lambda finished: told(finished, planned.total),
+    )
     elastic = ready.elastic
     evaluations = found.evaluations
     if elastic is not None and own.elastic_generations:
         found = search(
-            elastic.costs, space.lower, space.upper, population=int(own.population),
-            generations=int(own.elastic_generations), seed=int(own.seed), start=found.population,
+            elastic.costs,
+            space.lower,
+            space.upper,
+            population=int(own.population),
+            generations=int(own.elastic_generations),
+            seed=int(own.seed),
+            start=found.population,
             done=lambda finished: told(planned.rigid + finished, planned.total),
-        )  # fmt: skip
+        )
         evaluations += found.evaluations
     places = spread(found.costs, int(own.members))
     made: list[Member] = []
@@ -207,9 +217,14 @@ def optimise(
     if len(asked.oils) > 1:
         notes.append(f"oil {case.oil.get('grade', 'of the first table')}: the first of {len(asked.oils)}")
     return Optimisation(
-        asked, space, _marked(made, space.objectives), evaluations, found,
-        (ready.friction.engine, ready.friction.engine_reason), notes,
-    )  # fmt: skip
+        asked,
+        space,
+        _marked(made, space.objectives),
+        evaluations,
+        found,
+        (ready.friction.engine, ready.friction.engine_reason),
+        notes,
+    )
 
 
 def plan(

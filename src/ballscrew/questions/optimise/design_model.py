@@ -138,10 +138,14 @@ class DesignModel:
         """Demand over capacity of all checks and requirements, by name, at the central inputs."""
         required, case = self.requirements, self.case
         found = designs.utilisations(
-            axial_load=float(case.operation.axial_load), screw_speed=speed, left=at["remaining_preload"],
-            pressure=at["maximum_pressure"], young_modulus=case.screw.screw_material.young_modulus,
-            installation=case.installation, limits=case.limits,
-        )  # fmt: skip
+            axial_load=float(case.operation.axial_load),
+            screw_speed=speed,
+            left=at["remaining_preload"],
+            pressure=at["maximum_pressure"],
+            young_modulus=case.screw.screw_material.young_modulus,
+            installation=case.installation,
+            limits=case.limits,
+        )
         if self.space.nut in PRELOADED:
             found["preload"] = preload_used(
                 designs.preload, at["remaining_preload"], float(case.operation.axial_load), at["lift_off_load"]
@@ -195,9 +199,14 @@ class DesignModel:
             balls, here = int(number), given["loaded_balls"] == number
             if balls not in kept:
                 kept[balls] = evaluator(
-                    case.model, case.screw, case.lubricant, inputs=names, outputs=outputs,
-                    engine=self.engine, loaded_balls=balls,
-                )  # fmt: skip
+                    case.model,
+                    case.screw,
+                    case.lubricant,
+                    inputs=names,
+                    outputs=outputs,
+                    engine=self.engine,
+                    loaded_balls=balls,
+                )
             of_these = kept[balls](*(given[name][here] for name in names))
             for name, values in of_these.items():
                 found[name][here] = values
@@ -211,9 +220,14 @@ class DesignModel:
         """Basic rating life L10h."""
         limits = dataclasses.replace(self.case.limits, running_time=1.0)
         used = designs.utilisations(
-            axial_load=float(self.case.operation.axial_load), screw_speed=speed, left=at["remaining_preload"],
-            pressure=at["maximum_pressure"], young_modulus=1.0, installation=None, limits=limits,
-        )  # fmt: skip
+            axial_load=float(self.case.operation.axial_load),
+            screw_speed=speed,
+            left=at["remaining_preload"],
+            pressure=at["maximum_pressure"],
+            young_modulus=1.0,
+            installation=None,
+            limits=limits,
+        )
         with np.errstate(divide="ignore"):
             return 1 / used["running_time"]
 

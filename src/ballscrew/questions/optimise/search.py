@@ -96,9 +96,11 @@ def _pymoo() -> _Pymoo:
         found = [
             getattr(importlib.import_module(f"pymoo.{module}"), name)
             for module, name in (
-                ("core.problem", "Problem"), ("algorithms.moo.nsga2", "NSGA2"), ("optimize", "minimize"),
+                ("core.problem", "Problem"),
+                ("algorithms.moo.nsga2", "NSGA2"),
+                ("optimize", "minimize"),
             )
-        ]  # fmt: skip
+        ]
     except ImportError:
         raise InputError(Fault("optimise", "needs pymoo", "", 'pip install "ballscrew[optimise]"')) from None
     return _Pymoo(*found)

@@ -160,10 +160,14 @@ class ReversalReport:
             )
             found.append(
                 units.record(
-                    text, id="reversal.bristles", subject="bristles_over_model", severity="warning", value=ratio,
+                    text,
+                    id="reversal.bristles",
+                    subject="bristles_over_model",
+                    severity="warning",
+                    value=ratio,
                     limit=BRISTLES_OFF,
                 )
-            )  # fmt: skip
+            )
         ratios = [loop.work_ratio for fit in self.elements for loop in fit.loops]
         if ratios:
             loops = (self.curve.loops[0], self.curve.loops[-1])
@@ -196,13 +200,24 @@ def reversal(case: Case, options: ReversalOptions) -> ReversalReport:
         remedy = 'give the speed that it turns with: --set operation.screw_speed="10 rpm"'
         raise InputError(Fault("operation.screw_speed", "must not be zero", "0 rpm", remedy))
     found = moving_balls.reversal(
-        case.model, case.screw, case.lubricant, axial_load=case.operation.axial_load, screw_speed=speed,
-        travel=options.travel, from_rest=options.from_rest, gap=options.gap,
-    )  # fmt: skip
-    loops = moving_balls.loops(
-        case.model, case.screw, case.lubricant, found, axial_load=case.operation.axial_load, screw_speed=speed,
+        case.model,
+        case.screw,
+        case.lubricant,
+        axial_load=case.operation.axial_load,
+        screw_speed=speed,
+        travel=options.travel,
+        from_rest=options.from_rest,
         gap=options.gap,
-    )  # fmt: skip
+    )
+    loops = moving_balls.loops(
+        case.model,
+        case.screw,
+        case.lubricant,
+        found,
+        axial_load=case.operation.axial_load,
+        screw_speed=speed,
+        gap=options.gap,
+    )
     return of(case, found, options, loops)
 
 

@@ -16,18 +16,22 @@ class ReversalOptions:
     travel: Annotated[
         float | None,
         Option(
-            'How far the nut travels: "1 mm"; as far as the friction needs if left out.', metavar="LENGTH",
-            unit="m", shown_in="mm", above=0,
+            'How far the nut travels: "1 mm"; as far as the friction needs if left out.',
+            metavar="LENGTH",
+            unit="m",
+            shown_in="mm",
+            above=0,
         ),
-    ] = None  # fmt: skip
+    ] = None
     inertia: Annotated[
         float | None,
         Option(
             'Inertia of all that turns with the screw: "2e-3 kg m^2"; LuGre has no damping without it.',
             metavar="VALUE",
-            unit="kg m^2", above=0,
+            unit="kg m^2",
+            above=0,
         ),
-    ] = None  # fmt: skip
+    ] = None
     gap: Annotated[
         float,
         Option(

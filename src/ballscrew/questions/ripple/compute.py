@@ -110,9 +110,12 @@ class RippleReport:
             "({name}), {amplitude}"
         )
         message = message.of(
-            range=_torque(found.peak_to_peak), share=units.percent(found.relative),
-            order=f"{most.order:.3g}", name=Message(most.name), amplitude=_torque(most.amplitude),
-        )  # fmt: skip
+            range=_torque(found.peak_to_peak),
+            share=units.percent(found.relative),
+            order=f"{most.order:.3g}",
+            name=Message(most.name),
+            amplitude=_torque(most.amplitude),
+        )
         return units.record(message, id="ripple.size", subject="peak_to_peak", value=found.peak_to_peak, unit="N m")
 
     def _fault(self, name: str, found: Ripple) -> Record:

@@ -31,10 +31,13 @@ class RippleOptions:
         float | None,
         Option(
             'Deviation of nut groove against screw groove, root mean square; "1 um" if left out, an assumption.',
-            metavar="LENGTH", unit="m",
-            shown_in="um", at_least=0, hint="grooves have 0.5 um to 2 um",
+            metavar="LENGTH",
+            unit="m",
+            shown_in="um",
+            at_least=0,
+            hint="grooves have 0.5 um to 2 um",
         ),
-    ] = None  # fmt: skip
+    ] = None
     circuits: Annotated[
         int | None, Option("Circuits of each half; one if left out, an assumption.", metavar="NUMBER")
     ] = None

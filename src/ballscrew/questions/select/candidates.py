@@ -272,9 +272,14 @@ def _nut(table: Mapping[str, Any], variant: Variant) -> dict[str, Any]:
 def case_of(need: Need, variant: Variant, *, model: str | None, calibration: str | None, allow_code: bool) -> Case:
     """The case of a variant. Raises :class:`~ballscrew.basis.errors.InputError` with all faults in it."""
     return case_file.build(
-        tables_of(need, variant), model, need.folder, {variant.row.name: variant.row},
-        calibration=calibration, allow_code=allow_code, moves=need.moves,
-    )  # fmt: skip
+        tables_of(need, variant),
+        model,
+        need.folder,
+        {variant.row.name: variant.row},
+        calibration=calibration,
+        allow_code=allow_code,
+        moves=need.moves,
+    )
 
 
 def by_loads(need: Need, variant: Variant, case: Case) -> Candidate:

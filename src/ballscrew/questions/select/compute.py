@@ -180,9 +180,13 @@ def select(
         asked = asked.with_note(filled_text("unsupported length: {words}", words=Message(LENGTH_OF_STROKE)))
     candidates = list(found.found.values())
     return Selection(
-        asked, ready.objectives, ranked(candidates, ready.objectives), [*ready.notes, *found.notes], found.interrupted,
+        asked,
+        ready.objectives,
+        ranked(candidates, ready.objectives),
+        [*ready.notes, *found.notes],
+        found.interrupted,
         model,
-    )  # fmt: skip
+    )
 
 
 def plan(

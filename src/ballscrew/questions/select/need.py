@@ -296,13 +296,25 @@ def _need(tables: dict[str, Any], folder: Path, name: str, faults: list[Fault], 
                 "grade {grade} of ISO 3408-3 is not judged: no row lists its grades; ask the maker",
                 grade=required.accuracy,
             )
-        )  # fmt: skip
+        )
     if objectives is None and prices:
         names = (*names, "price_index")
     return Need(
-        tables, required, nuts, preloads, oils, names, rows, prices, optimise, folder, tuple(notes), name, by_stroke,
+        tables,
+        required,
+        nuts,
+        preloads,
+        oils,
+        names,
+        rows,
+        prices,
+        optimise,
+        folder,
+        tuple(notes),
+        name,
+        by_stroke,
         tuple(assumed_oil),
-    )  # fmt: skip
+    )
 
 
 def need_section() -> Any:
@@ -310,9 +322,13 @@ def need_section() -> Any:
     words = Annotated[str, Field(description="whether the load may, must (needed) or must not (forbidden) turn it")]
     grade = Annotated[str, Field(description="grade of ISO 3408-3: echoed, as no row lists its grades")]
     return section_of(
-        "Need", fields_of(Requirements), Requirements, required=False,
-        back_driving=(words, ALLOWED), accuracy=(grade, ""),
-    )  # fmt: skip
+        "Need",
+        fields_of(Requirements),
+        Requirements,
+        required=False,
+        back_driving=(words, ALLOWED),
+        accuracy=(grade, ""),
+    )
 
 
 def _section(tables: Mapping[str, Any], name: str, faults: list[Fault]) -> dict[str, Any]:
@@ -415,7 +431,7 @@ def _installation(tables: dict[str, Any], required: Requirements, notes: list[st
                 "inertia: that of a shaft of {length}, to compare diameters; no length was given",
                 length=units.in_unit(USUAL_LENGTH, "m"),
             )
-        )  # fmt: skip
+        )
     if required.stroke is None or (isinstance(table, dict) and "unsupported_length" in table):
         return False
     if isinstance(table, dict) and "ends" in table:

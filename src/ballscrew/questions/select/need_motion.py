@@ -53,7 +53,7 @@ def with_motion(tables: dict[str, Any], faults: list[Fault]) -> list[str]:
     return [
         *([] if "dwell" in motion else [_WITHOUT_RESTS]),
         *([] if "inclination" in axis else [_HORIZONTAL]),
-    ]  # fmt: skip
+    ]
 
 
 def _at(tables: Mapping[str, Any], place: str) -> Any:

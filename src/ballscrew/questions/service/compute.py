@@ -81,23 +81,35 @@ def of_logs(
     """The change between the logs of two files, or from the case to that of one."""
     logs: list[TorqueLog | None] = [
         reading.read(
-            path, options.columns, torque_constant=options.torque_constant, lead=float(case.screw.lead),
-            keep_going=options.keep_going, done=done,
+            path,
+            options.columns,
+            torque_constant=options.torque_constant,
+            lead=float(case.screw.lead),
+            keep_going=options.keep_going,
+            done=done,
         )
         for path in paths
-    ]  # fmt: skip
+    ]
     if len(logs) == 1:
         logs.insert(0, None)
     new, worn = logs
     uncertain = distributions(case)
     try:
         change = preload_change(
-            case.model, case.screw, case.lubricant, new, worn,
+            case.model,
+            case.screw,
+            case.lubricant,
+            new,
+            worn,
             free=[PRELOAD, *(name for name in options.free if name not in (PRELOAD, "preload"))],
-            distributions=uncertain, joint=joint_of(case, all_of(case)), tolerance=options.tolerance,
-            kind=options.kind, inertia=options.inertia,
-            dynamic_load_rating=case.listed.get("dynamic_load_rating"), done=done,
-        )  # fmt: skip
+            distributions=uncertain,
+            joint=joint_of(case, all_of(case)),
+            tolerance=options.tolerance,
+            kind=options.kind,
+            inertia=options.inertia,
+            dynamic_load_rating=case.listed.get("dynamic_load_rating"),
+            done=done,
+        )
     except InputError as error:
         raise InputError(*(_with_option(fault) for fault in error.faults)) from None
     records = tuple(units.in_display_units_of(change.warning_records))
@@ -108,11 +120,16 @@ def of_torque(case: Case, measured: Reading) -> ServiceReport:
     """The preload of a torque without load."""
     try:
         found = preload_of_torque(
-            case.model, case.screw, case.lubricant,
-            torque=measured.torque, screw_speed=measured.screw_speed, temperature=measured.temperature,
-            torque_deviation=measured.torque_deviation, distributions=distributions(case),
+            case.model,
+            case.screw,
+            case.lubricant,
+            torque=measured.torque,
+            screw_speed=measured.screw_speed,
+            temperature=measured.temperature,
+            torque_deviation=measured.torque_deviation,
+            distributions=distributions(case),
             joint=joint_of(case, all_of(case)),
-        )  # fmt: skip
+        )
     except InputError as error:
         raise InputError(*(_with_option(fault) for fault in error.faults)) from None
     return ServiceReport(

@@ -30,7 +30,7 @@ Range = tuple[float, float]
 #: - ``ranges`` (``Mapping[str, Range]``): ``low:high unit`` for each name
 Kind: TypeAlias = Literal[
     "switch", "whole", "number", "quantity", "quantities", "choice", "text", "names", "texts", "ranges"
-]  # fmt: skip
+]
 _SIMPLE: Mapping[Any, Kind] = {bool: "switch", int: "whole", float: "number", str: "text"}
 _WRITTEN: Mapping[Kind, Any] = {
     "switch": bool, "whole": int, "number": float, "quantity": str, "quantities": list[str], "choice": str, "text": str,

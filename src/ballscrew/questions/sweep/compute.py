@@ -444,9 +444,15 @@ def sweep(
     # what is only looked at may be quicker; balls that differ count how often they are asked for
     few = math.prod(len(values) for values in plan.axes.values()) <= FEW_POINTS and not case.screw.nut.one_by_one
     dataset = sweeps.sweep(
-        case.model, case.screw, case.lubricant, outputs=tuple(names),
-        engine="model" if few else None, done=done, **varied, **fixed,
-    )  # fmt: skip
+        case.model,
+        case.screw,
+        case.lubricant,
+        outputs=tuple(names),
+        engine="model" if few else None,
+        done=done,
+        **varied,
+        **fixed,
+    )
     dataset.attrs |= oil
     return dataset
 

@@ -98,10 +98,15 @@ def checks(entry: Entry) -> list[Record]:
     message = Message("{share} of the rows lie in their band", {"share": units.percent(share)})
     return [
         units.record(
-            message, id="validation.share_in_band", subject=entry.data.name,
-            severity="info" if share == 1 else "warning", holds=share == 1, value=share, limit=1.0,
+            message,
+            id="validation.share_in_band",
+            subject=entry.data.name,
+            severity="info" if share == 1 else "warning",
+            holds=share == 1,
+            value=share,
+            limit=1.0,
         )
-    ]  # fmt: skip
+    ]
 
 
 def warnings(entry: Entry) -> list[Record]:
@@ -121,5 +126,10 @@ def warnings(entry: Entry) -> list[Record]:
 def _rows_record(name: str, subject: str, message: Message, rows: int) -> Record:
     return units.record(
         Message("{rows} rows: {message}", {"rows": units.fixed(rows), "message": message}),
-        id=f"validation.{name}", subject=subject, severity="warning", holds=False, value=float(rows), limit=0.0,
-    )  # fmt: skip
+        id=f"validation.{name}",
+        subject=subject,
+        severity="warning",
+        holds=False,
+        value=float(rows),
+        limit=0.0,
+    )

@@ -63,10 +63,17 @@ def band(
     together = () if joint is None else joint.names
     try:
         found = warm_up_band(
-            duty, surroundings, time=hours * HOUR, cool_down=cool_down * HOUR, shaft_length=length, joint=joint,
+            duty,
+            surroundings,
+            time=hours * HOUR,
+            cool_down=cool_down * HOUR,
+            shaft_length=length,
+            joint=joint,
             distributions={name: one.distribution for name, one in inputs.items() if name not in together},
-            samples=samples, level=0.95 if level is None else level, done=done,
-        )  # fmt: skip
+            samples=samples,
+            level=0.95 if level is None else level,
+            done=done,
+        )
     except InputError as error:
         raise InputError(*(dataclasses.replace(f, where=_option(f.where)) for f in error.faults)) from None
     return WarmUpBandReport(WarmUpReport(case, surroundings, found.warm_up, stroke), found, inputs)
@@ -83,11 +90,7 @@ def inputs_of(case: Case, network: Network, only_given: bool) -> Mapping[str, Un
         exact=case.exact | _OWN,
         uncertain={name: one for name, one in case.uncertain.items() if name not in _OWN},
     )
-    found = {
-        name: one
-        for name, one in uncertain_inputs.all_of(known, only_given).items()
-        if name not in _OWN
-    }  # fmt: skip
+    found = {name: one for name, one in uncertain_inputs.all_of(known, only_given).items() if name not in _OWN}
     quantities = fields_of(Surroundings)
     given = case.uncertain_surroundings
     for name, distribution in given.items():

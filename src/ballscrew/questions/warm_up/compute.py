@@ -34,7 +34,7 @@ from ballscrew.basis.quantities import (
     Torque,
     Unit,
     fields_of,
-)  # fmt: skip
+)
 from ballscrew.basis.records import Message
 from ballscrew.basis.units import filled_text
 from ballscrew.cases.case_files import case_file
@@ -196,9 +196,10 @@ def assumed_of(case: Case, given: Surroundings, network: Network, stroke: Length
         found.append(
             filled_text(
                 "bearings make {first} at the fixed end and {last} at the other, whatever they warm up to",
-                first=first, last=last,
+                first=first,
+                last=last,
             )
-        )  # fmt: skip
+        )
     else:
         found.append("no heat of the support bearings: their friction is not given ([bearings.fixed])")
     defaults = {field.name: field.default for field in dataclasses.fields(Surroundings)}
@@ -315,9 +316,14 @@ def duty_of(case: Case, surroundings: Surroundings) -> tuple[Duty, Length | None
     stroke = stroke_of(case, surroundings)
     point = case.operation
     duty = to_and_fro(
-        case.model, case.screw, case.lubricant, axial_load=float(point.axial_load),
-        screw_speed=float(point.screw_speed), stroke=stroke, also=also,
-    )  # fmt: skip
+        case.model,
+        case.screw,
+        case.lubricant,
+        axial_load=float(point.axial_load),
+        screw_speed=float(point.screw_speed),
+        stroke=stroke,
+        also=also,
+    )
     return duty, stroke
 
 

@@ -151,15 +151,22 @@ class SelfHeating:
         if end.network.preload_set:
             quantity = EQUILIBRIUM["preload"]
             message = _HEATED_WITH_PRELOAD.of(
-                **numbers, margin=end.shown_margin, preload=Measured(float(end.preload), quantity),
+                **numbers,
+                margin=end.shown_margin,
+                preload=Measured(float(end.preload), quantity),
                 before=Measured(float(end.network.preload_set), quantity),
-            )  # fmt: skip
+            )
         else:
             message = _HEATED.of(**numbers, margin=end.shown_margin)
         return units.record(
-            message, id="verdict.self_heating", subject="lubricant.temperature", severity="info", holds=True,
-            value=end.oil_temperature, unit="K",
-        )  # fmt: skip
+            message,
+            id="verdict.self_heating",
+            subject="lubricant.temperature",
+            severity="info",
+            holds=True,
+            value=end.oil_temperature,
+            unit="K",
+        )
 
 
 def self_heating(case: Case) -> SelfHeating:
@@ -183,9 +190,16 @@ def self_heating(case: Case) -> SelfHeating:
         flooded = equilibrium(dataclasses.replace(end.network, friction=friction_map(duty.flooded)))
         flooded_torque = float(_friction(_warm(case, flooded)).flooded_torque) if flooded.exists else math.nan
     return SelfHeating(
-        case, warm, end, flooded, float(given.screw_torque), float(found.screw_torque),
-        float(given.flooded_torque), flooded_torque, float(stroke or 0.0),
-    )  # fmt: skip
+        case,
+        warm,
+        end,
+        flooded,
+        float(given.screw_torque),
+        float(found.screw_torque),
+        float(given.flooded_torque),
+        flooded_torque,
+        float(stroke or 0.0),
+    )
 
 
 def _warm(case: Case, end: Equilibrium) -> Case:
@@ -215,9 +229,15 @@ def swept(
     surroundings, point = case.surroundings or Surroundings(), _point_of(case)
     stroke = stroke_of(point, surroundings)
     found, steady = warm_sweep.swept(
-        Configuration(case.model, case.screw, case.lubricant), surroundings, varied, stroke=stroke,
-        shaft_length=length_of(case, surroundings), outputs=outputs, done=done, also=bearings_of(point),
-    )  # fmt: skip
+        Configuration(case.model, case.screw, case.lubricant),
+        surroundings,
+        varied,
+        stroke=stroke,
+        shaft_length=length_of(case, surroundings),
+        outputs=outputs,
+        done=done,
+        also=bearings_of(point),
+    )
     network = steady.network
     assumed = [] if network is None else assumed_of(case, surroundings, network, stroke)
     return found.assign_attrs(assumed="\n".join(assumed))

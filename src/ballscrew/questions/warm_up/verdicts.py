@@ -41,9 +41,14 @@ def _starved(report: WarmUpReport) -> list[Record]:
         return said
     message = Message("in a full bath of oil there is no steady state: thermal runaway, or too hot for the model")
     record = units.record(
-        message, id="verdict.equilibrium_of_full_bath", subject="equilibrium", severity="error", holds=False,
-        value=ends.margin, limit=0.0,
-    )  # fmt: skip
+        message,
+        id="verdict.equilibrium_of_full_bath",
+        subject="equilibrium",
+        severity="error",
+        holds=False,
+        value=ends.margin,
+        limit=0.0,
+    )
     return [*said, record]
 
 
@@ -69,10 +74,15 @@ def _preload(report: WarmUpReport) -> list[Record]:
         )
     return [
         units.record(
-            message, id="verdict.preload", subject="preload", severity="warning" if lost else "info",
-            holds=not lost, value=farthest, unit="N",
+            message,
+            id="verdict.preload",
+            subject="preload",
+            severity="warning" if lost else "info",
+            holds=not lost,
+            value=farthest,
+            unit="N",
         )
-    ]  # fmt: skip
+    ]
 
 
 def _farthest(preload: Numbers) -> int:
@@ -136,10 +146,14 @@ def _assumed_length(report: WarmUpReport) -> list[Record]:
     )
     return [
         units.record(
-            message, id="warm_up.assumed_length", subject="surroundings.shaft_length", severity="warning",
-            value=float(length), unit="m",
+            message,
+            id="warm_up.assumed_length",
+            subject="surroundings.shaft_length",
+            severity="warning",
+            value=float(length),
+            unit="m",
         )
-    ]  # fmt: skip
+    ]
 
 
 def _own_temperatures(report: WarmUpReport) -> list[Record]:

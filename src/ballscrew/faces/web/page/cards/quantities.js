@@ -1,6 +1,5 @@
 // Quantities of cards: lists and numbers in SI, shown in the units of the page.
 
-import { element } from "../dom.js";
 import * as units from "../units.js";
 
 /**
@@ -21,33 +20,8 @@ export function quantity(si, metric) {
     titled: (words) => `${words} (${units.symbol(unit())})`,
     /** @param {number | null | undefined} value @param {number} [digits] */
     text: (value, digits = units.DIGITS) => units.formattedIn(value, metric, si, digits),
-    /**
-     * A number as it is without a band, and the ends of its band; null without one.
-     *
-     * @param {number} value
-     * @param {unknown} low
-     * @param {unknown} high
-     */
-    within: (value, low, high) => {
-      if (typeof low !== "number" || typeof high !== "number" || high <= low) return null;
-      const [shown, ...ends] = [value, low, high].map((one) => units.fromSI(one, unit(), si));
-      const [from, to] = units.ends(ends[0], ends[1]);
-      const end = `\u00a0${units.symbol(unit())}`;
-      return { text: `${units.digits(shown)}${end}`, low: from, high: `${to}${end}` };
-    },
   };
 }
 
 export const POSITION = quantity("m", "mm");
 export const TORQUE = quantity("N m", "N m");
-
-/**
- * An exact number for programs, as text for people.
- *
- * @param {string} name
- * @param {number | null | undefined} value
- * @param {string} shown
- */
-export function data(name, value, shown) {
-  return element("data", { value: String(value ?? ""), "data-name": name }, shown);
-}

@@ -37,6 +37,6 @@ export function lines(verdicts, warnings) {
 }
 
 /** Records without those that say the same again. @param {VerdictRecord[]} records */
-export function once(records) {
+function once(records) {
   return [...new Map(records.map((record) => [record.text, record])).values()];
 }
