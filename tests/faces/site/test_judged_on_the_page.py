@@ -340,5 +340,5 @@ def test_the_ball_is_drawn(visit):
     }"""
     few = here.page.evaluate(coloured)
     here.slide("operation.axial_load", 30000)
-    here.rest(1000)
-    assert here.page.evaluate(coloured) > few > 20
+    here.page.wait_for_function(f"(few) => ({coloured})() > few", arg=few)
+    assert few > 20

@@ -6,7 +6,6 @@ import pytest
 
 from ballscrew.basis.output.sheet import Table
 from ballscrew.cases.case_files import case_file
-from ballscrew.faces.web.vocabulary import vocabulary
 from ballscrew.questions.duty import compute
 from ballscrew.questions.duty.answer import DutyResults, document
 from ballscrew.questions.duty.compute import IF_ANY, NUMBERS
@@ -38,7 +37,6 @@ def test_every_number_is_on_every_face(report):
         assert math.isfinite(answer["results"][name])
         assert answer["units"][name] == quantity.unit == schema[name].get("x-si-unit", "1")
         assert schema[name]["description"].startswith(meaning)
-        assert vocabulary()["of_cycle"][name]["meaning"] == meaning
         assert name in IF_ANY or rows[meaning] == answer["results"][name]
 
 
@@ -53,7 +51,7 @@ CASES = {
 @pytest.mark.parametrize("settings", CASES.values(), ids=CASES)
 def test_answers_are_valid_by_their_schema(example, settings):
     found = document(report_of(*settings, example=example))
-    declared.response(DutyResults, "Duty", judged=True).model_validate(found)
+    declared.response(DutyResults, "Duty", judged=True).model_validate({**found, "sheet": {}})
 
 
 def test_every_part_is_described():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -10,6 +11,7 @@ import typer
 if TYPE_CHECKING:
     from ballscrew.basis.output.sheet import Sheet
     from ballscrew.evidence.validation.entries import Entry
+    from ballscrew.questions.validate.compute import Request
     from ballscrew.questions.validate.summary import SummaryRow
 
 
@@ -95,24 +97,21 @@ def validate(
         from ballscrew.faces.report.files import check_kind
 
         check_kind("--report", report)
-    for note in request.notes:
-        typer.echo(note, err=True)
+    _print_notes(request.notes)
     found: list[list[Entry]] = []
     shown: list[Sheet] = []
     quiet = as_json or as_sheet
     for entries, notes in validation.evaluate(request) if not summary else ():
         found.append(entries)
         shown.append(seen.sheet(entries, request))
-        for note in notes:
-            typer.echo(note, err=True)
+        _print_notes(notes)
         if not quiet:
             typer.echo(("\n" if len(found) > 1 else "") + terminal.text(shown[-1]))
     table: list[SummaryRow] = []
     if summary or (request.everything and not as_json):
         table, notes = summaries.summary(request, found)
         shown.append(seen.of_makers(table))
-        for note in notes:
-            typer.echo(note, err=True)
+        _print_notes(notes)
         if not quiet:
             typer.echo(("\n" if found else "") + terminal.text(shown[-1]))
     if as_sheet:
@@ -121,13 +120,24 @@ def validate(
         every = [entry for entries in found for entry in entries]
         typer.echo(json_text.as_json(summaries.document(table) if summary else documents.documents(every)))
     if report is not None:
-        from ballscrew.faces.report.files import written
-        from ballscrew.faces.report.validation import report as report_of
-
-        whole = report_of(request, found, summaries.summary(request, found)[0])
-        typer.echo(f"{report}: report, {written('--report', report, whole) // 1000} kB", err=quiet)
+        _write_report(request, found, report, quiet=quiet)
     if to is not None:
         from ballscrew.faces.sheets import pictures  # matplotlib is slow to import
 
         files.draw(lambda: pictures.picture(seen.picture(found, request)), to)
         typer.echo(f"{to}: {len(found)} sets", err=quiet)
+
+
+def _print_notes(notes: Sequence[str]) -> None:
+    for note in notes:
+        typer.echo(note, err=True)
+
+
+def _write_report(request: Request, entries: Sequence[Sequence[Entry]], report: Path, *, quiet: bool) -> None:
+    """Write all of it as one paper."""
+    from ballscrew.faces.report.files import written
+    from ballscrew.faces.report.validation import report as report_of
+    from ballscrew.questions.validate.summary import summary
+
+    whole = report_of(request, entries, summary(request, entries)[0])
+    typer.echo(f"{report}: report, {written('--report', report, whole) // 1000} kB", err=quiet)
