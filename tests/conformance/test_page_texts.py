@@ -69,7 +69,7 @@ ALLOWED = {
     "stiffness.js": {'path.split(".")': PATHS, 'path.replace(".", "-")': PATHS},
     "symbols.js": {"tex.replace(": "TeX of a symbol", ".exec(text)": "TeX of a symbol"},
     "texts.js": {"const PLACEHOLDER = ": "places of values in a template", "pattern.replace(PLACEHOLDER": "the same",
-                 "const isWord = ": "a capital letter for a word, none for a file", "/[.:]$/.test(line)": "a full stop"},
+                 "const isWord = ": "a capital for a word, none for a file", "/[.:]$/.test(line)": "a full stop"},
     "views.js": {'pane.split(".")': ADDRESSES, '"").split(" ")': ADDRESSES},
     "units.js": {"const NUMBER = ": TYPED, "const COMMA = ": TYPED,
                  "text.replace(COMMA": TYPED, "/[1-9]/.test(before)": TYPED,
