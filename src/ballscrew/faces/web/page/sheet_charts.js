@@ -224,7 +224,7 @@ function lineOf(mark, x, y, colours) {
 }
 
 /**
- * The marks that have names, each name once; lines have their values beside them.
+ * The marks that have names, each name once; a line that has its name alone has its value beside it.
  *
  * @param {(Curve | Band | Mark)[]} marks
  * @param {Colours} colours
@@ -238,6 +238,7 @@ function legendOf(marks, colours, x, y) {
     const colour = shade(mark.colour, colours);
     if ("style" in mark) return { kind: KEYS[mark.style], name: mark.name, colour };
     if ("low" in mark) return { kind: "area", name: mark.name, colour };
+    if (marks.filter(({ name }) => name === mark.name).length > 1) return { kind: "dot", name: mark.name, colour };
     const [value, { quantity }] = mark.y === undefined ? [mark.x, x] : [mark.y, y];
     const shown = `${digits(Number(converted(Number(value), quantity)))} ${symbolOf(quantity)}`.trim();
     return { kind: "dot", name: `${mark.name} ${shown}`, colour };
