@@ -1,20 +1,51 @@
-"""What a card of the page shows of a sheet: all of it."""
+"""What a card of the page shows of a sheet: all of it, in metric units."""
+
+from ballscrew.basis import units
+from ballscrew.basis.quantities import Info, Quantity
 
 CHARTS = ("chart", "bars", "map")
 
 
+#: Numbers that the page writes with a power of ten, and the command in words.
+WITH_POWERS = (1e-4, 1e6)
+
+
 def numbers_of(sheet):
-    """The numbers and shares in the tables of a sheet, in their order."""
+    """The numbers and shares in the tables of a sheet, in their order: the value, and what is read of it.
+
+    Nothing is said to be read of those that page and command write in different ways.
+    """
     cells = [cell for block in sheet["blocks"] if block["kind"] == "table" for row in block["rows"] for cell in row]
-    return [cell.get("share", cell.get("value")) for cell in cells if isinstance(cell, dict)]
+    return [(cell.get("share", cell.get("value")), words_of(cell)) for cell in cells if isinstance(cell, dict)]
+
+
+def words_of(cell):
+    if "share" in cell:
+        sign = "+" if cell["is_change"] and cell["share"] and cell["share"] > 0 else ""
+        return None if cell["share"] is None else f"{sign}{100 * cell['share']:.1f} %"
+    if cell["value"] is None:
+        return None
+    unit = cell["shown_in"] if cell["unit"] != "1" else ""
+    quantity = Quantity("", cell["unit"], Info("", "", unit))
+    size = abs(float(units.from_si(cell["value"], quantity)))
+    if size and not WITH_POWERS[0] <= size < WITH_POWERS[1]:
+        return None
+    number = units.rounded(cell["value"], quantity, cell["digits"], cell.get("toward", 0))
+    return f"{number} {units.symbol(unit)}".strip()
 
 
 def shows(here, card, sheet):
     """Wait until a card has its answer, and assert that it shows all of this sheet; the numbers are exact."""
     here.page.wait_for_selector(f"#{card} .card-result[aria-busy=false]:not(.earlier, [hidden])", state="attached")
-    shown = here.page.eval_on_selector_all(f"#{card} .sheet data", "all => all.map((one) => one.value)")
-    known = [number for number in numbers_of(sheet) if number is not None]
-    assert [float(one) for one in shown if one] == known
+    shown = here.page.eval_on_selector_all(
+        f"#{card} .sheet data", "all => all.map((one) => [one.value, one.textContent])"
+    )
+    shown = [(float(value), text.partition(" (")[0].replace("\u00a0", " ")) for value, text in shown if value]
+    known = [(number, text) for number, text in numbers_of(sheet) if number is not None]
+    assert [value for value, _ in shown] == [value for value, _ in known]
+    read = [(text, wanted) for (_, text), (_, wanted) in zip(shown, known, strict=True) if wanted is not None]
+    assert read
+    assert [pair for pair in read if pair[0] != pair[1]] == []
     words = here.page.locator(f"#{card} .sheet").text_content().casefold()
     lines = [line["text"] for block in sheet["blocks"] if block["kind"] == "lines" for line in block["lines"]]
     assert [line for line in [sheet["title"], *lines] if line.casefold() not in words] == []

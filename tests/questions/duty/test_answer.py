@@ -40,6 +40,23 @@ def test_every_number_is_on_every_face(report):
         assert name in IF_ANY or rows[meaning] == answer["results"][name]
 
 
+def test_a_sheet_leaves_out_what_there_is_none_of(report):
+    """The cycle ends where it began: of what is stored only rounding is left. Its guides rub with their seals alone."""
+    tables = {block.name: [row[0] for row in block.rows] for block in sheet(report).of_kind(Table)}
+    none = {name for name in IF_ANY if abs(report.numbers[name]) < 1e-6}
+    assert none == {"energy_stored"}
+    meanings = {name: quantity.info.meaning for name, quantity in NUMBERS.items()}
+    assert tables["cycle"] == [meaning for name, meaning in meanings.items() if name not in none]
+    (parts,) = (rows for rows in tables.values() if "gravity" in rows)
+    assert {"gravity", "process", "guide seals", "sum"} <= set(parts)
+    assert not {"guides", "transmission"} & set(parts)
+    phases = report.phases
+    assert tables["phases"] == [phase.name for phase in phases]
+    assert sum(phase.duration for phase in phases) == pytest.approx(report.numbers["cycle_time"])
+    given = report.numbers["energy_drawn"] - report.numbers["energy_returned"]
+    assert sum(phase.energy for phase in phases) == pytest.approx(given)
+
+
 CASES = {
     "as it is": (),
     "starved of oil": ("lubricant.temperature=-5 degC",),

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from ballscrew.basis.output.sheet import Columns, Table
+from ballscrew.basis.output.sheet import Chart, Columns, Table
 from ballscrew.cases.case_files import case_file
 from ballscrew.questions.shared import declared
 from ballscrew.questions.warm_up import compute, verdicts
@@ -67,6 +67,13 @@ def test_answers_are_valid_by_their_schema(settings, starved):
     found = document(report)
     declared.response(WarmUpResults, "WarmUp", beside=BesideWarmUp).model_validate({**found, "sheet": {}})
     assert (found["results"]["full_bath"] is not None) == starved
+
+
+@pytest.mark.parametrize(("settings", "starved"), [(WARM, False), (COLD, True)], ids=["warm", "starved of oil"])
+def test_a_full_bath_is_drawn_where_oil_comes_back_late(settings, starved):
+    charts = sheet(warmed_up(load(EXAMPLE, settings, None), hours=0.5)).of_kind(Chart)
+    curves = {mark.name for chart in charts for mark in chart.marks}
+    assert ("in a full bath of oil" in curves) == starved
 
 
 def test_every_number_has_a_unit(report):

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Annotated, Any
 
 from ballscrew.basis.quantities import fields_of
-from ballscrew.basis.records import documents
+from ballscrew.basis.records import Record, documents
 from ballscrew.physics.sizing.checks import judged
 from ballscrew.questions.check import document as check_documents
 from ballscrew.questions.optimise.compute import Member, Optimisation
@@ -69,7 +69,6 @@ def document(found: Optimisation) -> dict[str, Any]:
         engine_reason=found.engine[1],
         largest_change=found.largest_change,
     )
-    starved = next(filter(None, (Starved.of(member.checked, None).records for member in found.members)), [])
     return {
         "need": need_document(found.need),
         **declared.document(
@@ -77,7 +76,7 @@ def document(found: Optimisation) -> dict[str, Any]:
         ),
         "candidates": [_member(member) for member in found.members],
         "notes": list(found.notes),
-        "warnings": documents(starved),
+        "warnings": documents(warnings(found)),
         "units": {
             **units,
             "variables": {name: quantity.unit for name, quantity in VARIABLES.items()},
@@ -85,6 +84,12 @@ def document(found: Optimisation) -> dict[str, Any]:
         },
         "provenance": first.get("provenance"),
     }
+
+
+def warnings(optimisation: Optimisation) -> list[Record]:
+    """That the first member which can be starved of oil is."""
+    records = (Starved.of(member.checked, None).records for member in optimisation.members)
+    return next(filter(None, records), [])
 
 
 def _member(member: Member) -> dict[str, Any]:

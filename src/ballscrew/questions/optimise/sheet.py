@@ -24,10 +24,12 @@ from ballscrew.basis.output.sheet import (
     Table,
     columns_of,
     lines,
+    warning_lines,
 )
 from ballscrew.basis.output.wrapping import wrapped
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.questions.check import sheet as check_sheet
+from ballscrew.questions.optimise.answer import warnings
 from ballscrew.questions.optimise.compute import Member, Optimisation, Plan
 from ballscrew.questions.optimise.design_model import OF_MODEL
 from ballscrew.questions.optimise.design_space import VARIABLES
@@ -57,6 +59,7 @@ def sheet(optimisation: Optimisation) -> Sheet:
         title(optimisation),
         [
             Lines([] if members else [Line(nothing, "verdict", is_bad=True)]),
+            warning_lines(warnings(optimisation)),
             *([_front(optimisation)] if members else []),
             lines(f"note: {note}" for note in _notes(optimisation)),
             Lines([Line(", ".join(asked(optimisation.need)), "small")], detail=True),
@@ -122,7 +125,7 @@ def _front(optimisation: Optimisation) -> Table:
         )
     headings = ["", *(_HEADINGS[name] for name in space.names), *(LABELS[name] for name in space.objectives)]
     headings += [*(f"{LABELS[name]}, q {quantile:g}" for name in with_quantile), "near its limit"]
-    return Table("front", "design", headings, rows)
+    return Table("front", "design", headings, rows, ["*: no other one is better in all objectives by the full model"])
 
 
 def _variable(name: str, value: float) -> Cell:
