@@ -65,7 +65,7 @@ def of_page(browser: Browser, address: str) -> None:
         if size is PHONE:  # the answer and the checks
             page.evaluate("document.querySelector('#numbers').scrollIntoView()")
         else:
-            page.wait_for_selector("#torque-chart .main-svg")
+            page.wait_for_selector("#torque-chart .plot[data-drawn]")
         page.wait_for_timeout(500)
         save(name, page.screenshot())
         page.close()
@@ -79,7 +79,7 @@ def of_cards(browser: Browser, address: str) -> None:
         page.wait_for_selector(f"#{card} .card-result[aria-busy=false]")
         for chart in page.locator(f"#{card} .chart:visible").all():  # drawn when it is seen
             chart.scroll_into_view_if_needed()
-            chart.locator(".main-svg").first.wait_for()
+            chart.locator(".plot[data-drawn]").wait_for()
         page.wait_for_timeout(2000)
         box = page.locator(f"section[aria-labelledby={card}-title]").bounding_box()
         assert box

@@ -73,7 +73,7 @@ ROOMS = {
     # the tests in a browser
     "page": Room(
         ("faces/web/page",),
-        ("faces/web/test_texts.py", "faces/web/test_plotly_js.py",
+        ("faces/web/test_texts.py",
          *(f"faces/web/{file.name}" for file in sorted((ROOT / "tests" / "faces" / "web").glob("test_page*.py")))),
     ),
 }  # fmt: skip

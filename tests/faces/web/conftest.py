@@ -283,7 +283,7 @@ class Visit:
 
 @pytest.fixture(scope="session")
 def pages(browser) -> list[Page]:
-    """Pages that nobody is at; to load plotly.js in a new one takes a second."""
+    """Pages that nobody is at: to open a new one takes a second."""
     return []
 
 

@@ -59,5 +59,5 @@ def shows(here, card, sheet):
 def drawn(here, id):
     """The plot of a chart that is scrolled to."""
     here.page.locator(f"#{id}").scroll_into_view_if_needed()
-    here.page.wait_for_selector(f"#{id} .main-svg")
+    here.page.wait_for_selector(f"#{id} .plot[data-drawn]")
     return here.page.query_selector(f"#{id} .plot")

@@ -15,7 +15,7 @@ from ballscrew.faces.web.guard import HEADERS
 
 HEAD = b"%s /api/v1/run HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n"
 #: Headers that every response has.
-SECURITY = [name.lower() for name in (*HEADERS, "Content-Security-Policy", "Cache-Control")]
+SECURITY = [name.lower() for name in (*HEADERS, "Cache-Control")]
 
 
 def responses(*pieces):

@@ -137,3 +137,14 @@ def test_a_selection_tells_the_cases_of_its_candidates(server):
         run = server.post("check", {"case": one["case"]}).json()
         assert [run["results"].get(name) for name in fields] == [one["results"].get(name) for name in fields]
         assert run["ratings"]["listed"] == one["ratings"]["listed"]
+
+
+def test_all_texts_of_the_page_are_sent_compressed(server):
+    for path in ("/", "/page/main.js", "/page/style.css", "/viewer/swagger-ui-bundle.js"):
+        packed = server.client.get(path, headers={"Accept-Encoding": "br, gzip"})
+        plain = server.client.get(path, headers={"Accept-Encoding": "identity"})
+        assert packed.headers["content-encoding"] == "gzip"
+        assert "content-encoding" not in plain.headers
+        assert packed.content == plain.content
+        assert int(packed.headers["content-length"]) < 0.6 * len(plain.content)
+        assert "Accept-Encoding" in packed.headers["vary"]

@@ -1,28 +1,11 @@
 """Charts of the page: the band of the torque over the speed, and operating points of either sign."""
 
 import json
+from xml.etree import ElementTree
 
 import pytest
 
-#: A chart as it is drawn: the ends of its axes, its diamond, and its curves by name.
-CHART = """(id) => {
-  const plot = document.querySelector(`#${id} .plot`);
-  const { xaxis, yaxis } = plot._fullLayout;
-  const { x, y } = plot.data.find((one) => one.marker?.symbol === "diamond");
-  const lines = plot.data.filter((one) => one.mode === "lines" && !one.stackgroup);
-  return {
-    x: xaxis.range, y: yaxis.range, point: [x[0], y[0]],
-    lines: lines.map(({ name, x, y }) => [name, [...x], [...y]]), map: plot.data[0].z,
-  };
-}"""
-DRAWN = """(id) => document.querySelector(`#${id} .plot`)?._fullLayout?.xaxis"""
-
-
-def chart(here, name):
-    here.see(f"#{name}")
-    here.page.locator(f"#{name}").scroll_into_view_if_needed()
-    here.page.wait_for_function(DRAWN, arg=name)
-    return here.page.evaluate(CHART, name)
+from .drawn_charts import DRAWN, POINT, chart
 
 
 def at(line, place):
@@ -47,11 +30,13 @@ def test_the_torque_over_the_speed_has_its_band(visit, server):
     case = server.get("vocabulary").json()["starts"]["paper"]["case"]
     band = server.post("band", {"case": case}).json()["band"]["screw_torque"]
     found = chart(here, "torque-chart")
-    names = [name for name, _, _ in found["lines"]]
-    within = [f"{end} end, {share} % of the samples" for share in (80, 50) for end in ("lower", "upper")]
-    assert names == ["lower end of the band", "upper end of the band", *within, "sum"]
+    assert [name for name, *_ in found["curves"]] == ["sum"]
+    assert [name for name, *_ in found["bands"]] == [
+        f"band: {share} % of the samples of inputs and laws" for share in (95, 80, 50)
+    ]
+    ends = [((name, x, low), (name, x, high)) for name, x, low, high in found["bands"]]
+    (low, high), (low_of_80, high_of_80), (low_of_50, high_of_50) = ends
     speed, _ = found["point"]
-    low, high, low_of_80, high_of_80, low_of_50, high_of_50, _ = found["lines"]
     assert at(low, speed) == pytest.approx(band["low"], rel=0.01)
     assert at(high, speed) == pytest.approx(band["high"], rel=0.01)
     # the narrower intervals are those of the same samples at a level of their own, and lie in each other
@@ -65,17 +50,20 @@ def test_the_torque_over_the_speed_has_its_band(visit, server):
     assert all(f"band: {share} % of the samples" in legend for share in (95, 80, 50))
     here.page.locator("#torque-chart summary").click()
     here.page.wait_for_selector("#torque-chart tbody td")
-    row = here.page.locator("#torque-chart tbody tr").first.locator("td").all_inner_texts()
+    headings = here.page.locator("#torque-chart thead th").all_inner_texts()
+    row = here.page.locator("#torque-chart tbody tr").first.locator("th, td").all_inner_texts()
+    within = [f"{end} end, {share} % of the samples (N·m)" for share in (80, 50) for end in ("lower", "upper")]
+    names = ["lower end of the band (N·m)", "upper end of the band (N·m)", *within]
+    assert headings[2:8] == names
     intervals = (low, high, low_of_80, high_of_80, low_of_50, high_of_50)
-    assert [float(cell) for cell in row[1:7]] == pytest.approx([line[2][0] for line in intervals], rel=1e-3)
+    assert [float(cell) for cell in row[2:8]] == pytest.approx([line[2][0] for line in intervals], rel=1e-3)
     here.page.locator("#band").uncheck()
     here.page.wait_for_function(
         "() => !document.querySelector('#torque-chart ul.legend').innerText.includes('the samples')"
     )
     # a chart that was out of sight is drawn again once it is in sight
     here.page.locator("#torque-chart").scroll_into_view_if_needed()
-    here.page.wait_for_function("() => !document.querySelector('#torque-chart .plot').data.some(({ fill }) => fill)")
-    assert [name for name, _, _ in chart(here, "torque-chart")["lines"]] == ["sum"]
+    assert chart(here, "torque-chart")["bands"] == []
 
 
 @pytest.mark.parametrize(("load", "speed"), [(4000, -600), (-4000, 600), (-4000, -600)])
@@ -87,7 +75,7 @@ def test_operating_points_of_either_sign_stand_on_their_curves(load, speed, visi
         assert x == pytest.approx(value)
         assert left < x < right
         assert right == pytest.approx(2 * abs(value), rel=1e-4)
-        curves = [at(line, x) for line in found["lines"]]
+        curves = [at(line, x) for line in found["curves"]]
         assert any(y == pytest.approx(one, rel=0.02) for one in curves), name
     found = chart(here, "map-chart")
     assert found["point"] == pytest.approx([speed, load])
@@ -100,14 +88,7 @@ def test_operating_points_of_either_sign_stand_on_their_curves(load, speed, visi
 def test_a_speed_below_zero_is_dragged(visit):
     here = visit().open("#A=paper&A.operation.screw_speed=-600+rpm&band=0")
     found = chart(here, "torque-chart")
-    x, y = here.page.evaluate(
-        """() => {
-          const plot = document.querySelector("#torque-chart .plot"), { left, top } = plot.getBoundingClientRect();
-          const { xaxis, yaxis } = plot._fullLayout;
-          const { x, y } = plot.data.find((one) => one.marker?.symbol === "diamond");
-          return [left + xaxis._offset + xaxis.d2p(x[0]), top + yaxis._offset + yaxis.d2p(y[0])];
-        }"""
-    )
+    x, y = here.page.evaluate(POINT, "torque-chart")
     mouse = here.page.mouse
     mouse.move(x, y)
     mouse.down()
@@ -118,16 +99,10 @@ def test_a_speed_below_zero_is_dragged(visit):
     assert found["x"][0] < moved < -600
 
 
-#: What plotly.js keeps of a plot: the figure, and a listener of the window that holds it.
-HELD = "(plot) => [plot._fullLayout, plot._responsiveChartHandler].map((one) => one !== undefined)"
-
-
-def test_a_plot_that_is_taken_away_is_ended(visit):
-    """Where its answer fails, and where a place of its name is made anew: nothing keeps its numbers in memory."""
+def test_a_chart_that_fails_leaves_nothing_to_read(visit):
+    """Where its answer fails the reason stands in its place, and the next one is drawn there."""
     here = visit().open()
     chart(here, "torque-chart")
-    plot = here.page.query_selector("#torque-chart .plot")
-    assert plot.evaluate(HELD) == [True, True]
     problem = {"title": "too much", "status": 422, "lines": ["too much"], "faults": []}
 
     def refuse(route):
@@ -138,30 +113,51 @@ def test_a_plot_that_is_taken_away_is_ended(visit):
         lines = [refused if line["question"] == "over_speed" else line for line in lines]
         route.fulfill(response=answer, body="".join(f"{json.dumps(line)}\n" for line in lines))
 
-    here.page.route("**/api/v1/answers", refuse)
+    here.page.route("**/api/v1/answers", refuse, times=1)
     here.type("operation.axial_load", "5000")
     here.page.wait_for_selector("#torque-chart > .warning")
-    assert plot.evaluate(HELD) == [False, False]
-    first = here.page.evaluate_handle(
-        """async () => {
-          const { draw, watch, layout } = await import("/page/plot.js");
-          const figure = (colours) => ({ traces: [{ x: [1, 2], y: [1, 2] }], layout: layout(colours, "x", "y") });
-          const nothing = { description: "", caption: "", legend: () => [], numbers: () => [[], []] };
-          const chart = { name: "made", figure, ...nothing };
-          const place = () => Object.assign(document.createElement("div"), { id: "made-chart", className: "chart" });
-          const holder = document.querySelector("#torque-chart").parentElement;
-          const one = place(), other = place();
-          holder.append(one);
-          watch(one);
-          await draw("made-chart", chart);
-          one.scrollIntoView();
-          while (!one.querySelector(".plot")._fullLayout) await new Promise((then) => setTimeout(then, 20));
-          one.replaceWith(other);
-          watch(other);
-          return one.querySelector(".plot");
-        }"""
+    assert here.page.locator("#torque-chart canvas").count() == 0
+    here.type("operation.axial_load", "6000")
+    here.page.wait_for_function(DRAWN, arg="torque-chart")
+    assert here.page.locator("#torque-chart > .warning").count() == 0
+
+
+def test_a_chart_is_read_enlarged_and_shown_whole_again(visit):
+    """All curves are read at one place; a part that is drawn out by the pointer fills the chart."""
+    here = visit().open("#A=paper&band=0")
+    whole = chart(here, "pressure-chart")
+    box = here.page.locator("#pressure-chart .plot").bounding_box()
+    mouse = here.page.mouse
+    mouse.move(box["x"] + box["width"] / 3, box["y"] + 60)
+    lines = here.page.locator("#pressure-chart .reading li").all_inner_texts()
+    load = float(here.text("#pressure-chart .reading p").rsplit(": ")[1])
+    place = whole["curves"][0][1].index(load)
+    assert [line.rsplit(": ")[0] for line in lines] == ["ball and screw (GPa)", "ball and nut (GPa)"]
+    assert [float(line.rsplit(": ")[1]) for line in lines] == pytest.approx(
+        [curve[2][place] for curve in whole["curves"]], rel=1e-3
     )
-    assert first.evaluate(HELD) == [False, False]
+    mouse.down()
+    mouse.move(box["x"] + box["width"] / 2, box["y"] + 62, steps=3)
+    mouse.up()
+    part = chart(here, "pressure-chart")
+    assert part["x"][0] > whole["x"][0]
+    assert part["x"][1] < whole["x"][1]
+    assert part["y"] == whole["y"]
+    here.page.locator("#pressure-chart button.whole").click()
+    assert chart(here, "pressure-chart")["x"] == whole["x"]
+    assert not here.page.locator("#pressure-chart button.whole").is_visible()
+
+
+def test_a_chart_is_saved_as_it_is_seen(visit):
+    """Its curves, its words and its legend as SVG, on white whatever the screen is."""
+    here = visit(scheme="dark").open("#A=paper&band=0")
+    chart(here, "pressure-chart")
+    picture = ElementTree.fromstring(here.download("#pressure-chart button:text-is('SVG')"))
+    words = [text.text for text in picture.iter("{http://www.w3.org/2000/svg}text")]
+    assert {"axial load (N)", "greatest pressure (GPa)", "ball and screw", "operating point"} <= {*words}
+    strokes = {path.get("stroke") for path in picture.iter("{http://www.w3.org/2000/svg}path")}
+    assert {"#0062a0", "#a34a00"} <= strokes
+    assert picture.find("{http://www.w3.org/2000/svg}rect").get("fill") == "#ffffff"
 
 
 def test_answers_that_are_kept_are_bounded_by_their_size(visit):
@@ -189,5 +185,8 @@ def test_answers_that_are_kept_are_bounded_by_their_size(visit):
 
 def test_the_torque_has_its_width_on_a_small_screen(visit):
     here = visit(width=1024, height=768).open("#A=paper&band=0")
-    here.page.wait_for_selector("#torque-chart .main-svg")
-    assert here.page.locator("#torque-chart .plot .bg").first.bounding_box()["width"] > 400
+    here.page.wait_for_function(DRAWN, arg="torque-chart")
+    left, right = here.page.evaluate(
+        "() => { const { x } = document.querySelector('#torque-chart .plot').drawn.frame; return [x.start, x.end]; }"
+    )
+    assert right - left > 400

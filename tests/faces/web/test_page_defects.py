@@ -107,13 +107,13 @@ def test_calibration_is_a_button_beside_the_vendors_rows(go, server):
 
 
 def test_wrong_legend_after_hover(go):
-    """Defect 1: plotly's own legend took the place of the list, which kept old values."""
+    """Defect 1: after something was pointed at, the list kept old values."""
     here = go("#A=paper&band=0")
     plot = here.page.locator("#torque-chart .plot")
     plot.scroll_into_view_if_needed()
-    here.page.wait_for_selector("#torque-chart .main-svg")
+    here.page.wait_for_selector("#torque-chart .plot[data-drawn]")
     plot.hover(position={"x": 200, "y": 150})
-    here.page.wait_for_selector("#torque-chart g.legend", state="attached")
+    here.page.wait_for_selector("#torque-chart .reading li")
     before = here.numbers()["parts"]["sum"]
     here.type("operation.axial_load", "7000")
     numbers = here.numbers()

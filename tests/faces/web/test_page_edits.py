@@ -6,7 +6,7 @@ import tomllib
 
 import pytest
 
-from .test_page_operating_point import DIAMOND, DRAWN
+from .drawn_charts import AT_LOAD, DRAWN, POINT
 
 
 def value(here, field):
@@ -45,8 +45,8 @@ def test_undo_takes_one_edit_back(visit):
 
     here.see("#map-chart")
     here.page.locator("#map-chart").scroll_into_view_if_needed()
-    here.page.wait_for_function("() => document.querySelector('#map-chart .plot')?._fullLayout?.xaxis")
-    x, y = here.page.evaluate(DIAMOND, "map-chart")
+    here.page.wait_for_function(DRAWN, arg="map-chart")
+    x, y = here.page.evaluate(POINT, "map-chart")
     here.page.mouse.move(x, y)
     here.page.mouse.down()
     here.page.mouse.move(x + 60, y - 40, steps=3)
@@ -116,8 +116,9 @@ def test_designs_that_were_changed_side_by_side(visit):
     assert "lead (Screw): 12 mm" in words[-1]
     here.see("#compare-chart")
     here.page.locator("#compare-chart").scroll_into_view_if_needed()
-    here.page.wait_for_selector("#compare-chart .ytick")
-    assert sorted(here.page.locator("#compare-chart .ytick").all_text_contents()) == list("ABCDEFGH")
+    here.page.wait_for_function(DRAWN, arg="compare-chart")
+    names = here.page.evaluate("document.querySelector('#compare-chart .plot').drawn.figure.y.names")
+    assert [name["words"] for name in names] == list("ABCDEFGH")
     here.open()
     assert "up to 8 are shown" in here.text("#compare")
 
@@ -218,28 +219,29 @@ def test_each_half_of_a_nut_has_a_line_of_its_own(visit):
     here = visit().open("#A=rexroth-16x5x3-4-double&A.operation.axial_load=1+kN&band=0")
     here.see("#balls-chart")
     here.page.locator("#balls-chart").scroll_into_view_if_needed()
-    here.page.wait_for_selector("#balls-chart .main-svg")
+    here.page.wait_for_selector("#balls-chart .plot[data-drawn]")
     gaps = here.page.evaluate(
-        "document.querySelector('#balls-chart .plot').data"
+        "document.querySelector('#balls-chart .plot').drawn.figure.marks"
         ".map(({ x, y }) => [x.indexOf(null), y.indexOf(null), y.length])"
     )
     assert {(x, y) for x, y, _ in gaps} == {(gaps[0][2] // 2,) * 2}
 
 
-def test_the_hover_keeps_off_the_operating_point(visit):
-    """Its words covered the diamond that they were asked beside."""
+def test_what_is_read_keeps_off_the_operating_point(visit):
+    """Its words covered the diamond that they were asked beside: near it nothing is read, it is taken."""
     here = visit().open()
     here.page.locator("#torque-chart").scroll_into_view_if_needed()
-    here.page.wait_for_function(DRAWN, arg="4000")
-    x, y = here.page.evaluate(DIAMOND, "torque-chart")
-    for offset in (-60, -30, 0, 30):
-        here.page.mouse.move(x + offset - 3, y + 30)
+    here.page.wait_for_function(AT_LOAD, arg="4000")
+    x, y = here.page.evaluate(POINT, "torque-chart")
+    reading = here.page.locator("#torque-chart .reading")
+    for offset in (-60, -30, 30, 60):
         here.page.mouse.move(x + offset, y + 30)
-        here.page.wait_for_selector("#torque-chart .hoverlayer .legend", state="attached")
-        here.rest(150)
-        box = here.page.locator("#torque-chart .hoverlayer .legend").bounding_box()
+        reading.wait_for()
+        box = reading.bounding_box()
         inside = box["x"] < x < box["x"] + box["width"] and box["y"] < y < box["y"] + box["height"]
         assert not inside, (offset, box, x, y)
+    here.page.mouse.move(x + 3, y + 3)
+    reading.wait_for(state="hidden")
 
 
 def test_a_warning_is_said_once(visit):

@@ -112,7 +112,7 @@ def test_a_curve_that_takes_too_long_goes_on_as_a_job(visit):
     here.page.wait_for_selector("#pressure-chart .warning:has-text('goes on in the background')")
     here.page.wait_for_selector("#long-work [data-address=sweep]")
     held.pop().continue_()
-    here.page.wait_for_selector("#pressure-chart .main-svg")
+    here.page.wait_for_selector("#pressure-chart .plot[data-drawn]")
     here.page.wait_for_selector("#long-work [data-address=sweep]", state="detached")
     assert sum(url.endswith("/jobs/sweep") for url in here.requests) == 1
 

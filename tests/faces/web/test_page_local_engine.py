@@ -14,6 +14,8 @@ from ballscrew.faces.web.module_api import _answer
 from ballscrew.faces.web.modules import Modules
 from ballscrew.faces.web.starts import starts
 
+from .drawn_charts import DRAWN, POINT
+
 pytestmark = pytest.mark.compiles
 
 #: Both compute the same formulas, compiled for other machines: so far apart in rounding, of the largest number.
@@ -24,6 +26,12 @@ ELASTIC = (
 )
 PAPER = "#A=paper&A.lubricant.grade=ISO+VG+100&A.lubricant.viscosity=&A.lubricant.temperature=40+degC&band=0"
 TORQUE = "#torque-chart"
+#: The chart of the torque is that of the numbers beside it.
+FOLLOWED = """() => {
+  const { marks } = document.querySelector("#torque-chart .plot").drawn.figure;
+  const torque = Number(document.querySelector("#numbers [data-name=screw_torque]").value);
+  return Math.abs(marks.find(({ kind }) => kind === "point").y - torque) < 1e-12;
+}"""
 
 
 def ready(here):
@@ -87,7 +95,7 @@ def test_the_page_computes_what_the_server_would_say(visit, start, changes):
         held = hold(here)
         before = here.numbers()
         typed(here, field, text)
-        here.page.wait_for_selector(f"{TORQUE} canvas")
+        here.page.wait_for_function(FOLLOWED)
         own, own_curve = here.numbers(), curve(here)
         here.see("#contacts").rest(300)  # what is not in view is drawn once it is
         own |= {part: here.numbers()[part] for part in ("screw", "nut")}
@@ -104,7 +112,7 @@ def test_the_page_computes_what_the_server_would_say(visit, start, changes):
             for name, number in numbers.items():
                 found = own[part][name]
                 assert is_close(found, number) or abs(found - number) <= CLOSE * scale, (field, part, name)
-        here.page.wait_for_selector(f"{TORQUE} canvas", state="detached")
+        here.page.wait_for_function(FOLLOWED)
         for row, other in zip(own_curve, curve(here), strict=True):
             largest = max(map(abs, other[1:]))
             assert row[0] == pytest.approx(other[0], rel=CLOSE)  # the axes are the same, too
@@ -136,17 +144,9 @@ def test_one_request_once_a_slider_rests(visit):
 def test_numbers_follow_the_diamond_and_its_field_when_it_is_let_go(visit):
     here = ready(visit().open())
     here.page.locator(TORQUE).scroll_into_view_if_needed()
-    here.page.wait_for_function(
-        "() => document.querySelector('#torque-chart .plot')?._fullLayout?.xaxis && !document.querySelector('canvas')"
-    )
+    here.page.wait_for_function(DRAWN, arg="torque-chart")
     before, torque = asked(here), here.numbers()["results"]["screw_torque"]
-    x, y = here.page.evaluate(
-        """() => {
-          const plot = document.querySelector("#torque-chart .plot"), { left, top } = plot.getBoundingClientRect();
-          const { xaxis, yaxis } = plot._fullLayout, point = plot.data.find((one) => one.marker);
-          return [left + xaxis._offset + xaxis.d2p(point.x[0]), top + yaxis._offset + yaxis.d2p(point.y[0])];
-        }"""
-    )
+    x, y = here.page.evaluate(POINT, "torque-chart")
     mouse = here.page.mouse
     mouse.move(x, y)
     mouse.down()

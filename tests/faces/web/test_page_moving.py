@@ -25,8 +25,8 @@ def test_a_reversal_is_asked_for_and_refused(visit, server):
     chart = page.locator("#reversal .sheet .chart").first
     plot = drawn(here, chart.get_attribute("id"))
     assert chart.locator("ul.legend li").count() == len([one for one in curves["marks"] if one["name"]])
-    axes = plot.evaluate("({ layout: { xaxis, yaxis } }) => [xaxis.type, xaxis.title.text, yaxis.title.text]")
-    assert axes == ["log", "angle of the screw (\u00b0)", "friction torque (N\u00b7m)"]
+    axes = plot.evaluate("({ drawn: { figure: { x, y } } }) => [x.log, x.title, y.title]")
+    assert axes == [True, "angle of the screw (\u00b0)", "friction torque (N\u00b7m)"]
     chart.locator("details summary").click()
     page.wait_for_selector("#reversal .sheet .chart tbody tr")
     assert chart.locator("tbody tr").count() == len(curves["marks"][0]["x"])
@@ -66,13 +66,13 @@ def test_a_ripple_with_a_fault(visit, server):
     page.wait_for_selector("#ripple .sheet table")
     body = {"case": case_of(here), "turns": 6}
     shows(here, "ripple", server.post("ripple", body).json()["sheet"])
-    axes = "({ layout: { xaxis, yaxis } }) => [yaxis.type ?? 'linear', xaxis.title.text, yaxis.title.text]"
+    axes = "({ drawn: { figure: { x, y } } }) => [y.log, x.title, y.title]"
     found = [
         drawn(here, chart.get_attribute("id")).evaluate(axes) for chart in page.locator("#ripple .sheet .chart").all()
     ]
     assert found == [
-        ["linear", "turns of the screw", "torque (N\u00b7m)"],
-        ["log", "order, per turn of the screw", "amplitude (N\u00b7mm)"],
+        [False, "turns of the screw", "torque (N\u00b7m)"],
+        [True, "order, per turn of the screw", "amplitude (N\u00b7mm)"],
     ]
     # a fault that there is not, and one that there is
     page.locator("#ripple-fault").fill("rust")

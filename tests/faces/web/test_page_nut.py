@@ -37,17 +37,18 @@ def value(here, name):
 def rows_of_chart(here):
     """The numbers of the unrolled nut, as its button saves them."""
     here.see("#nut-extremes").page.locator("#nut-unrolled").scroll_into_view_if_needed()
-    here.page.wait_for_selector("#nut-unrolled .main-svg")
+    here.page.wait_for_selector("#nut-unrolled .plot[data-drawn]")
     text = here.download("#nut-unrolled button:text-is('CSV')").decode()
     return list(csv.reader(io.StringIO(text)))[1:]
 
 
-def test_the_balls_of_a_rigid_double_nut_have_a_bar_for_each_half(visit):
+def test_the_balls_of_a_rigid_double_nut_have_a_dot_for_each_half(visit):
     here = visit().open("#" + urllib.parse.urlencode({"A": DOUBLE, "A.tables": '{"bodies": null}', "band": "0"}))
     here.see("#balls-chart").page.locator("#balls-chart").scroll_into_view_if_needed()
-    here.page.wait_for_selector("#balls-chart .main-svg")
-    heights = "all => all.map((one) => one.getBoundingClientRect().height).filter((one) => one > 5)"
-    assert len(here.page.eval_on_selector_all("#balls-chart .bars path", heights)) == 2
+    here.page.wait_for_selector("#balls-chart .plot[data-drawn]")
+    curves = here.page.evaluate("document.querySelector('#balls-chart .plot').drawn.figure.marks")
+    assert {(curve["style"], *curve["x"]) for curve in curves} == {("dots", 1, 2)}
+    assert all(max(curve["y"]) > 0 for curve in curves)
 
 
 def test_a_double_nut_between_elastic_bodies(visit, server):
@@ -82,7 +83,7 @@ def test_a_double_nut_between_elastic_bodies(visit, server):
     assert f"{2 * half} balls carry" in label
     assert "axial load 2000 N" in label
     assert "their distance is not given" not in here.text("#nut-picture")
-    assert violations(here, charts=False) == []
+    assert violations(here) == []
 
 
 def test_what_is_alike_and_what_is_assumed_is_said(visit, server):
@@ -104,7 +105,7 @@ def test_what_is_alike_and_what_is_assumed_is_said(visit, server):
     here.settle()
     assert re.search(r"\d in\b", here.text("#nut-picture"))
     assert "(lbf)" in here.text("#nut-picture")
-    assert violations(here, charts=False) == []
+    assert violations(here) == []
 
 
 def test_spacer_balls_and_four_contacts(visit, server):
@@ -139,5 +140,5 @@ def test_a_screw_without_a_nut(visit, server):
 def test_colours_are_those_of_the_figures():
     (folder,) = ballscrew.__path__
     script = (Path(folder) / "faces" / "web" / "page" / "ball_places.js").read_text(encoding="utf-8")
-    found = re.search(r"^const COLOURS = \[(.*)\];$", script, re.MULTILINE)
+    found = re.search(r"^export const COLOURS = \[(.*)\];$", script, re.MULTILINE)
     assert re.findall("#[0-9A-F]{6}", found[1]) == list(GROWING)

@@ -3,18 +3,7 @@
 import re
 import tomllib
 
-DIAMOND = """(id) => {
-  const plot = document.querySelector(`#${id} .plot`), { left, top } = plot.getBoundingClientRect();
-  const { xaxis, yaxis } = plot._fullLayout, { x, y } = plot.data.find((one) => one.marker?.symbol === "diamond");
-  return [left + xaxis._offset + xaxis.d2p(x[0]), top + yaxis._offset + yaxis.d2p(y[0])];
-}"""
-#: The chart is that of this load, and its diamond is drawn at the torque that the legend says.
-DRAWN = """(load) => {
-  const place = document.querySelector("#torque-chart"), plot = place.querySelector(".plot");
-  const point = plot?._fullLayout?.xaxis && plot.data.find((one) => one.marker?.symbol === "diamond");
-  const torque = Number(place.querySelector("ul.legend data")?.value);
-  return plot?.ariaLabel.includes(load) && point && Math.abs(point.y[0] - torque) < 1e-9;
-}"""
+from .drawn_charts import AT_LOAD, POINT
 
 
 def value(here, field):
@@ -54,8 +43,8 @@ def test_the_operating_point_moves_by_hand(visit):
     assert float(slider.get_attribute("max")) == 50_000
 
     here.page.locator("#torque-chart").scroll_into_view_if_needed()
-    here.page.wait_for_function(DRAWN, arg=20_000)
-    x, y = here.page.evaluate(DIAMOND, "torque-chart")
+    here.page.wait_for_function(AT_LOAD, arg=20_000)
+    x, y = here.page.evaluate(POINT, "torque-chart")
     mouse = here.page.mouse
     mouse.move(x, y)
     mouse.down()

@@ -6,7 +6,6 @@ import urllib.parse
 import pytest
 
 from .conftest import Visit, new_page
-from .test_page_operating_point import DIAMOND, DRAWN
 
 PAPER = "#A=paper&band=0"
 
@@ -252,51 +251,3 @@ def test_what_fails_without_a_limit_has_no_multiple_of_it(go):
     here.page.locator("#choose-start").click()
     here.page.wait_for_selector("#choose [role=status]")
     assert here.text("#choose-result tbody tr summary strong") == "Fails: back driving."
-
-
-#: Words of the hover of some height above and below a place beside the diamond: how far they are moved, and the chart.
-HOVER = """([x, y, places]) => {
-  const plot = document.querySelector("#torque-chart .plot");
-  const layer = plot.querySelector(".hoverlayer");
-  const words = document.createElementNS("http://www.w3.org/2000/svg", "g");
-  words.classList.add("legend");
-  layer.replaceChildren(words);
-  const moved = places.map(([left, top, height]) => {
-    const box = { left: x + left, right: x + left + 80, top: y + top, bottom: y + top + height };
-    words.getBoundingClientRect = () => box;
-    plot.emit("plotly_hover", {});
-    return layer.style.transform;
-  });
-  layer.style.transform = "";
-  words.remove();
-  return moved;
-}"""
-#: Pixels that stay between the diamond and the words.
-GAP = 10
-
-
-def test_words_of_the_hover_stand_below_the_diamond_or_above_it(go):
-    """Those that do not cover it stay; below the chart there is nothing to read them on."""
-    here = go()
-    here.page.locator("#torque-chart").scroll_into_view_if_needed()
-    here.page.wait_for_function(DRAWN, arg="4000")
-    x, y = here.page.evaluate(DIAMOND, "torque-chart")
-    here.page.mouse.move(x, y + 40)  # the chart is ready for the hover
-    here.page.mouse.move(x + 5, y + 40)
-    bottom = here.page.evaluate("document.querySelector('#torque-chart .plot').getBoundingClientRect().bottom")
-    room = bottom - (y + GAP)  # below the diamond
-    places = [
-        (-40, -20, 40, GAP + 20),  # over the diamond: moved down by half its height and the gap
-        (-40, -20, room - 1, GAP + 20),
-        (-40, -20, room + 1, -(GAP + room - 19)),  # there is no room: above it
-        (-40, GAP + 1, 30, None),  # below, above, and on either side
-        (-40, -31 - GAP, 30, None),
-        (GAP + 1, -20, 40, None),
-        (-81 - GAP, -20, 40, None),
-    ]
-    found = here.page.evaluate(HOVER, [x, y, [place[:3] for place in places]])
-    for moved, (*place, by) in zip(found, places, strict=True):
-        if by is None:
-            assert moved == "", place
-        else:
-            assert float(moved.removeprefix("translateY(").removesuffix("px)")) == pytest.approx(by, abs=1e-6), place

@@ -5,6 +5,8 @@ import io
 
 import pytest
 
+from .drawn_charts import CHART
+
 #: Bars at the ends of the flows of power, by their names: their heights.
 BARS = """() => Object.fromEntries([...document.querySelectorAll("#power rect[data-flow]")].map(
   (one) => [one.dataset.flow, Number(one.getAttribute("height"))]))"""
@@ -24,7 +26,7 @@ def powers(here):
 def rows_of(here, name):
     """The headings and the numbers of a chart, as its file has them."""
     here.see(f"#{name}").page.locator(f"#{name}").scroll_into_view_if_needed()
-    here.page.wait_for_selector(f"#{name} .plot .main-svg")
+    here.page.wait_for_selector(f"#{name} .plot[data-drawn]")
     rows = list(csv.reader(io.StringIO(here.download(f"#{name} button:text-is('CSV')").decode("utf-8-sig"))))
     return rows[0], rows[1:]
 
@@ -105,21 +107,20 @@ def test_the_stribeck_curve_has_the_numbers_of_the_server(visit, server):
     assert films == pytest.approx(list(map(min, *both)), rel=1e-6)
     assert torques == pytest.approx(torque, rel=1e-6)
     answer = server.post("run", {"case": paper_of(server)}).json()["results"]
-    x, y, words = here.page.evaluate(
+    (x, y), zones = here.page.evaluate(
         """() => {
-          const plot = document.querySelector("#stribeck-chart .plot");
-          const { x, y } = plot.data.find((one) => one.marker?.symbol === "diamond");
-          return [x[0], y[0], plot.layout.annotations.map(({ text, x }) => [text, x])];
+          const { marks } = document.querySelector("#stribeck-chart .plot").drawn.figure;
+          const { x, y } = marks.find(({ kind }) => kind === "point");
+          return [[x, y], marks.filter(({ kind }) => kind === "zone").map(({ words, from }) => [words, from])];
         }"""
     )
     assert x == pytest.approx(min(answer[side]["film_parameter"] for side in ("screw", "nut")))
     assert y == pytest.approx(answer["screw_torque"])
-    # a regime begins where its condition does, at 1 and 3; its words stand there
+    # a regime begins where its condition does, at 1 and 3
     begins = {"boundary": 0, "mixed": 1, "full film": 3}
-    assert words
-    for name, place in words:
-        start = begins[name]
-        assert 10**place == pytest.approx(max(start, min([*films, x]) / 1.15))
+    assert zones
+    for name, place in zones:
+        assert place == pytest.approx(max(begins[name], min([*films, x]) / 1.15))
 
 
 def check_hot_and_cold(here, server, **operation):
@@ -143,12 +144,7 @@ def check_hot_and_cold(here, server, **operation):
     table = here.page.locator("#temperatures tbody tr td:nth-child(2) data").evaluate_all(
         "all => all.map((one) => Number(one.value))"
     )
-    x, y = here.page.evaluate(
-        """() => {
-          const { x, y } = document.querySelector("#hot-chart .plot").data.find(({ marker }) => marker);
-          return [x[0], y[0]];
-        }"""
-    )
+    x, y = here.page.evaluate(CHART, "hot-chart")["point"]
     # the diamond stands on the curve of the case, whose number the table has, too
     assert y == pytest.approx(table[1])
     assert min(speeds) < x < max(speeds)
@@ -166,7 +162,7 @@ def test_cold_and_hot_curves_of_the_module_are_those_of_the_server(visit, server
     here.page.locator(here.id("operation.axial_load")).focus()
     here.page.wait_for_selector("html[data-engine=ready]", state="attached", timeout=300_000)
     here.see("#temperatures").page.locator("#temperatures").scroll_into_view_if_needed()
-    here.page.wait_for_selector("#hot-chart .plot .main-svg")
+    here.page.wait_for_selector("#hot-chart .plot[data-drawn]")
     before = sum(one.endswith("/sweep") for one in here.requests)
     here.type("operation.axial_load", "3000")
     check_hot_and_cold(here, server, axial_load="3000 N")

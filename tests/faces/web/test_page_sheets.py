@@ -116,24 +116,25 @@ def test_lines_and_tables(page):
 
 def plot(page, name):
     page.locator(f"#made-chart-{name}").scroll_into_view_if_needed()
-    page.wait_for_selector(f"#made-chart-{name} .main-svg")
+    page.wait_for_selector(f"#made-chart-{name} .plot[data-drawn]")
     return page.locator(f"#made-chart-{name} .plot")
 
 
 def test_charts(page):
     found = plot(page, "torque-over-length").evaluate(
-        """({ data, layout }) => ({
-          traces: data.map(({ name, x, y, yaxis, mode }) => [name ?? "", x, y, yaxis ?? "y", mode]),
-          titles: [layout.xaxis, layout.yaxis, layout.yaxis2].map(({ title }) => title.text),
-          shapes: layout.shapes.length,
-          least: layout.yaxis.range[0] })"""
+        """({ drawn: { figure: { x, y, second, marks }, frame } }) => ({
+          curves: marks.filter(({ kind }) => kind === "curve")
+            .map(({ name, x, y, second, style }) => [name, x, y, second, style]),
+          titles: [x, y, second].map(({ title }) => title),
+          levels: marks.filter(({ kind }) => kind === "level").map(({ x, y }) => [x ?? null, y ?? null]),
+          least: frame.y.from })"""
     )
     assert found["titles"] == ["length (mm)", "torque (N\u00b7m)", "ratio"]
-    assert (found["shapes"], found["least"]) == (2, 0)
-    assert ["model", [1, 2], [0.1, 0.2], "y", "lines"] in found["traces"]
-    assert ["ratio", [1, 2], [1, 2], "y2", "lines"] in found["traces"]
+    assert (found["levels"], found["least"]) == ([[None, 0.25], [2, None]], 0)
+    assert ["model", [1, 2], [0.1, 0.2], False, "line"] in found["curves"]
+    assert ["ratio", [1, 2], [1, 2], True, "dashed"] in found["curves"]
     legend = page.locator("#made-chart-torque-over-length ul.legend li").all_inner_texts()
-    assert legend == ["band", "model", "tests", "ratio", "limit 0.25 N\u00b7m", "end 2 mm"]
+    assert legend == ["model", "tests", "ratio", "band", "limit 0.25 N\u00b7m", "end 2 mm"]
     page.locator("#made-chart-torque-over-length summary").click()
     headings = page.locator("#made-chart-torque-over-length thead th").all_inner_texts()
     assert headings == [
@@ -144,17 +145,15 @@ def test_charts(page):
 
 
 def test_bars_and_maps(page):
-    bars = plot(page, "parts").evaluate(
-        "({ data }) => [data.slice(0, 2).map(({ x, base }) => [x[0], base[0]]), data[2].error_x.array[0], data[2].x[0]]"
+    spin, other, whisker = plot(page, "parts").evaluate(
+        "({ drawn: { figure: { marks } } }) => marks.filter(({ kind }) => kind !== 'level')"
     )
-    (spin, other), above, end = bars
-    assert spin == [0.1, 0.1]
-    assert other == [-0.05, 0.1]  # to the left of the origin
-    assert end == pytest.approx(0.15)
-    assert above == pytest.approx(0.15)
-    (grid, x) = plot(page, "a-map").evaluate("({ data }) => [data[0].z, data[0].x]")
-    assert grid == MAP["values"]
-    assert x == [1, 2, 3]
+    assert (spin["width"], spin["base"]) == (0.1, 0.1)
+    assert (other["width"], other["base"]) == (-0.05, 0.1)  # to the left of the origin
+    assert (whisker["low"], whisker["high"]) == (0.1, 0.3)
+    grid = plot(page, "a-map").evaluate("({ drawn: { figure: { marks } } }) => marks[0]")
+    assert grid["values"] == MAP["values"]
+    assert grid["x"] == [1, 2, 3]
 
 
 def band(name, low, high):
@@ -183,17 +182,23 @@ UNKNOWN = {
 
 def test_what_is_unknown_is_not_drawn_as_nothing(page):
     page.evaluate(SHOW, {"title": "another", "blocks": [STACKED, UNKNOWN]})
-    found = plot(page, "stacked").evaluate("({ data, layout }) => [data.map(({ name }) => name), layout.shapes]")
-    assert found == [[None, "&lt;b>one&lt;/b>", None, "other"], []]
+    found = plot(page, "stacked").evaluate(
+        "({ drawn: { figure: { marks } } }) => marks.map(({ kind, name }) => [kind, name])"
+    )
+    assert found == [["band", "<b>one</b>"], ["band", "other"]]
     page.locator("#made-chart-stacked summary").click()
     page.wait_for_selector("#made-chart-stacked tbody tr")
     cells = page.locator("#made-chart-stacked tbody tr >> nth=0").locator("th, td").all_inner_texts()
     assert cells == ["1", "0.2", "0.8"]  # what is stacked is a part, not the place of its ends
     bars = plot(page, "unknown")
-    (trace,) = bars.evaluate("({ data }) => data.map(({ x, base, customdata }) => [x, base, customdata])")
-    assert trace[:2] == [[2, None], [20, 20 - 293.15]]
-    assert trace[2] == ["&lt;i>warmer&lt;/i>: 2 \u00b0C: taken", "&lt;i>warmer&lt;/i>: \u2013 \u00b0C"]
-    assert bars.evaluate("({ layout }) => layout.yaxis.ticktext[0]") == "&lt;i>warmer&lt;/i>"
+    parts = bars.evaluate(
+        "({ drawn: { figure: { marks } } }) => marks.filter(({ kind }) => kind === 'bar')"
+        ".map(({ width, base, words }) => [width, base, words])"
+    )
+    assert parts == [
+        [2, 20, "<i>warmer</i>: 2 \u00b0C: taken"], [None, 20 - 293.15, "<i>warmer</i>: \u2013 \u00b0C"]
+    ]  # fmt: skip
+    assert bars.evaluate("({ drawn }) => drawn.figure.y.names[0].words") == "<i>warmer</i>"
     page.locator("#made-chart-unknown summary").click()
     page.wait_for_selector("#made-chart-unknown tbody tr")
     rows = page.locator("#made-chart-unknown tbody tr")
@@ -212,7 +217,7 @@ def test_columns_are_saved_and_units_change(page):
     page.evaluate(SHOW, SHEET)
     assert page.locator("#made-sheet > div table data").first.inner_text() == "0.486\u00a0in (0.4724 to 0.5119)"
     page.wait_for_function(
-        "() => document.querySelector('#made-chart-torque-over-length .plot').layout.xaxis.title.text === 'length (in)'"
+        "() => document.querySelector('#made-chart-torque-over-length .plot').drawn.figure.x.title === 'length (in)'"
     )
     # a chart that is no more is gone
     page.evaluate(SHOW, {**SHEET, "blocks": SHEET["blocks"][:3]})

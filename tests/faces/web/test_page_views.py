@@ -13,7 +13,7 @@ PANES = """[...new Set([...document.querySelectorAll("#have, section[data-pane]"
   .flatMap((one) => one.dataset.pane.split(" ")))]"""
 #: All cards that are seen have their answers, and all charts in sight are drawn.
 AT_REST = """() => ![...document.querySelectorAll(".card-result, #over-input")].some((one) => one.ariaBusy === "true")
-  && ![...document.querySelectorAll(".plot")].some((one) => one.checkVisibility() && !one.querySelector(".main-svg")
+  && ![...document.querySelectorAll(".plot")].some((one) => one.checkVisibility() && !("drawn" in one.dataset)
     && one.getBoundingClientRect().top < innerHeight)"""
 #: Where a part ends on the page.
 BOTTOM = """(id) => {

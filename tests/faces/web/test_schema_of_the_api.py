@@ -15,7 +15,6 @@ from schemathesis.specs.openapi.definitions import OPENAPI_31
 from ballscrew.basis.output.json_text import plain
 from ballscrew.cases.schema.case_schema import json_schema
 from ballscrew.faces.web import memory, problems
-from ballscrew.faces.web.files import plotly_address
 from ballscrew.faces.web.request_queue import RequestQueue
 from ballscrew.faces.web.server import (
     application,
@@ -146,7 +145,7 @@ def test_whatever_may_be_null_is_described():
 def test_other_methods(server, method):
     known = [(re.sub(r"{\w+}", "x", path), methods) for path, methods in schema.raw_schema["paths"].items()]
     taken = {path for path, methods in known if method.lower() in methods}
-    for path in [*{path for path, _ in known} - taken, "/", "/api", plotly_address()]:
+    for path in [*{path for path, _ in known} - taken, "/", "/api"]:
         found = server.client.request(method, path)
         assert found.status_code == 405
         assert found.headers["allow"]

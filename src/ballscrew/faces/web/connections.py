@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import logging
 import socket
-from collections.abc import Mapping
 from typing import Any
 
 import h11
@@ -17,6 +16,7 @@ from ballscrew.basis.errors import Fault
 from ballscrew.basis.records import Message
 from ballscrew.faces.web import problems
 from ballscrew.faces.web.bodies import READ_TIMEOUT
+from ballscrew.faces.web.guard import HEADERS
 from ballscrew.faces.web.jobs import Jobs
 from ballscrew.faces.web.request_queue import RequestQueue
 
@@ -75,12 +75,6 @@ class _TimeoutProtocol(H11Protocol):
             self._start_reading()
 
     @property
-    def _headers(self) -> Mapping[str, str]:
-        """The headers of every response of the application."""
-        application: Any = self.config.app
-        return application.state.headers
-
-    @property
     def expects_body(self) -> bool:
         """True while the body of a request is incomplete."""
         return self.conn.their_state is h11.SEND_BODY
@@ -105,7 +99,7 @@ class _TimeoutProtocol(H11Protocol):
             )
             found = problems.response(400, [fault])
             # no middleware sees this response
-            found.headers.update({**self._headers, "Cache-Control": "no-store", "Connection": "close"})
+            found.headers.update({**HEADERS, "Cache-Control": "no-store", "Connection": "close"})
             for event in (
                 h11.Response(status_code=400, headers=found.raw_headers, reason="Bad Request"),
                 h11.Data(data=b"" if is_head else bytes(found.body)),

@@ -16,7 +16,7 @@ from starlette.responses import Response
 from starlette.staticfiles import NotModifiedResponse, StaticFiles
 from starlette.types import Scope
 
-from ballscrew.faces.web import page_texts, plotly_js
+from ballscrew.faces.web import page_texts
 from ballscrew.faces.web.endpoint_parts import takes_gzip
 
 #: Browsers keep files, and ask each time whether they have changed.
@@ -24,8 +24,6 @@ _CACHE = "no-cache"
 #: They keep a file for good whose address has the digest of its content.
 FOR_GOOD = "public, max-age=31536000, immutable"
 _VIEWER = "api.html"
-#: Where the page names the script of the charts; its address has its digest.
-_PLOTLY = "/plotly.js"
 #: Endings of files that are text, which is much shorter when it is compressed.
 _TEXTS = (".js", ".css", ".html", ".svg", ".json")
 
@@ -84,30 +82,12 @@ def add_to(app: FastAPI) -> None:
 
     app.add_api_route("/", send_page, methods=["GET", "HEAD"], include_in_schema=False)
 
-    async def send_plotly(request: Request) -> Response:
-        headers = {"Cache-Control": FOR_GOOD, "Vary": "Accept-Encoding"}
-        return sent(request, *_plotly(), headers, "text/javascript")
-
-    app.add_api_route(plotly_address(), send_plotly, methods=["GET", "HEAD"], include_in_schema=False)
-
-
-def plotly_address() -> str:
-    """The address of the script of the charts."""
-    _, _, tag = _plotly()
-    return f"/plotly-{tag}.js"
-
 
 @functools.cache
 def _page() -> tuple[bytes, bytes, str]:
     """The page as it is sent, plain and compressed, and its tag."""
     text = resources.files("ballscrew.faces.web").joinpath("page", "index.html").read_text(encoding="utf-8")
-    return _tagged(page_texts.filled(text.replace(_PLOTLY, plotly_address())))
-
-
-@functools.cache
-def _plotly() -> tuple[bytes, bytes, str]:
-    """The script as it is sent, plain and compressed, and its tag."""
-    return _tagged(plotly_js.eager(plotly_js.script()))
+    return _tagged(page_texts.filled(text))
 
 
 def _tagged(text: str) -> tuple[bytes, bytes, str]:

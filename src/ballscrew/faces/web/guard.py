@@ -13,8 +13,12 @@ from ballscrew.faces.web import problems
 
 #: Names of the machine that the server runs on: it answers to these, unless told otherwise.
 LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
-#: Headers of every response, besides the Content-Security-Policy.
+#: Headers of every response: browsers run and show only files of this server; of code only WebAssembly may be compiled.
 HEADERS: Mapping[str, str] = {
+    "Content-Security-Policy": (
+        "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' data: blob:; "
+        "connect-src 'self'; font-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+    ),
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
     "Cross-Origin-Opener-Policy": "same-origin",
@@ -30,10 +34,9 @@ class Guard:
     check of the host answers with plain text, without these headers.
     """
 
-    def __init__(self, inner: ASGIApp, hosts: Sequence[str], headers: Mapping[str, str]) -> None:
+    def __init__(self, inner: ASGIApp, hosts: Sequence[str]) -> None:
         self.inner = inner
         self.hosts = hosts
-        self.headers = headers
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Handle one request."""
@@ -44,7 +47,7 @@ class Guard:
                 message = {**message, "body": b""}
             if message["type"] == "http.response.start":
                 headers = MutableHeaders(scope=message)
-                headers.update(self.headers)
+                headers.update(HEADERS)
                 headers.setdefault("Cache-Control", "no-store")
             await send(message)
 

@@ -15,13 +15,12 @@ from starlette.types import ASGIApp
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.records import Message
 from ballscrew.basis.version import __version__
-from ballscrew.faces.web import api, files, memory, openapi, plotly_js, problems, vocabulary
+from ballscrew.faces.web import api, files, memory, openapi, problems, vocabulary
 from ballscrew.faces.web.bodies import case_of
-from ballscrew.faces.web.guard import HEADERS, LOOPBACK, Guard
+from ballscrew.faces.web.guard import LOOPBACK, Guard
 from ballscrew.faces.web.jobs import Jobs
 from ballscrew.faces.web.kept_answers import KeptAnswers
 from ballscrew.faces.web.modules import Modules
-from ballscrew.faces.web.policy import policy
 from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import RequestQueue
 from ballscrew.questions.run.compute import run
@@ -35,7 +34,7 @@ class _Application(FastAPI):
 
     def build_middleware_stack(self) -> ASGIApp:
         """The middleware of FastAPI inside the guard: the response to a defect goes through it, too."""
-        return Guard(super().build_middleware_stack(), self.hosts, self.state.headers)
+        return Guard(super().build_middleware_stack(), self.hosts)
 
 
 def application(
@@ -46,7 +45,6 @@ def application(
         title="ballscrew", version=__version__, docs_url=None, redoc_url=None, openapi_url=None, redirect_slashes=False
     )
     app.hosts = hosts
-    app.state.headers = {**HEADERS, "Content-Security-Policy": policy(plotly_js.script())}
     app.state.requests = requests or RequestQueue()
     app.state.answers = KeptAnswers()
     app.state.modules = Modules()

@@ -4,7 +4,6 @@ import * as bath from "./bath.js";
 import * as charts from "./charts.js";
 import * as checks from "./checks.js";
 import { showDesigns, showModels } from "./compare.js";
-import * as curves from "./curves.js";
 import { caseOf, titleOf } from "./designs.js";
 import { byId, update } from "./dom.js";
 import * as drawings from "./drawing.js";
@@ -15,7 +14,7 @@ import { inWords, labelOf } from "./messages.js";
 import * as moving from "./moving.js";
 import * as nutPicture from "./nut_picture.js";
 import * as nutUnrolled from "./nut_unrolled.js";
-import { diamond } from "./operating_point.js";
+import { dragged } from "./operating_point.js";
 import { isVisible, move, showFailure, showWords } from "./plot.js";
 import { askPatiently, goOn, isOutOfTime, sendPatiently } from "./long_work.js";
 import { powerFlow } from "./power_flow.js";
@@ -25,7 +24,6 @@ import { keep, known, Latest, linesOf, Problem, sendLines } from "./server.js";
 import { LETTERS } from "./state.js";
 import * as stiffness from "./stiffness.js";
 import { store } from "./store.js";
-import * as stribeck from "./stribeck.js";
 import * as temperatures from "./temperatures.js";
 import { text } from "./texts.js";
 import { isSeen } from "./views.js";
@@ -251,8 +249,8 @@ class Answers {
   #undrawn = [];
 
   constructor() {
-    diamond.addEventListener("move", (event) => {
-      if (this.#followDiamond(/** @type {CustomEvent} */ (event).detail)) event.preventDefault();
+    dragged.addEventListener("move", (event) => {
+      if (this.#followPoint(/** @type {CustomEvent} */ (event).detail)) event.preventDefault();
     });
     drawings.NARROW.addEventListener("change", () => {
       if (this.#displayed.drawing) drawings.show(this.#displayed.drawing);
@@ -370,9 +368,9 @@ class Answers {
       const found = moving.curvesOf(before, values, isHeld, TIME_OF_CURVES);
       if (found.over_speed) {
         charts.torque(found.over_speed, answer, vocabulary.mechanisms);
-        curves.film(found.over_speed, answer);
+        charts.film(found.over_speed, answer);
       }
-      if (found.over_load) curves.pressure(found.over_load, answer);
+      if (found.over_load) charts.pressure(found.over_load, answer);
       if (found.over_both) charts.map(found.over_both, answer);
     });
     measurePaint("moved_curves", start, this.#never.signal);
@@ -394,11 +392,11 @@ class Answers {
   }
 
   /**
-   * Follow the diamond of a chart, which no field has taken over yet.
+   * Follow the operating point of a chart, which no field has taken over yet.
    *
    * @param {Record<string, number> | null} point where it is, null where it is let go and stays where it was
    */
-  #followDiamond(point) {
+  #followPoint(point) {
     const { body, answer } = this.#displayed;
     const values = body && answer && !results.isStale() && localEngine.valuesOf(body);
     if (!values) return false;
@@ -434,11 +432,11 @@ class Answers {
     checks.show(found.checks);
     if (alongSpeed) {
       this.#drawTorque(answer);
-      curves.film(alongSpeed, answer);
-      stribeck.show(alongSpeed, answer);
+      charts.film(alongSpeed, answer);
+      charts.stribeck(alongSpeed, answer);
     }
     if (everywhere) charts.map(everywhere, answer);
-    if (alongLoad) curves.pressure(alongLoad, answer);
+    if (alongLoad) charts.pressure(alongLoad, answer);
     if (hotAndCold) temperatures.show(hotAndCold, answer);
     if (hotAndCold) hot.redisplay();
     if (drawing) drawings.show(drawing);
@@ -638,8 +636,8 @@ class Answers {
         return this.#drawTorque(answer);
       });
       if ("answer" in line) measurePaint("chart", asked.start, asked.signal);
-      await this.#drawn("film-chart", line, asked, (answer, found) => curves.film(found, answer));
-      await this.#drawn("stribeck-chart", line, asked, (answer, found) => stribeck.show(found, answer));
+      await this.#drawn("film-chart", line, asked, (answer, found) => charts.film(found, answer));
+      await this.#drawn("stribeck-chart", line, asked, (answer, found) => charts.stribeck(found, answer));
     },
     cold_and_hot: (line, asked) => {
       if ("problem" in line || !this.#displayed.alongSpeed) hot.leaveOut(); // that of the case before
@@ -657,7 +655,7 @@ class Answers {
     over_load: (line, asked) =>
       this.#drawn("pressure-chart", line, asked, (answer, found) => {
         this.#displayed.alongLoad = found;
-        return curves.pressure(found, answer);
+        return charts.pressure(found, answer);
       }),
     drawing: (line, asked) =>
       this.#drawn("drawing", line, asked, (_, found) => {
@@ -702,7 +700,7 @@ class Answers {
     }
     this.#displayed.designs = found;
     this.#displayed.asked = asked;
-    await showDesigns(found, this.#displayed.starts, vocabulary.mechanisms);
+    showDesigns(found, this.#displayed.starts, vocabulary.mechanisms);
     if (band && designs.length > 1 && !refused.has(body)) this.#addBands(asked);
   }
 

@@ -47,10 +47,7 @@ const WIDTH = 1.5;
 /**
  * Balls from light to dark: told apart with any colour vision, and in print, as the curves of one growing parameter.
  */
-const COLOURS = ["#7FB8DA", "#3C8DBC", "#8A6FB0", "#B0457B", "#5B1A3A"];
-
-/** The scale of the loads for plotly. @type {[number, string][]} */
-export const SCALE = COLOURS.map((colour, place) => [place / (COLOURS.length - 1), colour]);
+export const COLOURS = ["#7FB8DA", "#3C8DBC", "#8A6FB0", "#B0457B", "#5B1A3A"];
 
 /**
  * The colour at a share of the scale, 0 to 1.

@@ -3,11 +3,11 @@
 import { text } from "./texts.js";
 import * as units from "./units.js";
 
-/** @typedef {import("./plot.js").Colours} Colours */
-/** @typedef {import("./plot.js").LegendEntry} LegendEntry */
+/** @typedef {import("./figure.js").Mark} Mark */
+/** @typedef {import("./figure.js").Curve} Curve */
+/** @typedef {import("./figure.js").Outside} Outside */
+/** @typedef {import("./figure.js").Point} Point */
 
-/** Colour over the ranges where the model is not valid. */
-export const INVALID = "#80808055";
 export const OUTSIDE = text("chart.outside");
 
 /**
@@ -62,69 +62,18 @@ export function titled(name, words) {
 /**
  * The operating point: a diamond in front of the curves.
  *
- * @param {{ ink: string, panel: string }} colours
  * @param {number | null | undefined} x
  * @param {number | null | undefined} y
+ * @param {string} [colour]
+ * @returns {Point}
  */
-export function pointAt({ ink, panel }, x, y) {
-  return {
-    x: [x],
-    y: [y],
-    name: text("chart.operating_point"),
-    mode: "markers",
-    marker: { symbol: "diamond", size: 11, color: panel, line: { color: ink, width: 2.5 } },
-    hovertemplate: "%{y:.4g}",
-  };
+export function pointAt(x, y, colour = "ink") {
+  return { kind: "point", name: text("chart.operating_point"), x, y, colour };
 }
 
-/**
- * @param {Colours} colours
- * @returns {LegendEntry}
- */
-export function pointEntry({ ink }) {
-  return { kind: "point", name: text("chart.operating_point"), colour: ink };
-}
-
-/**
- * Areas over the ranges where the model is not valid, each to half the distance to the next valid point.
- *
- * @param {number[]} x
- * @param {boolean[]} valid
- */
-export function invalidRanges(x, valid) {
-  /** @param {number} place */
-  const edge = (place) => {
-    if (place <= 0) return x[0];
-    return place >= x.length ? x[x.length - 1] : (x[place - 1] + x[place]) / 2;
-  };
-  const starts = valid.flatMap((holds, place) => (!holds && (place === 0 || valid[place - 1]) ? [place] : []));
-  return starts.map((start) => {
-    const end = valid.indexOf(true, start);
-    return {
-      type: "rect",
-      yref: "paper",
-      y0: 0,
-      y1: 1,
-      x0: edge(start),
-      x1: edge(end < 0 ? x.length : end),
-      fillcolor: INVALID,
-      line: { width: 0 },
-      layer: "above",
-    };
-  });
-}
-
-/**
- * @param {boolean[]} valid
- * @returns {LegendEntry[]}
- */
-export function invalidEntries(valid) {
-  return valid.every(Boolean) ? [] : [{ kind: "area", name: OUTSIDE, colour: INVALID }];
-}
-
-/** @param {boolean} valid */
-export function yesOrNo(valid) {
-  return text(valid ? "chart.yes" : "chart.no");
+/** Where the model is not valid. @param {number[]} x @param {boolean[]} valid @returns {Outside} */
+export function outside(x, valid) {
+  return { kind: "outside", name: OUTSIDE, x, valid };
 }
 
 /**
@@ -135,28 +84,16 @@ export function yesOrNo(valid) {
  * @param {boolean[]} valid
  * @param {string} name
  * @param {string} colour
+ * @param {string} [style]
+ * @returns {Curve[]}
  */
-export function linesByValidity(x, y, valid, name, colour) {
-  /** @param {(place: number) => boolean} isShown @param {string} dash */
-  const line = (isShown, dash) => ({
-    x,
-    y: y.map((value, place) => (isShown(place) ? value : null)),
-    name,
-    mode: "lines",
-    line: { color: colour, width: 2, dash },
-    hovertemplate: "%{y:.4g}",
-  });
-  const solid = line((place) => valid[place], "solid");
-  if (valid.every(Boolean)) return [solid];
+export function linesByValidity(x, y, valid, name, colour, style = "line") {
   const isBeside = (/** @type {number} */ place) => [place - 1, place, place + 1].some((one) => valid[one] === false);
-  return [solid, { ...line(isBeside, "dot"), showlegend: false, hoverinfo: "skip", hovertemplate: undefined }];
-}
-
-/**
- * @param {boolean[]} valid
- * @param {string} colour
- * @returns {LegendEntry[]}
- */
-export function dottedEntries(valid, colour) {
-  return valid.every(Boolean) ? [] : [{ kind: "dot", name: OUTSIDE, colour }];
+  const [inside, beyond] = [(/** @type {number} */ place) => valid[place], isBeside].map((isShown) =>
+    y.map((value, place) => (isShown(place) ? value : null)),
+  );
+  /** @type {Curve} */
+  const solid = { kind: "curve", name, x, y: inside, colour, style };
+  if (valid.every(Boolean)) return [solid];
+  return [solid, { kind: "curve", name: OUTSIDE, x, y: beyond, colour, style: "dotted", width: 1.2, isQuiet: true }];
 }

@@ -1,18 +1,37 @@
-// Charts of the torque and its parts, of the efficiency, and of several designs.
+// Charts of an operating point over its speed and its load: the torque and its parts, efficiency, film, pressure, Stribeck.
 
 import * as parts from "./chart_parts.js";
 import { element } from "./dom.js";
-import { draw, layout } from "./plot.js";
-import { data } from "./results.js";
+import { draw, hide } from "./plot.js";
+import { data, greatestPressure, leastFilm } from "./results.js";
 import { text } from "./texts.js";
 import * as units from "./units.js";
 
-// light enough everywhere for black numbers, also for people who do not see red or green
-const SCALE = [
-  [0, "#8296b5"],
-  [0.5, "#c3b98c"],
-  [1, "#ffe945"],
+/** @typedef {import("./figure.js").Mark} Mark */
+/** @typedef {import("./figure.js").Zone} Zone */
+
+// light enough everywhere for dark lines, also for people who do not see red or green
+const SHADES = ["#8296b5", "#c3b98c", "#ffe945"];
+/** @type {Record<string, string>} */
+const FILMS = {
+  screw_film_parameter: text("contact.screw"),
+  nut_film_parameter: text("contact.nut"),
+  minimum_film_parameter: text("film.least"),
+};
+/** @type {Record<string, string>} */
+const PRESSURES = {
+  screw_maximum_pressure: text("contact.screw"),
+  nut_maximum_pressure: text("contact.nut"),
+  maximum_pressure: text("pressure.greatest"),
+};
+/** Regimes of lubrication, and where the next one begins. @type {[string, number, number, string][]} */
+const REGIMES = [
+  [text("film.boundary"), 0, 1, "red"],
+  [text("film.mixed"), 1, 3, "orange"],
+  [text("contact.full"), 3, Number.POSITIVE_INFINITY, "green"],
 ];
+/** How far the axis of the Stribeck curve goes beyond it, as a factor. */
+const BEYOND = 1.15;
 
 /**
  * A mechanism in words.
@@ -24,69 +43,42 @@ export function wordsOf(name, mechanisms) {
   return mechanisms[name]?.words ?? name;
 }
 
-/** How dark the area of a band is, as two digits of a colour. */
-const SHADE = "24";
-/** The same of intervals in each other, from the widest on: so dark are as many areas over each other. */
-const DEPTHS = [SHADE, "43", "5d"];
+// -- the torque -------------------------------------------------------------------------------------
 
 /**
- * The band of the torque over the speed, as intervals in each other: its traces, its entry in the legend, and its ends at a place of the curve.
+ * The band of the torque over the speed as intervals in each other, from the widest on, or why there is none.
  *
- * @param {Sweep | string | undefined} banded or why there is none
+ * @param {Sweep | string | undefined} banded
+ * @returns {Mark[]}
  */
-function bandOf(banded) {
-  const none = { count: 0, traces: () => [], entries: () => [], headings: [], cells: () => [] };
-  if (!banded) return none;
+function bandsOf(banded) {
+  if (!banded) return [];
   if (typeof banded === "string") {
-    const name = text("chart.no_band", { reason: banded });
-    return { ...none, entries: () => [{ kind: "none", name, colour: undefined }] };
+    return [{ kind: "level", name: text("chart.no_band", { reason: banded }), colour: "soft" }];
   }
-  const speeds = parts.valuesOf(banded.axes.screw_speed);
-  const shown = parts.converted("screw_speed", banded.axes.screw_speed);
-  const { low, high, inner = [] } = banded.outputs.screw_torque;
-  /** @param {number | undefined} level */
-  const share = (level) => units.digits(100 * (level ?? 0));
-  /** From the widest on: each is drawn over those around it, and so is darker. */
-  const intervals = [
-    { level: banded.band?.level, low, high, names: [text("chart.low"), text("chart.high")] },
-    ...(inner ?? []).toReversed().map((one) => ({
-      ...one,
-      names: [text("chart.low_of", { share: share(one.level) }), text("chart.high_of", { share: share(one.level) })],
-    })),
-  ].map(({ level, names, ...ends }) => ({
-    names,
-    words: text("chart.band", { share: share(level) }),
-    ends: [ends.low, ends.high].map((values) => parts.converted("screw_torque", { values: values ?? [] })),
-  }));
-  return {
-    count: 2 * intervals.length,
-    /** @param {import("./plot.js").Colours} colours */
-    traces: ({ ink }) =>
-      intervals.flatMap(({ names, ends }, place) =>
-        ends.map((y, end) => ({
-          x: shown,
-          y,
-          name: names[end],
-          mode: "lines",
-          line: place ? { color: `${ink}${SHADE}`, width: 0.6 } : { color: ink, width: 1.2, dash: "dot" },
-          hovertemplate: "%{y:.4g}",
-          ...(end && { fill: "tonexty", fillcolor: `${ink}${SHADE}` }),
-        })),
-      ),
-    /** @param {import("./plot.js").Colours} colours */
-    entries: ({ ink }) =>
-      intervals.map(({ words }, place) => ({
-        kind: intervals.length > 1 ? "area" : "dot",
-        name: words,
-        colour: intervals.length > 1 ? `${ink}${DEPTHS[place] ?? SHADE}` : ink,
-      })),
-    headings: intervals.flatMap(({ names }) => names.map((one) => parts.titled("screw_torque", one))),
-    /** @param {number} speed in SI */
-    cells: (speed) => {
-      const place = speeds.indexOf(speed);
-      return intervals.flatMap(({ ends }) => ends.map((values) => (place < 0 ? "" : values[place])));
-    },
-  };
+  const x = parts.converted("screw_speed", banded.axes.screw_speed);
+  const { low, high, inner } = banded.outputs.screw_torque;
+  const intervals = [{ level: banded.band?.level, low, high, isWidest: true }, ...(inner ?? []).toReversed()];
+  return intervals.map(({ level, ...ends }) => {
+    const share = units.digits(100 * (level ?? 0));
+    const names =
+      "isWidest" in ends
+        ? [text("chart.low"), text("chart.high")]
+        : [text("chart.low_of", { share }), text("chart.high_of", { share })];
+    const [lows, highs] = [ends.low, ends.high].map((values) =>
+      parts.converted("screw_torque", { values: values ?? [] }),
+    );
+    return {
+      kind: "band",
+      name: text("chart.band", { share }),
+      x,
+      low: lows,
+      high: highs,
+      colour: "ink",
+      solid: false,
+      ends: names,
+    };
+  });
 }
 
 /**
@@ -98,96 +90,67 @@ function bandOf(banded) {
  * @param {Sweep | string} [banded] the band at some of the speeds, or why there is none
  */
 export function torque(swept, answer, mechanisms, banded) {
-  const band = bandOf(banded);
   const speeds = parts.converted("screw_speed", swept.axes.screw_speed);
   const { screw_torque: sum, contributions } = answer.results;
-  const names = Object.keys(contributions).filter((name) =>
-    swept.outputs[`contribution_${name}`]?.values.some((value) => value !== 0),
-  );
-  const byName = Object.fromEntries(
-    names.map((name) => [name, parts.converted("screw_torque", swept.outputs[`contribution_${name}`])]),
-  );
   const total = parts.converted("screw_torque", swept.outputs.screw_torque);
   const operation = parts.operationOf(answer);
   const load = units.formatted("axial_load", operation.axial_load);
-  const speed = units.inDisplayUnit("screw_speed", operation.screw_speed);
-  const valid = parts.validAlong(swept);
+  const names = Object.keys(contributions).filter((name) =>
+    swept.outputs[`contribution_${name}`]?.values.some((value) => value !== 0),
+  );
+  let low = speeds.map(() => 0);
+  /** @type {Mark[]} */
+  const stacked = names.map((name) => {
+    const part = parts.converted("screw_torque", swept.outputs[`contribution_${name}`]);
+    const [below, high] = [low, low.map((value, place) => value + (part[place] ?? 0))];
+    low = high;
+    const colour = mechanisms[name]?.colour ?? "grey";
+    return {
+      kind: "band",
+      name: wordsOf(name, mechanisms),
+      x: speeds,
+      low: below,
+      high,
+      colour,
+      solid: true,
+      note: share(name),
+    };
+  });
   /** @param {string} name */
-  const words = (name) => wordsOf(name, mechanisms);
-  const x = parts.titled("screw_speed", text("chart.speed"));
-  const y = parts.titled("screw_torque", text("chart.torque"));
-  /** @param {string} name */
-  const share = (name) => {
+  function share(name) {
     const part = contributions[name];
     const percent = sum && sum > 0 && part !== null ? ` · ${units.digits((100 * part) / sum, 2)} %` : "";
     return element("span", { class: "value" }, data("screw_torque", part), percent);
-  };
-  const totalText = units.formatted("screw_torque", sum);
-  /** The sum of the nearest speed of the curve. @param {number} at */
+  }
+  /** The sum at the nearest speed of the curve. @param {number} at */
   const nearest = (at) => {
     const [[place]] = speeds.map((one, i) => [i, Math.abs(one - at)]).sort(([, a], [, b]) => a - b);
     return total[place];
   };
-  const others = names.length + band.count;
-  return draw("torque-chart", {
+  const note = element("span", { class: "value" }, data("screw_torque", sum));
+  draw("torque-chart", {
     name: "torque_over_speed",
-    drag: { x: "screw_speed", trace: others + 1, place: (at) => [at, nearest(at)] },
+    drag: { x: "screw_speed", place: (at) => [at, nearest(at)] },
     caption: text("speed.caption", { load }),
-    description: text("speed.description", { load, total: totalText }),
-    figure: (colours) => ({
-      traces: [
-        ...names.map((name) => ({
-          x: speeds,
-          y: byName[name],
-          name: words(name),
-          stackgroup: "parts",
-          mode: "lines",
-          line: { width: 0.5, color: mechanisms[name]?.colour },
-          fillcolor: mechanisms[name]?.colour,
-          hovertemplate: "%{y:.4g}",
-        })),
-        ...band.traces(colours),
-        {
-          x: speeds,
-          y: total,
-          name: text("chart.sum"),
-          mode: "lines",
-          line: { color: colours.ink, width: 2 },
-          hovertemplate: "%{y:.4g}",
-        },
-        parts.pointAt(colours, speed, units.inDisplayUnit("screw_torque", sum)),
+    description: text("speed.description", { load, total: units.formatted("screw_torque", sum) }),
+    figure: {
+      x: { title: parts.titled("screw_speed", text("chart.speed")) },
+      y: { title: parts.titled("screw_torque", text("chart.torque")), zero: true },
+      marks: [
+        ...stacked,
+        ...bandsOf(banded),
+        { kind: "curve", name: text("chart.sum"), x: speeds, y: total, colour: "ink", style: "line", note },
+        parts.outside(speeds, parts.validAlong(swept)),
+        parts.pointAt(
+          units.inDisplayUnit("screw_speed", operation.screw_speed),
+          units.inDisplayUnit("screw_torque", sum),
+        ),
       ],
-      layout: layout(colours, x, y, { shapes: parts.invalidRanges(speeds, valid) }),
-    }),
-    legend: (colours) => [
-      {
-        kind: "line",
-        name: text("chart.sum"),
-        colour: colours.ink,
-        value: element("span", { class: "value" }, data("screw_torque", sum)),
-      },
-      ...names.toReversed().map((name) => ({
-        kind: "area",
-        name: words(name),
-        colour: mechanisms[name]?.colour,
-        value: share(name),
-      })),
-      ...band.entries(colours),
-      parts.pointEntry(colours),
-      ...parts.invalidEntries(valid),
-    ],
-    numbers: () => [
-      [x, y, ...band.headings, ...names.map((name) => parts.titled("screw_torque", words(name))), text("chart.valid")],
-      speeds.map((at, place) => [
-        at,
-        total[place],
-        ...band.cells(parts.valuesOf(swept.axes.screw_speed)[place]),
-        ...names.map((name) => byName[name][place]),
-        parts.yesOrNo(valid[place]),
-      ]),
-    ],
+    },
   });
 }
+
+// -- efficiency -------------------------------------------------------------------------------------
 
 /**
  * Efficiency over load and speed.
@@ -205,123 +168,239 @@ export function map(swept, answer) {
    * @template Value
    * @param {Value[][]} values
    */
-  const byLoad = (values) => (loadIsFirst ? values : loads.map((_, i) => speeds.map((_, j) => values[j][i])));
+  const byLoad = (values) => (loadIsFirst ? values : loads.map((_, i) => speeds.map((_speed, j) => values[j][i])));
   const [driving, driven] = ["efficiency", "back_driving_efficiency"].map((name) =>
     byLoad(/** @type {(number | null)[][]} */ (swept.outputs[name].values)),
   );
   // where load and speed have not the same sign, the load drives the screw
   const isDriven = loads.some((load) => speeds.some((speed) => load * speed < 0));
-  const grid = driving.map((row, i) => row.map((value, j) => (loads[i] * speeds[j] < 0 ? driven[i][j] : value)));
-  const valid = byLoad(/** @type {boolean[][]} */ (swept.outputs.valid.values));
-  const x = parts.titled("screw_speed", text("chart.speed"));
-  const y = parts.titled("axial_load", text("chart.load"));
+  const values = driving.map((row, i) => row.map((value, j) => (loads[i] * speeds[j] < 0 ? driven[i][j] : value)));
+  const known = values.flat().filter((value) => value !== null);
   const operation = parts.operationOf(answer);
-  const point = parts.pointAt(
-    { ink: "#000", panel: "#fff" },
-    units.inDisplayUnit("screw_speed", operation.screw_speed),
-    units.inDisplayUnit("axial_load", operation.axial_load),
-  );
   const efficiency = units.digits(answer.results.efficiency ?? answer.results.back_driving_efficiency);
-  return draw("map-chart", {
+  const words = text("chart.efficiency");
+  const valid = byLoad(/** @type {boolean[][]} */ (swept.outputs.valid.values));
+  draw("map-chart", {
     name: "efficiency_map",
-    drag: { x: "screw_speed", y: "axial_load", trace: 2, place: (at, load) => [at, load] },
+    drag: { x: "screw_speed", y: "axial_load", place: (at, load) => [at, load] },
     caption: text("map.caption"),
     description: text("map.description", { efficiency }),
-    figure: (colours) => ({
-      traces: [
+    figure: {
+      x: {
+        title: parts.titled("screw_speed", text("chart.speed")),
+        from: Math.min(...speeds),
+        to: Math.max(...speeds),
+      },
+      y: { title: parts.titled("axial_load", text("chart.load")), from: Math.min(...loads), to: Math.max(...loads) },
+      marks: [
         {
+          kind: "grid",
+          name: words,
           x: speeds,
           y: loads,
-          z: grid,
-          type: "contour",
-          colorscale: SCALE,
-          ncontours: 12,
-          name: text("chart.efficiency"),
-          contours: { coloring: "heatmap", showlabels: true, labelfont: { size: 11, color: "#000" } },
-          line: { width: 0.6, color: "#333" },
-          colorbar: { thickness: 12, outlinewidth: 0, tickformat: ".3~g", xpad: 6 },
-          hovertemplate: `%{x:.4g}, %{y:.4g}: ${text("chart.efficiency")} %{z:.4f}<extra></extra>`,
-          showlegend: false,
+          values,
+          valid,
+          colour: "",
+          shades: { from: Math.min(...known), to: Math.max(...known), title: words, colours: SHADES },
         },
-        {
-          x: speeds,
-          y: loads,
-          z: valid.map((row) => row.map((holds) => (holds ? 0 : 1))),
-          type: "contour",
-          name: parts.OUTSIDE,
-          showlegend: false,
-          // plotly fills what the constraint excludes
-          contours: { type: "constraint", operation: "<", value: 0.5 },
-          fillcolor: parts.INVALID,
-          line: { width: 0 },
-          hoverinfo: "skip",
-        },
-        { ...point, hoverinfo: "skip", hovertemplate: undefined },
+        ...(isDriven ? [/** @type {Mark} */ ({ kind: "level", name: text("map.driven"), colour: "soft" })] : []),
+        { kind: "outside", name: parts.OUTSIDE, x: [], valid: valid.flat() },
+        parts.pointAt(
+          units.inDisplayUnit("screw_speed", operation.screw_speed),
+          units.inDisplayUnit("axial_load", operation.axial_load),
+        ),
       ],
-      layout: layout(colours, x, y, { hovermode: "closest", margin: { l: 72, r: 60, t: 8, b: 42 } }),
-    }),
-    legend: (colours) => [
-      parts.pointEntry(colours),
-      ...parts.invalidEntries(valid.flat()),
-      ...(isDriven ? [{ kind: "none", name: text("map.driven"), colour: undefined }] : []),
-    ],
-    numbers: () => [
-      [`${y} \\ ${x}`, ...speeds.map((one) => String(Number(one.toPrecision(6))))],
-      loads.map((one, i) => [one, ...grid[i]]),
-    ],
+    },
+  });
+}
+
+// -- film and pressure ------------------------------------------------------------------------------
+
+/**
+ * The curves of a sweep, one for each side of the contact.
+ *
+ * @param {number[]} x
+ * @param {Sweep} swept
+ * @param {Record<string, string>} labels
+ * @returns {Mark[]}
+ */
+function sides(x, swept, labels) {
+  const names = Object.keys(labels).filter((name) => swept.outputs[name]);
+  return names.map((name, place) => ({
+    kind: "curve",
+    name: labels[name],
+    x,
+    y: parts.converted(name.includes("pressure") ? "maximum_pressure" : name, swept.outputs[name]),
+    colour: place ? "second" : "accent",
+    style: place ? "dashed" : "line",
+  }));
+}
+
+/**
+ * The film parameter over speed, with the regimes behind it.
+ *
+ * @param {Sweep} swept
+ * @param {Run} answer
+ */
+export function film(swept, answer) {
+  const speeds = parts.converted("screw_speed", swept.axes.screw_speed);
+  const curves = sides(speeds, swept, FILMS);
+  const now = answer.results.minimum_film_parameter ?? leastFilm(answer);
+  const known = curves
+    .flatMap((curve) => (curve.kind === "curve" ? curve.y : []))
+    .map(Number)
+    .filter(Number.isFinite);
+  const highest = 1.08 * Math.max(1.2, Number.isFinite(now) ? now : 0, ...known);
+  /** @type {Mark[]} */
+  const zones = REGIMES.filter(([, from]) => from < 0.97 * highest).map(([words, from, to, colour]) => ({
+    kind: "zone",
+    name: "",
+    words,
+    along: "y",
+    from,
+    to: Math.min(to, highest),
+    colour,
+  }));
+  draw("film-chart", {
+    name: "film_over_speed",
+    caption: text("film.caption"),
+    description: text("film.description", { film: units.digits(now) }),
+    figure: {
+      x: { title: parts.titled("screw_speed", text("chart.speed")) },
+      y: { title: text("results.of_contact.film_parameter"), from: 0, to: highest },
+      marks: [
+        ...zones,
+        ...curves,
+        parts.outside(speeds, parts.validAlong(swept)),
+        parts.pointAt(units.inDisplayUnit("screw_speed", parts.operationOf(answer).screw_speed), now),
+      ],
+    },
   });
 }
 
 /**
- * Parts of the torque of several designs as bars.
+ * The greatest contact pressure over load.
  *
- * @param {Record<string, Run>} answers
- * @param {Mechanisms} mechanisms
+ * @param {Sweep} swept
+ * @param {Run} answer
  */
-export function designs(answers, mechanisms) {
-  const letters = Object.keys(answers);
-  /**
-   * @param {string} letter
-   * @param {string} name
-   */
-  const part = (letter, name) => answers[letter].results.contributions[name] ?? 0;
-  const names = [...new Set(letters.flatMap((letter) => Object.keys(answers[letter].results.contributions)))].filter(
-    (name) => letters.some((letter) => part(letter, name)),
+export function pressure(swept, answer) {
+  const loads = parts.converted("axial_load", swept.axes.axial_load);
+  const now = greatestPressure(answer);
+  draw("pressure-chart", {
+    name: "pressure_over_load",
+    caption: text("pressure.caption"),
+    description: text("pressure.description", { pressure: units.formatted("maximum_pressure", now) }),
+    figure: {
+      x: { title: parts.titled("axial_load", text("chart.load")) },
+      y: { title: parts.titled("maximum_pressure", text("results.of_contact.maximum_pressure")), zero: true },
+      marks: [
+        ...sides(loads, swept, PRESSURES),
+        parts.outside(loads, parts.validAlong(swept)),
+        parts.pointAt(
+          units.inDisplayUnit("axial_load", parts.operationOf(answer).axial_load),
+          units.inDisplayUnit("maximum_pressure", now),
+        ),
+      ],
+    },
+  });
+}
+
+// -- Stribeck ---------------------------------------------------------------------------------------
+
+/** A point of the curve, torque in its display unit. @typedef {{ film: number, speed: number, torque: number, valid: boolean }} Point */
+
+/**
+ * The points of a sweep over the speed that turn as the operating point does, by their film parameter.
+ *
+ * @param {Sweep} swept
+ * @param {number} speed of the operating point
+ * @returns {Point[]}
+ */
+function pointsOf(swept, speed) {
+  const speeds = parts.valuesOf(swept.axes.screw_speed);
+  const torques = parts.converted("screw_torque", swept.outputs.screw_torque);
+  const shown = parts.converted("screw_speed", swept.axes.screw_speed);
+  // of a whole nut, and of both contacts of a ball
+  const films = Object.keys(FILMS).flatMap((name) =>
+    swept.outputs[name] ? [parts.valuesOf(swept.outputs[name])] : [],
   );
-  /**
-   * @param {string} letter
-   * @param {string} name
-   */
-  const shown = (letter, name) => units.inDisplayUnit("screw_torque", part(letter, name));
-  /** @param {string} name */
-  const words = (name) => wordsOf(name, mechanisms);
-  const x = parts.titled("screw_torque", text("chart.torque"));
-  return draw("compare-chart", {
-    name: "designs",
-    caption: text("compare.chart"),
-    description: text("compare.description"),
-    figure: (colours) => ({
-      traces: names.map((name) => ({
-        type: "bar",
-        orientation: "h",
-        y: letters,
-        x: letters.map((letter) => shown(letter, name)),
-        name: words(name),
-        marker: { color: mechanisms[name]?.colour },
-        hovertemplate: "%{x:.4g}",
-      })),
-      layout: layout(colours, x, text("chart.design"), {
-        barmode: "stack",
-        hovermode: "closest",
-        margin: { l: 48, r: 26, t: 8, b: 42 },
-        xaxis: { rangemode: "tozero" },
-        yaxis: { autorange: "reversed", type: "category", tickformat: undefined, nticks: undefined, dtick: 1 },
-      }),
+  const valid = parts.validAlong(swept);
+  return speeds
+    .map((one, i) => ({
+      film: Math.min(...films.map((values) => values[i] ?? Number.NaN)),
+      speed: shown[i],
+      torque: torques[i],
+      valid: valid[i],
+      isSame: one * (speed || 1) > 0,
+    }))
+    .filter(({ film: thickness, torque: value, isSame }) => isSame && thickness > 0 && Number.isFinite(value))
+    .sort((one, other) => one.film - other.film);
+}
+
+/** Which text names a regime by its ends. @param {number} from @param {number} to */
+function keyOf(from, to) {
+  if (!from) return "stribeck.below";
+  return Number.isFinite(to) ? "stribeck.between" : "stribeck.above";
+}
+
+/**
+ * The friction torque over the least film parameter, at the speeds of a sweep, with the regimes of lubrication.
+ *
+ * @param {Sweep} swept
+ * @param {Run} answer
+ */
+export function stribeck(swept, answer) {
+  const { screw_speed: speed, axial_load: load } = parts.operationOf(answer);
+  const points = pointsOf(swept, speed);
+  const least = answer.results.minimum_film_parameter ?? leastFilm(answer);
+  if (points.length < 2) {
+    hide("stribeck-chart");
+    return;
+  }
+  const now = least > 0 ? least : null;
+  const films = points.map(({ film: thickness }) => thickness);
+  const low = Math.min(...films, now ?? Number.POSITIVE_INFINITY) / BEYOND;
+  const high = Math.max(...films, now ?? 0) * BEYOND;
+  /** @type {Zone[]} */
+  const zones = REGIMES.filter(([, from, to]) => Math.max(from, low) < Math.min(to, high)).map(
+    ([words, from, to, colour]) => ({
+      kind: "zone",
+      name: text(keyOf(from, to), { name: words, from, to }),
+      words,
+      along: "x",
+      from: Math.max(from, low),
+      to: Math.min(to, high),
+      colour,
     }),
-    legend: () => names.map((name) => ({ kind: "area", name: words(name), colour: mechanisms[name]?.colour })),
+  );
+  const now_ = answer.results.screw_torque;
+  const title = parts.titled("screw_torque", text("chart.torque"));
+  const regime = (now && REGIMES.find(([, , to]) => now < to)?.[0]) || "";
+  const lines = parts.linesByValidity(
+    films,
+    points.map((one) => one.torque),
+    points.map(({ valid }) => valid),
+    text("chart.torque"),
+    "accent",
+  );
+  const x = text("stribeck.film");
+  draw("stribeck-chart", {
+    name: "stribeck_curve",
+    caption: text("stribeck.caption", { load: units.formatted("axial_load", load) }),
+    description: text("stribeck.description", {
+      film: units.digits(now),
+      torque: units.formatted("screw_torque", now_),
+      regime,
+    }),
+    figure: {
+      x: { title: x, log: true, from: low, to: high },
+      y: { title, zero: true },
+      marks: [...zones, ...lines, parts.pointAt(now, units.inDisplayUnit("screw_torque", now_))],
+    },
     numbers: () => [
-      [text("chart.design"), ...names.map((name) => parts.titled("screw_torque", words(name)))],
-      letters.map((letter) => [letter, ...names.map((name) => shown(letter, name))]),
+      [x, title, parts.titled("screw_speed", text("chart.speed")), text("chart.valid")],
+      points.map((one) => [one.film, one.torque, one.speed, text(one.valid ? "chart.yes" : "chart.no")]),
     ],
   });
 }

@@ -1,17 +1,19 @@
 // Designs side by side, and the case with other models and laws.
 
 import { operationOf } from "./chart_parts.js";
-import * as charts from "./charts.js";
+import { wordsOf } from "./charts.js";
 import { verdict } from "./checks.js";
 import { byId, element, scrolling, table } from "./dom.js";
 import { labelOf } from "./messages.js";
 import { words } from "./fields.js";
 import { data, greatestPressure, leastFilm, nameOf, numbersOf, rounded } from "./results.js";
 import { OF_CARDS, SECTIONS } from "./schema.js";
+import { draw } from "./sheet_charts.js";
 import { LETTERS } from "./state.js";
 import { store } from "./store.js";
 import { text } from "./texts.js";
 import * as units from "./units.js";
+import { vocabulary } from "./vocabulary.js";
 
 const ROWS = /** @type {const} */ ([
   "screw_torque",
@@ -59,7 +61,7 @@ function delta(value, first) {
  * @param {string[]} starts
  * @param {Mechanisms} mechanisms
  */
-export async function showDesigns(answers, starts, mechanisms) {
+export function showDesigns(answers, starts, mechanisms) {
   const place = byId("compare");
   const letters = Object.keys(answers);
   byId("compare-at").hidden = letters.length < 2;
@@ -108,13 +110,35 @@ export async function showDesigns(answers, starts, mechanisms) {
   const headings = ["", ...letters.map((letter) => text("compare.design", { letter }))];
   const caption = text("compare.caption", { conditions: conditions(runs), first: letters[0] });
   place.replaceChildren(scrolling(text("compare.table"), table(caption, headings, rows)));
-  const computed = Object.fromEntries(
-    letters.flatMap((letter) => {
-      const { run } = answers[letter];
-      return run ? [[letter, run]] : [];
-    }),
+  byId("compare-chart").hidden = !runs.length;
+  if (runs.length) draw("compare-chart", bars(answers, mechanisms));
+}
+
+/** The parts of the torque of each design as a bar. @param {Answers} answers @param {Mechanisms} mechanisms */
+function bars(answers, mechanisms) {
+  const all = Object.entries(answers).flatMap(([letter, { run }]) =>
+    run ? [{ letter, parts: run.results.contributions }] : [],
   );
-  if (runs.length) await charts.designs(computed, mechanisms);
+  const names = new Set(all.flatMap(({ parts }) => Object.keys(parts).filter((name) => parts[name])));
+  return {
+    kind: "bars",
+    title: text("compare.chart"),
+    quantity: vocabulary.results.screw_torque,
+    origin: 0,
+    marks: [],
+    bars: all.map(({ letter, parts }) => ({
+      name: letter,
+      parts: [...names].map((name) => [
+        wordsOf(name, mechanisms),
+        parts[name] ?? 0,
+        mechanisms[name]?.colour ?? "grey",
+      ]),
+      band: null,
+      text: "",
+      hatched: false,
+      start: null,
+    })),
+  };
 }
 
 /**

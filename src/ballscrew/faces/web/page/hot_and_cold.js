@@ -3,7 +3,7 @@
 import * as parts from "./chart_parts.js";
 import { byId } from "./dom.js";
 import { localEngine, pointsOf } from "./local_engine.js";
-import { draw, hide, layout, showFailure } from "./plot.js";
+import { draw, hide, showFailure } from "./plot.js";
 import { Latest, linesOf, sendJson } from "./server.js";
 import { text } from "./texts.js";
 import * as units from "./units.js";
@@ -116,7 +116,7 @@ class HotAndCold {
       showFailure(ID, linesOf(error).join("; "));
       return;
     }
-    if (!signal.aborted) await drawCurves(wanted, wanted.curves);
+    if (!signal.aborted) drawCurves(wanted, wanted.curves);
   }
 }
 
@@ -132,12 +132,9 @@ function drawCurves({ answer, temperatures, speeds }, curves) {
   const x = parts.titled("screw_speed", text("chart.speed"));
   const y = parts.titled("screw_torque", text("chart.torque"));
   const now = answer.results.screw_torque;
-  /** The coldest, the hottest, and between them that of the case. @param {import("./plot.js").Colours} colours @param {number} place */
-  const style = ({ accent, second, ink }, place) => {
-    if (place === 0) return { colour: accent, kind: "line" };
-    return place === temperatures.length - 1 ? { colour: second, kind: "line" } : { colour: ink, kind: "line" };
-  };
-  return draw(ID, {
+  /** The coldest, the hottest, and between them that of the case. @param {number} place */
+  const colour = (place) => (place === 0 ? "accent" : place === temperatures.length - 1 ? "second" : "ink");
+  draw(ID, {
     name: "torque_cold_and_hot",
     caption: text("hot.caption", { load: units.formatted("axial_load", load) }),
     description: text("hot.description", {
@@ -145,23 +142,16 @@ function drawCurves({ answer, temperatures, speeds }, curves) {
       from: names[0],
       to: names.at(-1) ?? "",
     }),
-    figure: (colours) => ({
-      traces: [
+    figure: {
+      x: { title: x },
+      y: { title: y, zero: true },
+      marks: [
         ...curves.flatMap(({ valid }, place) =>
-          parts.linesByValidity(shown, torques[place], valid, names[place], style(colours, place).colour),
+          parts.linesByValidity(shown, torques[place], valid, names[place], colour(place)),
         ),
-        parts.pointAt(colours, units.inDisplayUnit("screw_speed", speed), units.inDisplayUnit("screw_torque", now)),
+        parts.pointAt(units.inDisplayUnit("screw_speed", speed), units.inDisplayUnit("screw_torque", now)),
       ],
-      layout: layout(colours, x, y),
-    }),
-    legend: (colours) => [
-      ...names.map((name, place) => ({ ...style(colours, place), name })),
-      parts.pointEntry(colours),
-      ...parts.dottedEntries(
-        curves.flatMap(({ valid }) => valid),
-        colours.ink,
-      ),
-    ],
+    },
     numbers: () => [
       [
         x,
@@ -171,7 +161,7 @@ function drawCurves({ answer, temperatures, speeds }, curves) {
       shown.map((at, i) => [
         at,
         ...torques.map((values) => values[i]),
-        ...curves.map(({ valid }) => parts.yesOrNo(valid[i])),
+        ...curves.map(({ valid }) => text(valid[i] ? "chart.yes" : "chart.no")),
       ]),
     ],
   });

@@ -1,15 +1,16 @@
 // The nut unrolled: each ball at its angle about the screw and its place along it, with its load as its colour.
 
-import { nutOf, rangeOf, SCALE } from "./ball_places.js";
+import { COLOURS, nutOf, rangeOf } from "./ball_places.js";
 import { POSITION } from "./cards/quantities.js";
 import * as parts from "./chart_parts.js";
 import { byId, element, scrolling, table, update } from "./dom.js";
-import { draw, hide, layout } from "./plot.js";
+import { draw, hide } from "./plot.js";
 import { text } from "./texts.js";
 import * as units from "./units.js";
 
 /** @typedef {import("./ball_places.js").Nut} Nut */
 /** @typedef {import("./ball_places.js").Ball} Ball */
+/** @typedef {import("./figure.js").Curve} Curve */
 
 const CHART = "nut-unrolled";
 const TURN = 2 * Math.PI;
@@ -48,10 +49,18 @@ function chart(nut) {
   const [least, greatest] = rangeOf(nut.balls);
   const length = Math.max(...nut.balls.map((one) => one.along)) + 2 * ROOM * nut.lead;
   const size = Math.min(DOT.greatest, Math.max(DOT.least, (DOT.height * nut.ball) / length));
+  const ends = [-ROOM * nut.lead, length - ROOM * nut.lead].map((along) => Number(POSITION.convert(along)));
   /** @param {number} load */
   const shown = (load) => units.inDisplayUnit("contact_load", load);
-  /** @param {Ball[]} some */
-  const placed = (some) => ({ x: some.map(angleOf), y: POSITION.all(some.map((one) => one.along)), mode: "markers" });
+  /** @param {Ball[]} some @param {Pick<Curve, "name" | "style"> & Partial<Curve>} others @returns {Curve} */
+  const dots = (some, others) => ({
+    kind: "curve",
+    x: some.map(angleOf),
+    y: POSITION.all(some.map((one) => one.along)),
+    colour: "ink",
+    size,
+    ...others,
+  });
   const words = text("nut_unrolled.ball");
   return {
     name: "nut_unrolled",
@@ -61,59 +70,38 @@ function chart(nut) {
       least: units.formatted("contact_load", least),
       greatest: units.formatted("contact_load", greatest),
     }),
-    figure: (colours) => ({
-      traces: [
+    figure: {
+      x: { title: x, from: -8, to: 368, step: 90 },
+      y: { title: y, from: ends[0], to: ends[1] },
+      marks: [
         {
+          kind: "curve",
           ...helix(nut),
           name: text("nut_unrolled.helix"),
-          mode: "lines",
-          hoverinfo: "skip",
-          line: { color: colours.ink, width: 0.6 },
+          colour: "ink",
+          style: "line",
+          width: 0.6,
+          isQuiet: true,
         },
         ...(spacers.length
-          ? [
-              {
-                ...placed(spacers),
-                name: text("nut_unrolled.spacer"),
-                hoverinfo: "skip",
-                marker: { size, color: colours.panel, line: { color: colours.ink, width: 1.2 } },
-              },
-            ]
+          ? [dots(spacers, { name: text("nut_unrolled.spacer"), style: "circles", isQuiet: true })]
           : []),
-        {
-          ...placed(balls),
-          name: words,
-          customdata: balls.map((one) => nut.balls.indexOf(one) + 1),
-          marker: {
-            size,
-            color: balls.map((one) => shown(one.load)),
-            colorscale: SCALE,
-            cmin: shown(least),
-            cmax: shown(greatest > least ? greatest : least + 1),
-            showscale: true,
-            colorbar: {
-              thickness: 12,
-              outlinewidth: 0,
-              tickformat: ".4~g",
-              title: { text: z, side: "right" },
-              xpad: 6,
-            },
-            line: { color: colours.ink, width: 0.8 },
+        dots(balls, {
+          name: "",
+          style: "dots",
+          words: balls.map(
+            (one) => `${words} ${nut.balls.indexOf(one) + 1}: ${units.formatted("contact_load", one.load)}`,
+          ),
+          values: balls.map((one) => shown(one.load)),
+          shades: {
+            from: shown(least),
+            to: shown(greatest > least ? greatest : least + 1),
+            title: z,
+            colours: COLOURS,
           },
-          hovertemplate: `${words} %{customdata}: %{marker.color:.4g} ${units.symbol(units.unitOf("contact_load"))}<extra></extra>`,
-        },
+        }),
       ],
-      layout: layout(colours, x, y, {
-        hovermode: "closest",
-        margin: { l: 72, r: 92, t: 8, b: 42 },
-        xaxis: { range: [-8, 368], tickvals: [0, 90, 180, 270, 360], nticks: undefined },
-        yaxis: { rangemode: "normal" },
-      }),
-    }),
-    legend: (colours) => [
-      ...(spacers.length ? [{ kind: "point", name: text("nut_unrolled.spacer"), colour: colours.ink }] : []),
-      { kind: "line", name: text("nut_unrolled.helix"), colour: colours.ink },
-    ],
+    },
     numbers: () => [
       [
         text("chart.ball"),

@@ -1,4 +1,4 @@
-// The operating point moved by hand: sliders beside the fields, and the diamond of a chart that can be dragged.
+// The operating point moved by hand: sliders beside the fields, and that of a chart, which can be dragged.
 
 import { byId, element } from "./dom.js";
 import { entries } from "./history.js";
@@ -16,10 +16,6 @@ const STEPS = 200;
 const CLOSE = 0.95;
 const FAR = 0.05;
 const DIGITS = 3;
-/** Pixels around the diamond within which it is taken. */
-const REACH = 22;
-/** Pixels between the diamond and the words of the hover. */
-const GAP = 10;
 
 /**
  * A slider for a field, to stand below it; none where the field has none.
@@ -135,112 +131,40 @@ const FIELDS = {
 };
 
 /**
- * What can be dragged in a chart: the inputs along its axes, where the diamond is drawn for a place of the pointer, and
- * which trace it is.
+ * What can be dragged in a chart: the inputs along its axes, and where the operating point is drawn for a place of the pointer.
  *
- * @typedef {{ x: string, y?: string, place: (x: number, y: number) => [number, number], trace: number }} Handle
+ * @typedef {{ x: string, y?: string, place: (x: number, y: number) => [number, number] }} Handle
  */
 
 /**
- * Tells by ``move`` of a diamond that is dragged: ``detail`` has its values in SI, or null where it is let go and stays
- * where it was. Whoever follows it prevents the default, which is that it alone is drawn.
+ * Tells by ``move`` of an operating point that is dragged: ``detail`` has its values in SI, or null where it is let go and
+ * stays where it was. Whoever follows it prevents the default, which is that it alone is drawn.
  */
-export const diamond = new EventTarget();
+export const dragged = new EventTarget();
 
-/** @param {Record<string, number> | null} detail */
-function isFollowed(detail) {
-  return !diamond.dispatchEvent(new CustomEvent("move", { detail, cancelable: true }));
+/** Tell where the operating point is dragged to; true where somebody follows it. @param {Handle} handle @param {[number, number]} at */
+export function isFollowed(handle, [x, y]) {
+  const detail = { [handle.x]: inSI(handle.x, x), ...(handle.y && { [handle.y]: inSI(handle.y, y) }) };
+  return !dragged.dispatchEvent(new CustomEvent("move", { detail, cancelable: true }));
+}
+
+/** The operating point is let go, and stays where it was. */
+export function letGo() {
+  dragged.dispatchEvent(new CustomEvent("move", { detail: null, cancelable: true }));
 }
 
 /**
- * Let the diamond of a chart be dragged. The field takes the value when it is let go: until then the axes of the chart
+ * Take the values of the operating point as it was dropped. The fields have them only then: until then the axes of the chart
  * stay as they are under the pointer.
  *
- * @param {string} id
- * @param {() => Handle | undefined} handle that of the chart as it is drawn now
+ * @param {Handle} handle
+ * @param {[number, number]} at
  */
-export function letDrag(id, handle) {
-  const holder = byId(id);
-  /** @type {[number, number] | undefined} */
-  let at;
-  holder.addEventListener("pointerdown", (event) => take(event), { capture: true });
-  holder.addEventListener("touchstart", (event) => at && event.stopPropagation(), { capture: true });
-  holder.addEventListener("pointermove", (event) => {
-    uncover(); // once it is drawn
-    if (at) move(event);
-    else holder.classList.toggle("near", isNear(event));
+export function take(handle, [x, y]) {
+  entries.asOne(() => {
+    commit(handle.x, x);
+    if (handle.y) commit(handle.y, y);
   });
-  holder.addEventListener("pointerup", () => drop());
-  holder.addEventListener("pointercancel", () => {
-    if (at) isFollowed(null);
-    at = undefined;
-  });
-
-  /** @param {PointerEvent} event */
-  function take(event) {
-    if (!isNear(event)) return;
-    at = point();
-    holder.setPointerCapture(event.pointerId);
-    event.preventDefault();
-    event.stopPropagation();
-  }
-
-  /** @param {PointerEvent} event */
-  function move(event) {
-    const [plot, held] = [plotOf(id), handle()];
-    if (!plot || !held) return;
-    const { left, top } = plot.getBoundingClientRect();
-    const { xaxis, yaxis } = plot._fullLayout;
-    /** @param {any} axis @param {number} pixel */
-    const value = (axis, pixel) => axis.p2d(Math.min(axis._length, Math.max(0, pixel - axis._offset)));
-    at = held.place(value(xaxis, event.clientX - left), value(yaxis, event.clientY - top));
-    const values = { [held.x]: inSI(held.x, at[0]), ...(held.y && { [held.y]: inSI(held.y, at[1]) }) };
-    if (!isFollowed(values)) globalThis.Plotly.restyle(plot, { x: [[at[0]]], y: [[at[1]]] }, [held.trace]);
-  }
-
-  function drop() {
-    const [held, dropped] = [handle(), at];
-    at = undefined;
-    if (!held || !dropped) return;
-    const [x, y] = dropped;
-    entries.asOne(() => {
-      commit(held.x, x);
-      if (held.y) commit(held.y, y);
-    });
-  }
-
-  /** The place of the diamond. @returns {[number, number] | undefined} */
-  function point() {
-    const trace = plotOf(id)?.data[handle()?.trace ?? -1];
-    return trace && [trace.x[0], trace.y[0]];
-  }
-
-  /** @param {PointerEvent} event */
-  function isNear(event) {
-    const [plot, there] = [plotOf(id), point()];
-    if (!plot || !there) return false;
-    const [x, y] = placeOf(plot, there);
-    return Math.hypot(x - event.clientX, y - event.clientY) < REACH;
-  }
-
-  /** Keep the words of the hover off the diamond: they stand below it, or above it where there is no room. */
-  function uncover() {
-    const plot = plotOf(id);
-    if (!plot || "uncovered" in plot.dataset) return;
-    plot.dataset.uncovered = "";
-    plot.on("plotly_hover", () => {
-      const layer = plot.querySelector(".hoverlayer");
-      const words = layer?.querySelector(".legend, .hovertext");
-      const there = point();
-      if (!layer || !words || !there) return;
-      layer.style.transform = "";
-      const { left, right, top, bottom } = words.getBoundingClientRect();
-      const [x, y] = placeOf(plot, there);
-      if (x < left - GAP || x > right + GAP || y < top - GAP || y > bottom + GAP) return;
-      const room = plot.getBoundingClientRect().bottom - (y + GAP) > bottom - top;
-      layer.style.transform = `translateY(${room ? y + GAP - top : y - GAP - bottom}px)`;
-    });
-  }
 }
 
 /**
@@ -258,17 +182,4 @@ function commit(name, shown) {
  */
 function inSI(name, shown) {
   return units.toSI(shown, units.unitOf(name), FIELDS[name][1]);
-}
-
-/** Where a point of a plot is on the screen. @param {any} plot @param {[number, number]} point @returns {[number, number]} */
-function placeOf(plot, point) {
-  const { left, top } = plot.getBoundingClientRect();
-  const { xaxis, yaxis } = plot._fullLayout;
-  return [xaxis.d2p(point[0]) + xaxis._offset + left, yaxis.d2p(point[1]) + yaxis._offset + top];
-}
-
-/** The drawn plot of a chart. @param {string} id @returns {any} */
-function plotOf(id) {
-  const plot = /** @type {any} */ (byId(id).querySelector(".plot"));
-  return plot?._fullLayout?.xaxis ? plot : undefined;
 }

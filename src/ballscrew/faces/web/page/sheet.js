@@ -3,8 +3,7 @@
 
 import { jump } from "./cards.js";
 import { button, opened } from "./controls.js";
-import { csv, element, scrollingTable, within } from "./dom.js";
-import { remove, watch } from "./plot.js";
+import { csv, element, scrollingTable } from "./dom.js";
 import { save } from "./saving.js";
 import { draw, slug } from "./sheet_charts.js";
 import { sentence, text } from "./texts.js";
@@ -65,12 +64,8 @@ export function sheetPlace(id, beside = () => undefined) {
       charts.push([name, block]);
       return figure;
     });
-    for (const name of before.keys()) if (!figures.has(name)) remove(name);
     place.replaceChildren(element("h3", {}, sentence(title)), ...contents);
-    for (const [name, block] of charts) {
-      if (!before.has(name)) watch(within(place, `#${name}`));
-      draw(name, block);
-    }
+    for (const [name, block] of charts) draw(name, block);
   }
 
   return { place, show };

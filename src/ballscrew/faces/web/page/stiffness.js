@@ -2,7 +2,7 @@
 
 import * as parts from "./chart_parts.js";
 import { byId, element, table, update } from "./dom.js";
-import { draw, hide, layout } from "./plot.js";
+import { draw, hide } from "./plot.js";
 import { text } from "./texts.js";
 import * as units from "./units.js";
 import { vocabulary } from "./vocabulary.js";
@@ -126,24 +126,23 @@ function drawBalls({ forward_load: forward, backward_load: backward, count }, ha
     name: "load_of_each_ball",
     caption: text("stiffness.balls"),
     description: text("stiffness.description", { count: places.length }),
-    legend: (colours) =>
-      flanks.map(({ name }, place) => ({ kind: "area", name, colour: place ? colours.second : colours.accent })),
-    figure: (colours) => ({
-      traces: flanks.map(({ name, values }, place) => ({
+    figure: {
+      x: { title: x, ...(alike && { step: 1 }) },
+      y: { title: y, zero: true },
+      marks: flanks.map(({ name, values }, place) => ({
+        kind: "curve",
+        name,
         x: alike ? places : parted(places, halves),
         y: alike ? values : parted(values, halves),
-        name,
-        type: alike ? "bar" : "scatter",
-        mode: "lines",
-        line: { shape: "hvh", width: 1.5, color: place ? colours.second : colours.accent },
-        marker: { color: place ? colours.second : colours.accent },
-        hovertemplate: "%{y:.3g}",
+        style: alike ? "dots" : "steps",
+        size: 9,
+        width: 1.5,
+        colour: place ? "second" : "accent",
       })),
-      layout: layout(colours, x, y, { xaxis: { tickformat: "d" } }),
-    }),
+    },
     numbers: () => [
       [text("chart.ball"), ...flanks.map(({ name }) => parts.titled("contact_load", name))],
-      places.map((at, place) => [at, ...flanks.map(({ values }) => values[place])]),
+      places.map((one, place) => [one, ...flanks.map(({ values }) => values[place])]),
     ],
   });
 }

@@ -3,7 +3,7 @@
 import * as designs from "../designs.js";
 import { box, button, menu, textField } from "../controls.js";
 import { element, redraw, scrolling } from "../dom.js";
-import { draw, layout, watch } from "../plot.js";
+import { draw } from "../plot.js";
 import { LETTERS } from "../state.js";
 import { store } from "../store.js";
 import { text, textOr } from "../texts.js";
@@ -45,7 +45,6 @@ const OF_MOTION = {
 const IN_LIST = ["loss", "inertia", "life", "rigidity", "drive_torque", ...Object.keys(OF_MOTION), "price_index"];
 /** Objectives that are better when larger: their column begins with the largest. */
 const LARGER = ["life", "rigidity"];
-const OPEN = "#8a8f96";
 
 /** @typedef {Select["candidates"][number]} Candidate */
 
@@ -169,7 +168,6 @@ export function candidates(holder, found) {
     element("p", { class: "filters" }, text("choose.across"), " ", x, " ", text("choose.up"), " ", y),
     chart,
   );
-  watch(chart);
   show();
 }
 
@@ -384,31 +382,30 @@ async function take({ case: sections, label }, say) {
 function picture(kept, x, y, { objectives }) {
   const known = kept.filter((one) => [x, y].every((name) => Number.isFinite(numberOf(one, name))));
   const fits = (/** @type {Candidate} */ one) => !one.fails.length;
-  /** @param {{ second: string, accent: string }} colours */
-  const groups = ({ second, accent }) => [
-    { key: "choose.fail", symbol: "x-thin-open", colour: OPEN, of: known.filter((one) => !fits(one)) },
-    { key: "choose.fit", symbol: "circle", colour: accent, of: known.filter((one) => fits(one) && !one.pareto) },
-    { key: "choose.front", symbol: "diamond", colour: second, of: known.filter((one) => one.pareto) },
+  const groups = [
+    { key: "choose.fail", style: "crosses", colour: "soft", of: known.filter((one) => !fits(one)) },
+    { key: "choose.fit", style: "dots", colour: "accent", of: known.filter((one) => fits(one) && !one.pareto) },
+    { key: "choose.front", style: "circles", colour: "second", of: known.filter((one) => one.pareto) },
   ];
   const names = objectives.map(({ name }) => objective(name)).join(", ");
-  const label = (/** @type {string} */ key) => textOr(key, key, { names });
   draw("choose-chart", {
     name: "candidates",
     description: text("choose.picture", { x: objective(x), y: objective(y) }),
     caption: text("choose.caption"),
-    figure: (colours) => ({
-      traces: groups(colours).map(({ key, symbol, colour, of }) => ({
+    figure: {
+      x: { title: heading(x) },
+      y: { title: heading(y) },
+      marks: groups.map(({ key, style, colour, of }) => ({
+        kind: "curve",
+        name: textOr(key, key, { names }),
         x: of.map((one) => numberOf(one, x)),
         y: of.map((one) => numberOf(one, y)),
-        text: of.map((one) => one.label),
-        name: label(key),
-        mode: "markers",
-        marker: { symbol, color: colour, size: 9, line: { color: colour, width: 1.5 } },
-        hovertemplate: "%{text}<br>%{x:.4g}, %{y:.4g}<extra></extra>",
+        colour,
+        style,
+        size: 8,
+        words: of.map((one) => `${one.label}: ${units.digits(numberOf(one, y))}`),
       })),
-      layout: layout(colours, heading(x), heading(y), { hovermode: "closest" }),
-    }),
-    legend: (colours) => groups(colours).map(({ key, colour }) => ({ kind: "point", name: label(key), colour })),
+    },
     numbers: () => [
       [text("choose.candidate"), heading(x), heading(y), text("choose.front_column"), text("checks.holds")],
       known.map((one) => [one.label, numberOf(one, x), numberOf(one, y), one.pareto, one.holds]),

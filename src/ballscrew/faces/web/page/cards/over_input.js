@@ -6,7 +6,7 @@ import { menu, textField } from "../controls.js";
 import { element } from "../dom.js";
 import { inWords } from "../messages.js";
 import { labelIn } from "../fields.js";
-import { draw, layout, showFailure } from "../plot.js";
+import { draw, showFailure } from "../plot.js";
 import { numbersOf } from "../results.js";
 import { definition, fieldOf, SECTIONS } from "../schema.js";
 import { linesOf, Problem } from "../server.js";
@@ -48,12 +48,9 @@ const STATED = [
 const FOR_NOTHING = 100;
 const FEWEST = 4;
 const OUTPUTS = /** @type {const} */ (["screw_torque", "drive_torque", "efficiency", "friction_power"]);
-const DASHES = ["solid", "dash", "dot", "dashdot"];
-/** The same in the legend. */
-const KEYS = ["line", "dash", "dot", "dashdot"];
-/** Colours of the third and the fourth design, on light and on dark. */
-const MORE_COLOURS = ["#009E73", "#A3569B"];
-const COLOURS = 2 + MORE_COLOURS.length;
+const STYLES = ["line", "dashed", "dotted", "dashdot"];
+/** Colours of designs, on light and on dark. */
+const COLOURS = ["accent", "second", "green", "#A3569B"];
 
 /**
  * A curve of a design, or the reason why it has none.
@@ -147,7 +144,7 @@ export function setUp(holder) {
           element("p", { class: "warning" }, `${text("compare.design", { letter })}: ${reason}`),
         ),
       );
-      if (failed.length < curves.length) await chart(curves, question);
+      if (failed.length < curves.length) chart(curves, question);
       else showFailure(CHART, failed[0].reason ?? "");
     } catch (error) {
       if (signal.aborted) return;
@@ -338,14 +335,14 @@ async function curveOf({ letter, run, reason, body }, { path, output }, low, hig
  * @param {number} place
  */
 function lineOf(place) {
-  return (place + Math.floor(place / COLOURS)) % DASHES.length;
+  return (place + Math.floor(place / COLOURS.length)) % STYLES.length;
 }
 
 /**
  * @param {Curve[]} all
  * @param {Question} question
  */
-async function chart(all, { path, output }) {
+function chart(all, { path, output }) {
   const curves = all.flatMap((one) => {
     const { letter, run, at, swept } = one;
     if (!run || !swept || at === undefined) return [];
@@ -366,52 +363,25 @@ async function chart(all, { path, output }) {
   const words = labelIn(path);
   const x = unit ? `${words} (${units.symbol(unit)})` : words;
   const y = units.heading(output, text(`results.${output}`));
-  /** @param {import("../plot.js").Colours} colours @param {number} place */
-  const colour = ({ accent, second }, place) => [accent, second, ...MORE_COLOURS][place % COLOURS];
   const caption = text("over_input.caption", { result: text(`results.${output}`), input: words });
-  const isInvalid = curves.some(({ valid }) => !valid.every(Boolean));
-  await draw(CHART, {
+  draw(CHART, {
     name: "over_input",
     caption,
     description: text("over_input.description", { caption, count: curves.length }),
-    figure: (colours) => ({
-      traces: [
-        ...curves.map(({ name, place, ...one }) => ({
-          x: one.x,
-          y: one.y.map((value, point) => (one.valid[point] ? value : null)),
-          name,
-          mode: "lines",
-          hovertemplate: "%{y:.4g}",
-          line: { width: 2, color: colour(colours, place), dash: DASHES[lineOf(place)] },
-        })),
-        // thin where the model is not valid, up to the next point where it is
-        ...curves.map(({ name, place, ...one }) => ({
-          x: one.x,
-          y: one.y.map((value, point) =>
-            [point - 1, point, point + 1].some((near) => one.valid[near] === false) ? value : null,
-          ),
-          name,
-          mode: "lines",
-          hoverinfo: "skip",
-          line: { width: 0.8, color: colour(colours, place) },
-        })),
-        ...curves.map(({ at, place }) => ({
-          ...parts.pointAt({ ink: colour(colours, place), panel: colours.panel }, at[0], at[1]),
-          hoverinfo: "skip",
-        })),
-      ],
-      layout: layout(colours, x, y),
-    }),
-    legend: (colours) => [
-      ...curves.map(({ name, place }) => ({ kind: KEYS[lineOf(place)], name, colour: colour(colours, place) })),
-      parts.pointEntry(colours),
-      ...(isInvalid ? [{ kind: "line thin", name: parts.OUTSIDE, colour: colours.ink }] : []),
-    ],
+    figure: {
+      x: { title: x },
+      y: { title: y, zero: true },
+      marks: curves.flatMap(({ name, place, at, ...one }) => {
+        const colour = COLOURS[place % COLOURS.length];
+        const lines = parts.linesByValidity(one.x, one.y, one.valid, name, colour, STYLES[lineOf(place)]);
+        return [...lines, parts.pointAt(at[0], at[1], colour)];
+      }),
+    },
     numbers: () => [
       [x, ...curves.flatMap(({ name }) => [`${y}, ${name}`, `${text("chart.valid")}, ${name}`])],
       curves[0].x.map((at, place) => [
         at,
-        ...curves.flatMap((one) => [one.y[place], parts.yesOrNo(one.valid[place] ?? false)]),
+        ...curves.flatMap((one) => [one.y[place], text(one.valid[place] ? "chart.yes" : "chart.no")]),
       ]),
     ],
   });
