@@ -18,11 +18,11 @@ from support.node import node
 SCRIPT = """
 const [page, text] = process.argv.slice(1);
 const { quantityIn } = await import(`file://${page}/words.js`);
-const { startsFor } = await import(`file://${page}/case.js`);
+const { screwsFor } = await import(`file://${page}/../../web/page/part_search.js`);
 const { forces, quantity, units, searches, starts } = JSON.parse(text);
 console.log(JSON.stringify({
   forces: forces.map((one) => String(quantityIn(one, quantity, units))),
-  searches: searches.map((one) => startsFor(one, starts)),
+  searches: searches.map((one) => screwsFor(one, starts)),
 }));
 """
 FORCES = (

@@ -190,19 +190,23 @@ class Visit:
         return self.settle()
 
     def go(self, view: str) -> Visit:
-        """Go to a pane, ``nut.film``, by its tabs; to the first one of a view by its name alone."""
-        for address in (view.partition(".")[0], view):
-            tab = self.page.locator(f'[data-to="{address}"]').first
-            if tab.is_visible():  # a view of one pane has no tabs for it
-                tab.click()
+        """Go to a view by its tab, and to a part of it, ``nut.film``."""
+        name, _, part = view.partition(".")
+        self.page.locator(f'#views [data-view="{name}"]').click()
+        if part:
+            self.page.locator(f'[data-anchor="{view}"]').first.scroll_into_view_if_needed()
         return self
 
     def see(self, selector: str) -> Visit:
-        """Go to the pane in which something stands."""
-        holder = self.page.locator(selector).first
-        pane = holder.evaluate("(one) => one.closest('[data-pane]')?.dataset.pane.split(' ')")
-        if pane and not holder.evaluate("(one) => one.checkVisibility()"):
-            self.go(pane[-1])
+        """Go to the view in which something stands, and to its place there."""
+        section = (
+            "one.closest('[data-anchor]')?.dataset.anchor ?? one.closest('[data-in]')?.dataset.in.split(' ').at(-1)"
+        )
+        part = self.page.locator(selector).first.evaluate(f"(one) => one.checkVisibility() ? '' : {section}")
+        if part:
+            self.go(part)
+        else:
+            self.page.locator(selector).first.scroll_into_view_if_needed()
         return self
 
     def settle(self) -> Visit:
@@ -260,7 +264,7 @@ class Visit:
 
     def download(self, selector: str) -> bytes:
         """What a button gives, wherever it stands; the view stays."""
-        before = self.page.locator("body").get_attribute("data-seen-pane")
+        before = self.page.locator("body").get_attribute("data-seen-view")
         self.see(selector)
         try:
             return self._download(selector)

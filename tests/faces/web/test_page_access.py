@@ -190,7 +190,7 @@ def test_no_scrolling_to_the_side(visit, width):
     outside = here.page.evaluate(
         """() => [...document.querySelectorAll("main *, header *")].filter((one) => one.checkVisibility()
           && one.getBoundingClientRect().right > innerWidth + 1
-          && !one.closest("#views, #panes, .scroll, .drawing, .plot, .hidden"))
+          && !one.closest("#views, .scroll, .drawing, .plot, .hidden"))
           .map((one) => `${one.localName}.${one.className} ${one.textContent.slice(0, 30)}`)"""
     )
     assert outside == []

@@ -110,7 +110,7 @@ def test_a_duty_from_an_example_to_a_fault_and_back(visit, server):
     edited(here, "duty", lambda: page.locator("#duty-trace-remove").click())
     assert cycle_time(here) != 4.0
     edited(here, "duty", lambda: page.locator("#motion-kind").select_option("s-curve"))
-    here.go("duty.axis")
+    here.go("duty")
     edited(here, "duty", lambda: page.locator("#f-axis-mass").fill("200"))
     edited(here, "duty", lambda: page.locator("#f-motor-largest_speed").fill("100"))
     page.wait_for_selector("#duty .sheet tr:has-text('motor peak torque'):has-text('FAILS')")

@@ -144,7 +144,7 @@ def test_a_server_that_is_gone(visit, commands, start):
     start("--port", str(port))
     page.wait_for_selector("#results:not(.stale)")
     assert here.settle().text("#case").startswith("5000 N")
-    here.go("duty.answer")
+    here.go("duty")
     page.wait_for_selector("#duty .verdict")
     assert page.locator(".card-trouble:visible").all_inner_texts() == []
 
@@ -174,7 +174,7 @@ def test_a_new_tab_restores_the_latest_edit(browser, server):
     first.wait_for_selector("html[data-ready]")
     for view in ("hand-over", "hand-over.files"):
         first.locator(f'[data-to="{view}"]').first.click()
-    first.wait_for_function("() => Object.values(localStorage).some((one) => one.includes('view=hand-over.files'))")
+    first.wait_for_function("() => Object.values(localStorage).some((one) => one.includes('view=handover.files'))")
     third = opened(server.address)
     assert third.locator("#f-operation-axial_load").input_value() == "2222"
     context.close()

@@ -99,7 +99,7 @@ def test_the_page_computes_what_the_server_would_say(visit, start, changes):
         own, own_curve = here.numbers(), curve(here)
         here.see("#contacts").rest(300)  # what is not in view is drawn once it is
         own |= {part: here.numbers()[part] for part in ("screw", "nut")}
-        here.go("torque.speed").rest(300)
+        here.go("torque").rest(300)
         assert own["results"]["screw_torque"] != before["results"]["screw_torque"]
         wait_for(here, held)
         assert len(held) == 1

@@ -23,7 +23,7 @@ CONTRAST = """(selector) => {
 
 
 def opened(here, **typed):
-    here.go("start.own")
+    here.go("choose.own")
     for name, value in typed.items():
         here.page.fill(f"#own-nut-{name}", value)
     return here.page
@@ -76,7 +76,7 @@ def test_numbers_that_do_not_go_together_are_named(visit):
 
 
 def test_the_first_view_says_that_it_shows_an_example(visit):
-    here = visit().open("#view=start.have&band=0").settle()
+    here = visit().open("#view=torque&band=0").settle()
     assert here.text("#example").endswith("the screw of Olaru et al. (2005).")
     page = opened(here, nominal_diameter="40", lead="10", turns="5", dynamic_load_rating="52.7", name="my nut")
     page.click("#own-nut-use:enabled")
@@ -124,6 +124,6 @@ def test_a_service_of_elastic_bodies_offers_rigid_ones(visit):
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_a_button_that_is_disabled_can_be_read(visit, scheme):
-    here = visit(scheme=scheme).open("#A=paper&band=0").go("start.own")
+    here = visit(scheme=scheme).open("#A=paper&band=0").go("choose.own")
     here.page.wait_for_selector("#own-nut-use:disabled")
     assert here.page.evaluate(CONTRAST, "#own-nut-use") >= 4.5

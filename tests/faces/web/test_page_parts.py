@@ -134,7 +134,7 @@ def test_a_tab_has_an_entry_of_its_own(go):
 
 def test_what_is_kept_is_listed_when_it_is_kept(go):
     """It is kept once typing rests, when nothing else changes on the page."""
-    here = go("#A=paper&band=0&view=hand-over.files")
+    here = go("#A=paper&band=0&view=handover.files")
     here.page.wait_for_selector("#kept-list p")
     here.page.evaluate("import('/page/keeping.js').then(({ keeping }) => keeping.forget([keeping.own()]))")
     before = here.page.locator("#kept-list em").count()
@@ -145,7 +145,7 @@ def test_what_is_kept_is_listed_when_it_is_kept(go):
 
 def test_copies_of_a_design(go):
     """The copy is shown; the last design stays, and there is room for eight."""
-    here = go("#A=paper&A.operation.axial_load=1.5+kN&band=0&view=hand-over.files")
+    here = go("#A=paper&A.operation.axial_load=1.5+kN&band=0&view=handover.files")
 
     def disabled(word):
         return here.page.locator(f"#design-list [aria-label^='{word} ']").evaluate_all(
@@ -158,7 +158,7 @@ def test_copies_of_a_design(go):
     here.settle().page.wait_for_selector("#files [aria-label='Copy B']")
     assert (disabled("Delete"), disabled("Copy"), disabled("Show")) == ([False] * 2, [False] * 2, [False, True])
     assert here.page.locator("#f-operation-axial_load").input_value() == "1.5"
-    go("&".join(["#A=paper", *(f"{letter}=paper" for letter in "BCDEFGH"), "band=0&view=hand-over.files"]))
+    go("&".join(["#A=paper", *(f"{letter}=paper" for letter in "BCDEFGH"), "band=0&view=handover.files"]))
     here.page.wait_for_selector("#files [aria-label='Copy H']")
     assert (disabled("Copy"), disabled("Delete")) == ([True] * 8, [False] * 8)
     assert here.page.locator("#add").is_disabled()

@@ -91,7 +91,7 @@ def test_files_and_designs(visit):
     assert here.page.locator("#design-B").get_attribute("aria-pressed") == "true"
     assert (here.numbers(), values(here), toml(here)) == (numbers, fields, first)
 
-    here.go("hand-over.files")
+    here.go("handover.files")
     here.page.locator("#name-B").fill("lighter oil")
     here.settle().choose("lubricant.grade", "ISO VG 32")
     lighter = here.numbers()
@@ -109,7 +109,7 @@ def test_files_and_designs(visit):
     here.page.wait_for_selector("#design-B")
     assert here.settle().page.locator("#name-B").input_value() == "lighter oil"
 
-    there = visit(**SIZES["phone"]).open("#band=0&view=hand-over.files")
+    there = visit(**SIZES["phone"]).open("#band=0&view=handover.files")
     given(there, "all.toml", project)
     there.page.locator("#design-B").click()
     assert there.settle().numbers() == lighter
@@ -193,5 +193,5 @@ def test_a_need_and_a_table_are_there_before_their_card(visit):
     assert here.page.locator("#f-need-feed").input_value() == "15"
     here.page.locator("#undo").click()
     here.page.wait_for_function("() => !location.hash.includes('need=')")
-    here.go("hand-over.files")
+    here.go("handover.files")
     here.page.wait_for_selector("#files li >> text=MINE")

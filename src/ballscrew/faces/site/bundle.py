@@ -14,7 +14,9 @@ import re
 from collections.abc import Sequence
 from importlib import resources
 
-_ENTRY, _ENGINE = "main.js", "engine.js"
+_ENTRY = "main.js"
+#: Modules that the page of the server has too, and that stand there.
+_SHARED = ("engine.js", "part_search.js")
 #: The script that computes bands beside the page.
 _WORKER = "band_worker.js"
 _IMPORT = re.compile(r'^import \{[^}]*\} from "(?:\./|\.\./\.\./web/page/)([\w.]+)";\n', re.MULTILINE)
@@ -25,8 +27,8 @@ _ELSEWISE = re.compile(r"^(?:import|export)\b", re.MULTILINE)
 
 @functools.cache
 def text_of(name: str) -> str:
-    """A file of the page; the engine, which the page of the server has too, stands there."""
-    room = "web" if name == _ENGINE else "site"
+    """A file of the page."""
+    room = "web" if name in _SHARED else "site"
     return resources.files(f"ballscrew.faces.{room}").joinpath("page", name).read_text(encoding="utf-8")
 
 

@@ -16,7 +16,7 @@ from ballscrew.faces.site import kinds
 from ballscrew.faces.site.banding import Banding, contents_of_bands
 from ballscrew.faces.site.judging import Judging, contents_of_judging, of_start
 from ballscrew.faces.site.modules import inputs_of_module
-from ballscrew.faces.web.vocabulary import vocabulary
+from ballscrew.faces.web.vocabulary import sizes_of, vocabulary
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.questions.check.compute import TEMPERATURE as USUAL_TEMPERATURE
@@ -109,10 +109,6 @@ def _field(name: str, part: str, quantity: Quantity) -> dict[str, Any]:
     }
 
 
-def _in_mm(size: float) -> float:
-    return float(f"{1e3 * size:.12g}")
-
-
 def _start(name: str) -> dict[str, Any]:
     """A case to start from: its tables, its numbers, and those of each kind of nut."""
     row = catalogue().get(name) if name != kinds.PAPER else None
@@ -138,7 +134,7 @@ def _start(name: str) -> dict[str, Any]:
         "title": "" if row is None else row.name,
         "make": "" if row is None else row.make,
         "source": "" if row is None else row.source,
-        "sizes": [] if row is None else [_in_mm(size) for size in (row.nominal_diameter, row.lead, row.ball_diameter)],
+        "sizes": [] if row is None else sizes_of(row),
         "kind": kinds.kind_of_start(name),
         "tables": kinds.start_tables()[name],
         "grade": oil.get("grade"),

@@ -32,7 +32,7 @@ from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
 from ballscrew.physics.friction.validity import NUT_REASONS
 from ballscrew.physics.moving_balls.friction_states import Dahl, LuGre
-from ballscrew.physics.sizing.catalogue import catalogue
+from ballscrew.physics.sizing.catalogue import CatalogueRow, catalogue
 from ballscrew.physics.sizing.installation import Installation, Limits
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.condition.options import ConditionOptions
@@ -122,6 +122,8 @@ class StartRow(_Table):
     name: str
     source: str
     nut: str
+    #: Nominal diameter, lead and ball, mm.
+    sizes: list[float]
 
 
 class Vocabulary(_Table):
@@ -167,8 +169,16 @@ def vocabulary() -> dict[str, Any]:
         "motions": {kind: list(fields_of_motion(kind)) for kind in MOTIONS},
         "options": {question: vocabulary_of(options) for question, options in OPTIONS.items()},
         "starts": starts(),
-        "rows": [{"name": row.name, "source": row.source, "nut": row.nut or "single"} for row in catalogue().values()],
+        "rows": [
+            {"name": row.name, "source": row.source, "nut": row.nut or "single", "sizes": sizes_of(row)}
+            for row in catalogue().values()
+        ],
     }
+
+
+def sizes_of(row: CatalogueRow) -> list[float]:
+    """Nominal diameter, lead and ball of a row, mm: those by which people search for it."""
+    return [float(f"{1e3 * size:.12g}") for size in (row.nominal_diameter, row.lead, row.ball_diameter)]
 
 
 def _documentation() -> str | None:

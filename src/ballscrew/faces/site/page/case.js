@@ -330,41 +330,6 @@ export class Case {
   }
 }
 
-/** Sizes as they are written, diameter x lead with perhaps the ball: 40x10, x10, 40x10x6. */
-const SIZES = /^(\d+(?:\.\d+)?)?x(\d+(?:\.\d+)?)?(?:x(\d+(?:\.\d+)?))?$/;
-/** Order codes with diameter and lead in them: BNF4010-5, R40-10K5-FSC; and those of a maker without. */
-const CODES = [/^[a-z]+(\d{2})(\d{2})(?:-|$)/, /^r?(\d{2,3})-(\d{1,2})[a-z]/];
-const CODE_WITHOUT_SIZE = /^r15\d\d/;
-
-/**
- * The starts that some words are about: sizes, parts of names and sources, or an order code, which is that of no row.
- *
- * @param {string} text
- * @param {Record<string, Start>} starts
- * @returns {{ names: string[], isCode: boolean }}
- */
-export function startsFor(text, starts) {
-  const words = text
-    .toLowerCase()
-    .trim()
-    .replace(/(?<=\d)\s*[x×*]\s*(?=\d)/g, "x")
-    .replace("×", "x");
-  const names = (/** @type {string[]} */ asked) =>
-    Object.keys(starts).filter((name) => asked.every((word) => isAbout(name, starts[name], word)));
-  const found = words ? names(words.split(/\s+/)) : [];
-  if (found.length) return { names: found, isCode: false };
-  const [, diameter, lead] = CODES.map((code) => code.exec(words)).find((match) => match) ?? [];
-  if (diameter) return { names: names([`${Number(diameter)}x${Number(lead)}`]), isCode: true };
-  return { names: CODE_WITHOUT_SIZE.test(words) ? names(["rexroth"]) : [], isCode: CODE_WITHOUT_SIZE.test(words) };
-}
-
-/** @param {string} name @param {Start} start @param {string} word */
-function isAbout(name, { source, kind, sizes }, word) {
-  const [isSize, ...asked] = SIZES.exec(word) ?? [];
-  if (isSize && word !== "x") return asked.every((one, place) => one === undefined || Number(one) === sizes[place]);
-  return `${name} ${source} ${kind}`.toLowerCase().includes(word);
-}
-
 /**
  * The bound of a quantity that a number in the unit it is shown in would break; nothing where it holds.
  *

@@ -1,7 +1,7 @@
 // The page: what is chosen, what is computed at once, and what is drawn when.
 
 import { Banding } from "./banding.js";
-import { Case, startsFor } from "./case.js";
+import { Case } from "./case.js";
 import { EfficiencyMap, OverSpeed, Parts, Quadrants, Temperatures } from "./charts.js";
 import { Controls } from "./controls.js";
 import { Engine } from "../../web/page/engine.js";
@@ -10,6 +10,7 @@ import { Headline } from "./headline.js";
 import { BallView, Checks } from "./judged.js";
 import { judgedAt, recordsOf, textOf } from "./judgements.js";
 import { keepOffline, moduleOf, site } from "./modules.js";
+import { screwsFor } from "../../web/page/part_search.js";
 import { readColours } from "./plot.js";
 import { Taking } from "./taking.js";
 import { inSiUnit } from "./view.js";
@@ -341,7 +342,7 @@ function beginAt(name) {
 /** Take the start that some words are about, or offer those that they may be about. @param {string} text */
 function search(text) {
   if (!text.trim()) return;
-  const { names, isCode } = startsFor(text, contents.starts);
+  const { names, isCode } = screwsFor(text, contents.starts);
   if (names.length === 1 && !isCode) {
     beginAt(names[0]);
     return;

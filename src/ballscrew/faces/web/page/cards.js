@@ -1,4 +1,4 @@
-// Cards: parts of the page that are loaded when their pane is first seen, and that answer questions of their own.
+// Cards: parts of the page that are loaded when they are first seen, and that answer questions of their own.
 
 import { byId, element } from "./dom.js";
 import { jump as jumpInForm } from "./form.js";
@@ -29,11 +29,11 @@ const SCRIPTS = {
   "own-nut": "./cards/own_nut_card.js",
   files: "./cards/files.js",
 };
-/** Sections of the case by the cards that have their fields, and the panes where these are. @type {Record<string, [string, string]>} */
+/** Sections of the case by the cards that have their fields, and the views where these are. @type {Record<string, [string, string]>} */
 const HOMES = {
-  axis: ["duty", "duty.axis"],
-  motion: ["duty", "duty.motion"],
-  motor: ["duty", "duty.axis"],
+  axis: ["duty", "duty"],
+  motion: ["duty", "duty"],
+  motor: ["duty", "duty"],
   surroundings: ["warm-up", "heat"],
   bearings: ["axis", "axis.chain"],
   guides: ["axis", "axis.chain"],
@@ -41,7 +41,7 @@ const HOMES = {
 
 /** The place of a card, whose script is loaded when it is first seen. */
 class Place {
-  #name;
+  name;
   #script;
   /** @type {Card | undefined} */
   #card;
@@ -49,20 +49,33 @@ class Place {
   #loading;
   /** How often its script could not be loaded: browsers keep a failure for its address. */
   #failures = 0;
+  #isNear = false;
 
   /** @param {string} name @param {string} script */
   constructor(name, script) {
-    this.#name = name;
+    this.name = name;
     this.#script = script;
+    const near = new IntersectionObserver(
+      ([entry]) => {
+        this.#isNear = entry.isIntersecting;
+        this.follow();
+      },
+      { rootMargin: "250px" },
+    );
+    near.observe(this.#holder.closest("section") ?? this.#holder);
   }
 
   get #holder() {
-    return byId(this.#name);
+    return byId(this.name);
   }
 
-  /** Let the card follow the page where it is seen, and say in it why it cannot. One that is not seen follows when it is. */
-  async follow() {
-    if (!views.isSeen(this.#holder)) return;
+  /**
+   * Let the card follow the page where it is seen, and say in it why it cannot. One that is not seen follows when it is.
+   *
+   * @param {boolean} [isWanted] whether it is about to be seen
+   */
+  async follow(isWanted = this.#isNear) {
+    if (!isWanted || !views.isSeen(this.#holder)) return;
     if (!this.#card) {
       this.#loading ??= this.#load().finally(() => {
         this.#loading = undefined;
@@ -101,7 +114,7 @@ class Place {
 
 const PLACES = Object.entries(SCRIPTS).map(([name, script]) => new Place(name, script));
 
-/** Let the cards of the pane that is seen follow the page; done when they are loaded and have followed. */
+/** Let the cards that are seen follow the page; done when they are loaded and have followed. */
 export async function follow() {
   await Promise.all(PLACES.map((place) => place.follow()));
 }
@@ -114,14 +127,13 @@ export async function follow() {
 export async function jump(path) {
   const home = HOMES[path.split(".")[0]];
   if (!home) {
-    if (!views.hasForm()) await views.go("torque");
     jumpInForm(path);
     return;
   }
-  const [name, pane] = home;
+  const [name, view] = home;
   const holder = byId(name);
-  await views.go(pane);
-  await follow(); // its script may not be there yet
+  await views.go(view);
+  await PLACES.find((place) => place.name === name)?.follow(true); // its script may not be there yet
   /** @type {NodeListOf<HTMLElement>} */
   const fields = holder.querySelectorAll("[data-path]");
   const field = [...fields].find((one) => one.dataset.path === path);

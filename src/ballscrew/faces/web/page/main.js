@@ -7,12 +7,12 @@ import * as designs from "./designs.js";
 import { byId, showNotice, within } from "./dom.js";
 import * as downloads from "./downloads.js";
 import * as files from "./files.js";
-import * as have from "./have.js";
 import { entries } from "./history.js";
 import * as inputs from "./inputs.js";
 import { keeping } from "./keeping.js";
 import * as results from "./results.js";
 import * as schema from "./schema.js";
+import * as screwSearch from "./screw_search.js";
 import { connection, get, linesOf } from "./server.js";
 import * as states from "./state.js";
 import { store } from "./store.js";
@@ -40,7 +40,7 @@ function readAddress() {
     const names = unknown.slice(0, 3).map(quoted).join(", ") + (unknown.length > 3 ? ", …" : "");
     lines.push(text("link.keys", { names }));
   }
-  if (!views.paneAt(found.view)) {
+  if (!views.viewAt(found.view)) {
     lines.push(text("link.view", { name: quoted(found.view) }));
     found.view = states.USUAL_VIEW;
   }
@@ -181,8 +181,7 @@ function addListeners() {
   connection.addEventListener("return", showAgain);
   downloads.build();
   files.setUp();
-  views.setUp();
-  have.setUp();
+  screwSearch.setUp();
 }
 
 async function begin() {

@@ -8,8 +8,8 @@ import * as units from "./units.js";
 
 /** Results of the first table. */
 const FIRST = /** @type {const} */ ([
-  "drive_torque",
   "screw_torque",
+  "drive_torque",
   "efficiency",
   "back_driving_efficiency",
   "holding_torque",

@@ -4,7 +4,6 @@
 export const LETTERS = ["A", "B", "C", "D", "E", "F", "G", "H"];
 const OTHER_KEYS = ["need", "show", "units", "band", "at", "view", "hours", "rest", "heat"];
 /** What a page shows whose address says nothing, and what it shows of an address that says no view. */
-const FIRST_VIEW = "start";
 export const USUAL_VIEW = "torque";
 /** Hours of work and of rest of a warm-up. */
 const HOURS = "4";
@@ -140,7 +139,7 @@ export function initial() {
     band: true,
     own: false,
     fields: {},
-    view: FIRST_VIEW,
+    view: USUAL_VIEW,
     heat,
     need: noNeed(),
   };

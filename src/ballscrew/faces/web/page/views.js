@@ -1,76 +1,62 @@
-// Views: the tasks of the page, each with its panes, of which one is seen. Which section stands where says the page
-// itself: ``data-pane="torque.map"``, or several of them, of which a card that is long divides its parts (``inPanes``).
+// Views: the tasks of the page, of which one is seen. Where a section stands says the page itself: ``data-in="torque"``, or
+// several views. An address may name a part of a view, ``torque.map``, to which the page scrolls.
 
 import { byId, element, keepFocus } from "./dom.js";
 import { store } from "./store.js";
-import { textOr } from "./texts.js";
+import { text } from "./texts.js";
 
-/** The view that stands in place of the form. */
-const WITHOUT_FORM = "start";
+/** The views, in the order of their tabs. */
+const VIEWS = /** @type {const} */ ([
+  "torque",
+  "nut",
+  "checks",
+  "duty",
+  "heat",
+  "axis",
+  "choose",
+  "measure",
+  "handover",
+]);
+/** What addresses named once. @type {Record<string, string>} */
+const FORMERLY = { "start.own": "choose.own", start: "torque", "hand-over": "handover" };
 
-/**
- * The pane of an element by its address, ``torque.map``; a view of one pane has no second part.
- *
- * @param {Element} holder
- */
-function panesOf(holder) {
-  return (holder.getAttribute("data-pane") ?? "").split(" ");
+/** The address that was shown last. @type {string | undefined} */
+let shown;
+
+/** The view of an address, as it is named now; none where there is none. @param {string} address */
+export function viewAt(address) {
+  const [first] = (FORMERLY[address] ?? address).split(".");
+  const name = FORMERLY[first] ?? first;
+  return VIEWS.find((view) => view === name);
 }
 
-/** All elements that stand in a pane. */
-function places() {
-  return [.../** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-pane]"))];
-}
-
-/** Addresses of all panes, in the order of the tabs: that of the sections. */
-function panes() {
-  return [
-    ...new Set(
-      places()
-        .filter((one) => one.matches("section") || one.id === "have")
-        .flatMap(panesOf),
-    ),
-  ];
-}
-
-/** The view of a pane. @param {string} pane */
-function viewOf(pane) {
-  return pane.split(".")[0];
-}
-
-/**
- * The pane of an address: a view stands for its first pane, as does a pane that it had once; nothing where there is none.
- *
- * @param {string} address
- */
-export function paneAt(address) {
-  return panes().find((one) => one === address) ?? panes().find((one) => viewOf(one) === viewOf(address));
-}
-
-/** Test whether the form is on the page. */
-export function hasForm() {
-  return viewOf(current()) !== WITHOUT_FORM;
-}
-
-/** The pane that is seen. */
+/** The view that is seen. */
 export function current() {
-  return paneAt(store.state.view) ?? panes()[0];
+  return viewAt(store.state.view) ?? VIEWS[0];
 }
 
-/** Test whether an element stands in the pane that is seen, or in none. @param {Element} inside */
+/** Test whether an element stands in the view that is seen, or in none. @param {Element} inside */
 export function isSeen(inside) {
-  const holder = inside.closest("[data-pane]");
-  return !holder || panesOf(holder).includes(current());
+  const holder = /** @type {HTMLElement | null} */ (inside.closest("[data-in]"));
+  return !holder || isIn(holder, current());
+}
+
+/** @param {HTMLElement} holder @param {string} view */
+function isIn(holder, view) {
+  return (holder.dataset.in ?? "").split(" ").includes(view);
 }
 
 /**
- * Go to a pane: it is a step of its own, to which the browser goes back.
+ * Go to a view, or to a part of it: it is a step of its own, to which the browser goes back.
  *
  * @param {string} address
  */
-export function go(address) {
-  if (paneAt(address) === current()) return Promise.resolve();
-  return store.change(
+export async function go(address) {
+  if (address === store.state.view) {
+    scrollTo(address);
+    return;
+  }
+  await store.change(
     (state) => {
       state.view = address;
     },
@@ -78,57 +64,30 @@ export function go(address) {
   );
 }
 
-/**
- * A part of a card that is seen in some panes of its view alone.
- *
- * @template {HTMLElement} Part
- * @param {Part} part
- * @param {string[]} panes
- */
-export function inPanes(part, ...panes) {
-  part.dataset.pane = panes.join(" ");
-  part.classList.toggle("elsewhere", !panes.includes(current()));
-  return part;
+/** Scroll to the part of a view that an address names, or to its top. @param {string} address */
+function scrollTo(address) {
+  const part = document.querySelector(`[data-anchor="${CSS.escape(FORMERLY[address] ?? address)}"]`);
+  if (part) part.scrollIntoView({ block: "start" });
+  else window.scrollTo(0, 0);
 }
 
-/** The tabs of the views, and below them those of the panes of this view. */
-function showTabs() {
-  const pane = current();
-  const all = panes();
-  byId("views").replaceChildren(
-    ...[...new Set(all.map(viewOf))].map((view) => tab(view, view === viewOf(pane), textOr(`view.${view}`, view))),
-  );
-  const beside = all.filter((one) => viewOf(one) === viewOf(pane));
-  byId("panes").hidden = beside.length < 2;
-  const tabs = beside.map((one) => tab(one, one === pane, textOr(`view.${one}`, one)));
-  byId("panes").replaceChildren(...(beside.length < 2 ? [] : tabs));
-}
-
-/**
- * @param {string} address
- * @param {boolean} isCurrent
- * @param {string} words
- */
-function tab(address, isCurrent, words) {
-  const chosen = isCurrent ? "page" : undefined;
-  return element("button", { type: "button", id: `to-${address}`, "data-to": address, "aria-current": chosen }, words);
-}
-
-/** Show the pane of the state, and hide the others; the tab that has the focus keeps it. */
+/** Show the view of the state, and hide the others; the tab that has the focus keeps it. */
 export function show() {
-  const pane = current();
-  if (document.body.dataset.seenPane === pane) return; // every key comes here
-  keepFocus(showTabs);
-  for (const one of places()) one.classList.toggle("elsewhere", !panesOf(one).includes(pane));
-  document.body.dataset.seenView = viewOf(pane);
-  document.body.dataset.seenPane = pane;
+  const { view: address } = store.state;
+  if (address === shown) return; // every key comes here
+  const isFirst = shown === undefined;
+  shown = address;
+  const view = current();
+  keepFocus(() => byId("views").replaceChildren(...VIEWS.map((name) => tab(name, name === view))));
+  for (const holder of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-in]"))) {
+    holder.classList.toggle("elsewhere", !isIn(holder, view));
+  }
+  document.body.dataset.seenView = view;
+  if (!isFirst || address.includes(".")) scrollTo(address);
 }
 
-export function setUp() {
-  for (const id of ["views", "panes"]) {
-    byId(id).addEventListener("click", ({ target }) => {
-      const address = /** @type {Element} */ (target).closest("[data-to]")?.getAttribute("data-to");
-      if (address) go(address);
-    });
-  }
+/** @param {typeof VIEWS[number]} name @param {boolean} isCurrent */
+function tab(name, isCurrent) {
+  const marks = { id: `to-${name}`, "data-view": name, "aria-current": isCurrent ? "page" : undefined };
+  return element("button", { type: "button", ...marks, onclick: () => go(name) }, text(`view.${name}`));
 }

@@ -9,7 +9,6 @@ import * as states from "../state.js";
 import { store } from "../store.js";
 import { text } from "../texts.js";
 import * as units from "../units.js";
-import { inPanes } from "../views.js";
 import { vocabulary } from "../vocabulary.js";
 import { placeFaults, showValues } from "./case_fields.js";
 import { inputs as fieldsOf } from "./motion.js";
@@ -38,7 +37,7 @@ export function setUp(holder) {
     isLarge: (body) => "trace" in body,
   });
   const recorded = element("p", { class: "card-start" });
-  const begin = inPanes(element("div", {}, examples(vocabulary.starts), recorded, note), "duty.motion");
+  const begin = element("div", {}, examples(vocabulary.starts), recorded, note);
   holder.replaceChildren(begin, editor, asked.line, asked.result);
 
   /** Sections of the case, with those of the example where it has none. @type {Tables} */
@@ -92,8 +91,8 @@ export function setUp(holder) {
     if (keyOf(tables) !== shown) {
       shown = keyOf(tables);
       const usual = /** @type {Tables} */ (example.motor);
-      const [motion, ...others] = fieldsOf(() => tables, store.state, vocabulary.motions, usual, { put, onChange });
-      redraw(editor, inPanes(motion, "duty.motion"), ...others.map((one) => inPanes(one, "duty.axis")));
+      const fields = fieldsOf(() => tables, store.state, vocabulary.motions, usual, { put, onChange });
+      redraw(editor, ...fields);
       if (inputs) showValues(editor, inputs);
     }
     asked.follow(trace ? { case: tables, trace } : { case: tables });

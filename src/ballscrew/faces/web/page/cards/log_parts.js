@@ -145,7 +145,7 @@ function elasticLine(fault) {
  */
 export function commandLine(words) {
   const quoted = words.map((word) => (SPECIAL.test(word) ? JSON.stringify(word).replaceAll(OF_SHELLS, "\\$&") : word));
-  const intro = text("log.command", { pane: text("view.hand-over.report") });
+  const intro = text("log.command", { pane: text("view.handover") });
   return element("p", { class: "small" }, `${intro} `, element("code", {}, quoted.join(" ")));
 }
 

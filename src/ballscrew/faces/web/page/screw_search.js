@@ -1,0 +1,71 @@
+// The search over all screws of the catalogue, above the form: a size, a part of a name, or an order code.
+
+import { namedButton } from "./controls.js";
+import * as designs from "./designs.js";
+import { byId, element } from "./dom.js";
+import { rowLabel } from "./form.js";
+import { screwsFor } from "./part_search.js";
+import { text } from "./texts.js";
+import * as views from "./views.js";
+import { vocabulary } from "./vocabulary.js";
+
+/** Rows that are listed at most. */
+const MOST_ROWS = 8;
+
+/** Build the search: it stays as it is, whatever is chosen in it. */
+export function setUp() {
+  const rows = new Map(vocabulary.rows.map((row) => [row.name, row]));
+  const searched = Object.fromEntries(vocabulary.rows.map((row) => [row.name, { ...row, kind: row.nut }]));
+  const list = element("ul", { class: "found" });
+  const count = element("p", { class: "small", id: "search-count", role: "status" });
+  const input = element("input", {
+    type: "search",
+    id: "search",
+    autocomplete: "off",
+    placeholder: text("search.hint"),
+    "aria-label": text("search.label"),
+    oninput: show,
+  });
+  input.addEventListener("keydown", (event) => {
+    const [first] = matching().names;
+    if (event.key !== "Enter" || !first) return;
+    event.preventDefault();
+    take(first);
+  });
+
+  function matching() {
+    return screwsFor(input.value, searched);
+  }
+
+  /** @param {string} name */
+  function take(name) {
+    designs.startFrom(name);
+    input.value = "";
+    show();
+  }
+
+  /** @param {string} name */
+  function item(name) {
+    const row = rows.get(name);
+    if (!row) return null;
+    const choose = element("button", { type: "button", "data-row": name, onclick: () => take(name) }, rowLabel(row));
+    return element("li", {}, choose, element("span", { class: "small" }, row.source));
+  }
+
+  function show() {
+    const words = input.value.trim();
+    const { names, isCode } = matching();
+    list.replaceChildren(...names.slice(0, MOST_ROWS).flatMap((name) => item(name) ?? []));
+    if (!words) count.textContent = "";
+    else if (!names.length) count.textContent = text("search.none", { words });
+    else
+      count.textContent = text(isCode ? "search.like" : "search.found", {
+        words,
+        count: names.length,
+        total: rows.size,
+      });
+  }
+
+  const own = namedButton("search-own", "search.own", () => views.go("choose.own"));
+  byId("screw-search").replaceChildren(input, count, list, own);
+}
