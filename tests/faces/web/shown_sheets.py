@@ -22,7 +22,7 @@ def numbers_of(sheet):
 def words_of(cell):
     if "share" in cell:
         sign = "+" if cell["is_change"] and cell["share"] and cell["share"] > 0 else ""
-        return None if cell["share"] is None else f"{sign}{100 * cell['share']:.1f} %"
+        return None if cell["share"] is None else f"{sign}{100 * round(cell['share'], 3) + 0.0:.1f} %"
     if cell["value"] is None:
         return None
     unit = cell["shown_in"] if cell["unit"] != "1" else ""
@@ -45,7 +45,8 @@ def shows(here, card, sheet):
     assert [value for value, _ in shown] == [value for value, _ in known]
     read = [(text, wanted) for (_, text), (_, wanted) in zip(shown, known, strict=True) if wanted is not None]
     assert read
-    assert [pair for pair in read if pair[0] != pair[1]] == []
+    others = [pair for pair in read if pair[0] != pair[1]]
+    assert others == [], others
     words = here.page.locator(f"#{card} .sheet").text_content().casefold()
     lines = [line["text"] for block in sheet["blocks"] if block["kind"] == "lines" for line in block["lines"]]
     assert [line for line in [sheet["title"], *lines] if line.casefold() not in words] == []

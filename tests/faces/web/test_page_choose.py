@@ -97,7 +97,9 @@ def test_choose_a_screw(visit, server):
     here.page.locator("[data-sort=rank]").click()
     here.page.locator("#choose-y").select_option("life")
     here.page.locator("#choose-chart").scroll_into_view_if_needed()
-    here.page.wait_for_function("() => document.querySelector('#choose-chart .ytitle')?.textContent === 'life (h)'")
+    here.page.wait_for_function(
+        "() => document.querySelector('#choose-chart .plot')?.drawn?.figure.y.title === 'life (h)'"
+    )
 
     assert violations(here) == []
 

@@ -305,7 +305,10 @@ def words(cell: Cell, *, with_unit: bool = True) -> str:
         case Share(value, is_change=True):
             return f"{value:+.1%}" if math.isfinite(value) and round(value, 3) else words(Share(value))
         case Share(value, _, band):
-            return f"{value:.1%}{_band_in_words(band, _percent)}" if math.isfinite(value) else "–"
+            if not math.isfinite(value):
+                return "–"
+            tenths = round(value, 3) + 0.0  # no "-0.0%"
+            return f"{tenths:.1%}{_band_in_words(band, _percent)}"
         case _:
             return cell
 

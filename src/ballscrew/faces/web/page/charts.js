@@ -128,6 +128,7 @@ export function torque(swept, answer, mechanisms, banded) {
     return total[place];
   };
   const note = element("span", { class: "value" }, data("screw_torque", sum));
+  const title = parts.titled("screw_torque", text("chart.torque"));
   draw("torque-chart", {
     name: "torque_over_speed",
     drag: { x: "screw_speed", place: (at) => [at, nearest(at)] },
@@ -135,11 +136,20 @@ export function torque(swept, answer, mechanisms, banded) {
     description: text("speed.description", { load, total: units.formatted("screw_torque", sum) }),
     figure: {
       x: { title: parts.titled("screw_speed", text("chart.speed")) },
-      y: { title: parts.titled("screw_torque", text("chart.torque")), zero: true },
+      y: { title, zero: true },
       marks: [
         ...stacked,
         ...bandsOf(banded),
-        { kind: "curve", name: text("chart.sum"), x: speeds, y: total, colour: "ink", style: "line", note },
+        {
+          kind: "curve",
+          name: text("chart.sum"),
+          x: speeds,
+          y: total,
+          colour: "ink",
+          style: "line",
+          note,
+          heading: title,
+        },
         parts.outside(speeds, parts.validAlong(swept)),
         parts.pointAt(
           units.inDisplayUnit("screw_speed", operation.screw_speed),

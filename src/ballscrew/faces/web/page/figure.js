@@ -20,7 +20,7 @@ import { extent, Scale, stepOf, tickWords } from "./scale.js";
 /**
  * Points that are joined, or dots: of one colour, or each by its value; what is read of each is a text.
  *
- * @typedef {{ kind: "curve", name: string, x: Values, y: Values, colour: string, style: string, second?: boolean, width?: number, size?: number, labels?: string[], words?: string[], values?: number[], shades?: Shades, note?: Node, isQuiet?: boolean }} Curve
+ * @typedef {{ kind: "curve", name: string, x: Values, y: Values, colour: string, style: string, second?: boolean, width?: number, size?: number, labels?: string[], words?: string[], values?: number[], shades?: Shades, note?: Node, isQuiet?: boolean, heading?: string }} Curve
  */
 /** The area between two curves: light, or solid as a part of what is stacked. @typedef {{ kind: "band", name: string, x: Values, low: Values, high: Values, colour: string, solid: boolean, ends?: string[], note?: Node }} Band */
 /** A value of an axis that holds along the other one. @typedef {{ kind: "level", name: string, x?: number, y?: number, colour: string, note?: Node }} Level */

@@ -100,7 +100,9 @@ function numbersOfCurves({ x, y, second, marks }) {
 function columnsOf(mark, title, other) {
   if (mark.kind === "curve" && !mark.isQuiet) {
     const axis = mark.second ? other : title;
-    return [{ heading: mark.name ? inUnitOf(mark.name, axis) : axis, x: mark.x, values: mark.y, order: 0 }];
+    return [
+      { heading: mark.heading ?? (mark.name ? inUnitOf(mark.name, axis) : axis), x: mark.x, values: mark.y, order: 0 },
+    ];
   }
   if (mark.kind === "band") {
     const column = (/** @type {string} */ name, /** @type {Values} */ values, /** @type {number} */ order) => ({
