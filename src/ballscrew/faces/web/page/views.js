@@ -23,10 +23,15 @@ const FORMERLY = { "start.own": "choose.own", start: "torque", "hand-over": "han
 /** The address that was shown last. @type {string | undefined} */
 let shown;
 
-/** The view of an address, as it is named now; none where there is none. @param {string} address */
+/** An address as it is named now. @param {string} address */
+function nowOf(address) {
+  const [first, ...part] = (FORMERLY[address] ?? address).split(".");
+  return [FORMERLY[first] ?? first, ...part].join(".");
+}
+
+/** The view of an address; none where there is none. @param {string} address */
 export function viewAt(address) {
-  const [first] = (FORMERLY[address] ?? address).split(".");
-  const name = FORMERLY[first] ?? first;
+  const [name] = nowOf(address).split(".");
   return VIEWS.find((view) => view === name);
 }
 
@@ -66,7 +71,7 @@ export async function go(address) {
 
 /** Scroll to the part of a view that an address names, or to its top. @param {string} address */
 function scrollTo(address) {
-  const part = document.querySelector(`[data-anchor="${CSS.escape(FORMERLY[address] ?? address)}"]`);
+  const part = document.querySelector(`[data-anchor="${CSS.escape(nowOf(address))}"]`);
   if (part) part.scrollIntoView({ block: "start" });
   else window.scrollTo(0, 0);
 }
