@@ -92,3 +92,14 @@ def test_designs_over_any_input(visit, server):
     assert "undefined" not in "".join(looks)
     reasons, legend = over("lubricant.temperature")
     assert ("Design A" in reasons, "Design A" in legend, "Design B" in legend) == (True, False, True)
+
+
+def test_other_programs_read_case_inputs_and_outputs(visit, server):
+    here = visit().open("#A=paper&band=0")
+    here.page.locator("input[type=range][name='operation.axial_load']").fill("3000")
+    here.settle()
+    case, outputs = here.page.evaluate("[ballscrew.case, ballscrew.outputs]")
+    assert case["operation"]["axial_load"] == "3000 N"
+    answer = server.post("run", {"case": case}).json()
+    assert outputs == answer["results"]
+    assert here.page.evaluate("ballscrew.inputs") == answer["inputs"]

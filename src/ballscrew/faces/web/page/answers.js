@@ -584,6 +584,8 @@ class Answers {
     const { checks: checked, band, bandAlongSpeed } = before;
     this.#displayed = { body, whole, key, answer, checks: checked, band, bandAlongSpeed, designs, asked, starts };
     this.#rest();
+    // for other programs, and for those who look from outside
+    Object.assign(globalThis, { ballscrew: { case: body.case, inputs: answer.inputs, outputs: answer.results } });
     inputs.showAnswer(answer);
     results.succeed();
     if (wanted && !this.#displayed.band) this.#displayed.band = { state: "pending" };

@@ -30,6 +30,7 @@ export function slidersOf(path, field, name, si) {
   if (!Object.hasOwn(SLIDERS, path) || !input || !unit) return [];
   const slider = element("input", {
     type: "range",
+    name: path,
     step: "any",
     class: "slider",
     id: `s-${path.replaceAll(".", "-")}`,
