@@ -310,6 +310,16 @@ def test_a_store_has_the_full_bath_beside_the_torque(tmp_path):
     assert found["flooded_torque"].to_numpy()[0] == pytest.approx(float(one.flooded_torque), rel=1e-9)
 
 
+def test_the_drag_torque_of_a_starved_nut_stands_beside_that_of_the_full_bath():
+    cold, bath = run(case_with()), run(case_with(constant=0.0))
+    assert cold.nut.flooded_drag == pytest.approx(bath.nut.preload_drag, rel=1e-12)
+    assert cold.nut.flooded_drag > 1.1 * cold.nut.preload_drag
+    assert bath.nut.flooded_drag == bath.nut.preload_drag
+    rows = {name: cells for name, *cells in results_table(cold, SHOWN).rows}
+    shown = [cell.value for cell in rows["drag torque without seals"]]
+    assert shown == pytest.approx([cold.nut.preload_drag, cold.nut.flooded_drag], rel=1e-12)
+
+
 ROWS = """name;d0 [mm];Ph [mm];Dw [mm];i;Ca [kN];Preload;Nut
 A;40;10;6,35;4;50,3;7 %;double
 B;20;2;1,2;4;5;;single

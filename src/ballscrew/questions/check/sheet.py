@@ -110,7 +110,7 @@ def _rows(screw: Checked) -> list[list[Cell]]:
             screw.verdict,
         ]
     ]
-    if result.starvation:
+    if screw.run.is_starved:
         rows.append([f"  {FULL_BATH}", "", *numbers(result.in_full_bath), "", "", ""])
     return rows
 

@@ -158,30 +158,34 @@ def results_table(run: Run, names: Sequence[str], bands: Mapping[str, OutputBand
         ]
         for name in names
     ]
-    if run.friction.starvation:
+    if run.is_starved:
         flooded = run.friction.in_full_bath
         for name, row in zip(names, rows, strict=True):
             row.append(Number(float(getattr(flooded, name)), run.quantities[name]))
-    for label, torque in unloaded_rows(run):
-        rows.append([label, Number(torque, _TORQUE)])
+    for label, *torques in unloaded_rows(run):
+        rows.append([label, *(Number(torque, _TORQUE) for torque in torques[: 1 + run.is_starved])])
     for name, value in ({} if run.nut is None else run.nut.drag_coefficients).items():
         if math.isfinite(value):
             rows.append([_RESULT[name].info.meaning, Number(value, _RESULT[name])])
-    columns = ("", "value", *([FULL_BATH] if run.friction.starvation else []))
+    columns = ("", "value", *([FULL_BATH] if run.is_starved else []))
     rows = [[*row, *[""] * (len(columns) - len(row))] for row in rows]
     return Table("results", "Torque and efficiency", columns, rows, rules_contradict(run))
 
 
-def unloaded_rows(run: Run) -> list[tuple[str, float]]:
-    """The drag torque of the nut with seals and other losses, these, and without them, as makers' rules have it."""
+def unloaded_rows(run: Run) -> list[tuple[str, *tuple[float, ...]]]:
+    """The drag torque of the nut with seals and other losses, these, and without them, as makers' rules have it.
+
+    Behind those of the nut stand those in a full bath of oil; the rules know no oil.
+    """
     nut = run.nut
     if nut is None:
         return []
     losses = [(_of_loss(name, run.case), torque) for name, torque in nut.idle_losses.items() if torque]
     rules = [(rule.label, float(rule.by_rule.torque)) for rule in beside_rules(run.case, nut)]
     lost = [name for name, torque in nut.idle_losses.items() if torque]
-    whole = [(drag_label(lost, included=True), nut.preload_drag), *losses] if lost else []
-    return [*whole, (drag_label(lost, included=False), nut.drag_of_balls), *rules]
+    whole = [(drag_label(lost, included=True), nut.preload_drag, nut.flooded_drag), *losses] if lost else []
+    more = nut.flooded_drag - nut.preload_drag
+    return [*whole, (drag_label(lost, included=False), nut.drag_of_balls, nut.drag_of_balls + more), *rules]
 
 
 def drag_label(losses: Sequence[str], *, included: bool) -> str:
@@ -326,7 +330,7 @@ def of_rows(runs: Mapping[str, Run]) -> Sheet:
 
 def starved_line(runs: Mapping[str, Run]) -> Lines:
     """The screws of a table that are starved of oil, below which their row in a full bath stands."""
-    starved = [name for name, run in runs.items() if run.friction.starvation]
+    starved = [name for name, run in runs.items() if run.is_starved]
     text = (
         f"{' and '.join(filter(None, (', '.join(starved[:-1]), *starved[-1:])))}: the first row is with oil this thick "
         f"back in the track too late, as formulas for bearings say, the second {FULL_BATH}; no measurement on a ball "
@@ -350,8 +354,9 @@ def _rows(name: str, run: Run) -> list[list[Cell]]:
     kind = "–" if nut is None else kind_of(nut.nut)
     drag = None if nut is None else Number(nut.preload_drag, _TORQUE)
     rows = [row([name, kind, preload], run.friction, drag)]
-    if run.friction.starvation:
-        rows.append(row([f"  {FULL_BATH}", "", ""], run.friction.in_full_bath, ""))
+    if run.is_starved:
+        flooded = None if nut is None else Number(nut.flooded_drag, _TORQUE)
+        rows.append(row([f"  {FULL_BATH}", "", ""], run.friction.in_full_bath, flooded))
     return rows
 
 
@@ -367,8 +372,9 @@ def cells(name: str, run: Run) -> Cells:
         torque = None if found.rules is None else getattr(found.rules, name_of_rule)
         values[f"torque without load by {RULES[name_of_rule].label}"] = (torque, quantity)
     values["rigidity"] = (None if nut is None else nut.loads.rigidity, _LOADS["rigidity"])
-    if run.friction.starvation:
+    if run.is_starved:
         flooded = run.friction.in_full_bath
+        values[f"torque without load {FULL_BATH}"] = (None if nut is None else nut.flooded_drag, _TORQUE)
         values |= {f"{_RESULT[f].name} {FULL_BATH}": (getattr(flooded, f), _RESULT[f]) for f in _OF_BATH}
     values["valid"] = (int(run.friction.valid), None)
     values["warnings"] = ("; ".join(record.text for record in run.warnings), None)
