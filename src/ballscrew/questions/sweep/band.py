@@ -64,7 +64,7 @@ def with_band(
     ``recorded``: no bit depends on the kernels that are kept. Raises
     :class:`~ballscrew.basis.errors.InputError` that names options of the command line.
     """
-    outputs = tuple(name for name in plan.outputs if plan.ends_of(name))
+    outputs = tuple(name for name in plan.outputs if name != sweeps.FLOODED)
     count = options.samples
     if count is None:
         count = NUT_SAMPLES if case.screw.nut.one_by_one else SAMPLES
