@@ -118,7 +118,8 @@ def sweep(
         say_of_rows(cases.notes, cases.interrupted)
         (loaded,) = (each.case for each in cases.found.values())
     plan = studies.plan(loaded, options.vary, options.outputs, to, heats=self_heating, banded=banded)
-    plan = studies.with_flooded_torque(loaded, plan, to)
+    is_text = to.suffix.lower() == ".csv" if to is not None else not (as_json or as_sheet)
+    plan = studies.with_flooded_torque(loaded, plan, as_table=is_text)
     studies.check_store_options(to, verify=verify, trust=trust)
     with _report_stop(), studies.workers(scheduler, to) as cluster, progress("sweep") as done, log_on_stderr():
         dataset = studies.sweep(loaded, plan, done, to, cluster, verify=verify, trust=trust)
