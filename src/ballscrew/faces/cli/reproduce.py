@@ -17,7 +17,7 @@ def reproduce(
 
     if paper != "olaru2005":
         raise InputError(Fault("reproduce", "unknown paper", paper, nearest(paper, ["olaru2005"])))
-    from ballscrew.faces.cli.reproduction import reproduce_olaru2005
+    from ballscrew.questions.reproduce.reproduction import reproduce_olaru2005
 
     files, summary = reproduce_olaru2005(out, _step)
     for line in summary:
