@@ -8,6 +8,9 @@ after round; ratios and times are medians over the rounds.
 - ``of_kernel_keeping``: the same where the caller keeps all datasets, so that the memory of each is new to the process.
 - ``of_kernel_fresh``: the kernel alone into new memory: what its first touch costs, page ``faults`` counted.
 - ``of_kernel_checked``: the kernel alone where it also checks the inputs as it reads them, as in a sweep.
+- ``import_s``, ``fresh_s``: in a process of its own, the package and its parts imported, and the first sweep over a
+  hundred points, whose kernel is compiled; ``without_dask_s`` the same where dask, which xarray imports with its first
+  array, is not installed.
 - ``first_s``, ``second_ms``: a sweep over a hundred points, by a model that has not been recorded, and again.
 - ``point_us``: one point by ``bs.evaluator``, and ``over_model``: how many times as fast as a call of the model.
 """
@@ -19,6 +22,8 @@ import functools
 import json
 import resource
 import statistics
+import subprocess
+import sys
 from collections.abc import Callable, Mapping
 
 import numpy as np
@@ -137,13 +142,47 @@ def small_calls(name: str) -> dict[str, float]:
     }
 
 
+#: A first sweep in a process: argument one the model, argument two whether dask is hidden.
+_FRESH = """
+import sys, time
+if sys.argv[2] == "hidden":
+    sys.modules["dask"] = None
+started = time.perf_counter()
+import numpy as np
+import ballscrew as bs
+from ballscrew.evidence.papers.olaru2005 import OIL, SCREW
+model = getattr(bs.FrictionModel, sys.argv[1])()
+imported = time.perf_counter()
+axes = {"axial_load": np.linspace(10.0, 4000.0, 10), "screw_speed": np.linspace(1.0, 100.0, 10)}
+bs.sweep(model, SCREW, OIL, **axes)
+print(imported - started, time.perf_counter() - imported)
+"""
+
+
+def fresh(name: str) -> dict[str, float]:
+    """What a process waits for at first."""
+    found: dict[str, list[tuple[float, float]]] = {"there": [], "hidden": []}
+    for _ in range(ROUNDS):
+        for dask, times in found.items():
+            command = (sys.executable, "-c", _FRESH, name, dask)
+            done = subprocess.run(command, check=True, capture_output=True, text=True)
+            imported, swept = map(float, done.stdout.split())
+            times.append((imported, swept))
+    imported, swept = (statistics.median(each) for each in zip(*found["there"], strict=True))
+    without = statistics.median(swept for _, swept in found["hidden"])
+    return {"import_s": imported, "fresh_s": swept, "without_dask_s": without}
+
+
 def main() -> None:
     """Measure, and print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.add_argument("--points", type=lambda text: int(float(text)), default=10_000_000, help="(default: 10^7)")
+    parser.add_argument("--fresh", action="store_true", help="the first sweep of a process alone")
     options = parser.parse_args()
-    found = {"sweep": large_sweep(options.points), **{name: small_calls(name) for name in MODELS}}
+    found = {name: fresh(name) for name in MODELS}
+    if not options.fresh:
+        found = {"sweep": large_sweep(options.points), **{n: found[n] | small_calls(n) for n in MODELS}}
     if options.json:
         print(json.dumps({**found, "limits": LIMITS}, indent=1))
         return

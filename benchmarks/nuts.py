@@ -10,14 +10,18 @@ and olaru2005() beside it.
 - ``elastic``: ten thousand points of an elastic nut, all balls one by one, compiled, against the model on NumPy
   arrays; and twelve hundred points of a map of loads and speeds, as a page has them.
 - ``band``: 100,000 samples; ``fit``: 10,000 rows with the preload and a friction coefficient free.
+
+``--only sweep`` measures one of them, ``--avx2`` compiles as for a processor without AVX-512.
 """
 
 from __future__ import annotations
 
 import argparse
 import dataclasses
+import functools
 import json
 import statistics
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -161,23 +165,37 @@ def fit(model: bs.FrictionModel) -> dict[str, float]:
     return {"seconds": seconds(lambda: bs.fit(model, SCREW, OIL, log, free))}
 
 
+def without_avx512() -> None:
+    """Have kernels compiled, and kept, as for a processor of the kind that has AVX2 and no more."""
+    from llvmlite import binding
+
+    features = binding.get_host_cpu_features()
+    for name in features:
+        features[name] = features[name] and not name.startswith(("avx10", "avx512", "amx"))
+    binding.get_host_cpu_features = lambda: features
+    binding.get_host_cpu_name = lambda: "haswell"
+
+
 def main() -> None:
     """Measure, and print a table or one object."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--json", action="store_true")
     parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--only", metavar="NAME", help="measure one alone")
+    parser.add_argument("--avx2", action="store_true", help="compile without AVX-512")
     options = parser.parse_args()
-    found = {
-        name: {
-            "sweep": sweep(model, options.rounds),
-            "gradient": gradient(model, options.rounds),
-            "second call": second_call(model),
-            "elastic": elastic(model, options.rounds),
-            "band": band(model),
-            "fit": fit(model),
-        }
-        for name, model in MODELS.items()
+    if options.avx2:
+        without_avx512()
+    work: dict[str, Callable[[bs.FrictionModel], dict[str, float]]] = {
+        "sweep": functools.partial(sweep, rounds=options.rounds),
+        "gradient": functools.partial(gradient, rounds=options.rounds),
+        "second call": second_call,
+        "elastic": functools.partial(elastic, rounds=options.rounds),
+        "band": band,
+        "fit": fit,
     }
+    chosen = {case: measure for case, measure in work.items() if options.only in (None, case)}
+    found = {name: {case: measure(model) for case, measure in chosen.items()} for name, model in MODELS.items()}
     if options.json:
         print(json.dumps(found, indent=1))
         return

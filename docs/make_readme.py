@@ -11,7 +11,7 @@ import textwrap
 from collections.abc import Callable
 from pathlib import Path
 
-from ballscrew.faces.cli.reproduction import claims_table
+from ballscrew.questions.reproduce.reproduction import claims_table
 from ballscrew.questions.shared import charts
 
 HERE = Path(__file__).parent

@@ -16,6 +16,7 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.engine.uncertainty.default_uncertainties import JUDGEMENT, DefaultUncertainty, default_uncertainties
 from ballscrew.evidence.validation.entries import Entry, Point, may_be_fitted
 from ballscrew.faces.sheets import pictures
+from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.questions.band import compute as band
 from ballscrew.questions.band.sheet import sheet
 from ballscrew.questions.shared import charts
@@ -58,7 +59,7 @@ def assumed_table() -> str:
 
 def _spread(one: DefaultUncertainty) -> str:
     if one.half_width is not None:
-        return f"within {one.half_width:g} K"
+        return f"within {one.half_width:g} K" if one.name == TEMPERATURE.name else f"within {1e6 * one.half_width:g} µm"
     if one.share is not None:
         of = " of its excess over 0.5" if one.name.endswith("conformity") else ""
         return f"within {one.share:.0%}{of}"

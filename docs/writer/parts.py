@@ -15,7 +15,7 @@ PARTS = {
     "calibration": "calibration_pages:write",
     "nuts": "nut_tables:write",
     "accuracy.md": "accuracy_table:page",
-    "olaru2005": "ballscrew.faces.cli.reproduction:reproduce_olaru2005",
+    "olaru2005": "ballscrew.questions.reproduce.reproduction:reproduce_olaru2005",
     "effects": "effect_tables:write",
     "theory": "theory_figures:write",
     "uncertainty": "uncertainty_tables:write",

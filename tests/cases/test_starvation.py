@@ -2,19 +2,23 @@
 
 import copy
 import dataclasses
+import json
 
 import numpy as np
 import pytest
 
 import ballscrew as bs
 from ballscrew.axis.thermal.surroundings import Surroundings
-from ballscrew.basis.output.sheet import Number, words
+from ballscrew.basis.output.sheet import Columns, Number, Table, words
 from ballscrew.cases.case_files import case_file
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.faces.sheets import report_blocks
+from ballscrew.faces.sheets import report_blocks, terminal
 from ballscrew.physics.components.film_laws import Inlet
 from ballscrew.questions.band import compute as band
 from ballscrew.questions.band import document as band_documents
+from ballscrew.questions.band.options import BandOptions
+from ballscrew.questions.check import compute as check
+from ballscrew.questions.check.sheet import of_rows as check_of_rows
 from ballscrew.questions.duty import answer as duty_documents
 from ballscrew.questions.duty.compute import duty as duty_of
 from ballscrew.questions.duty.sheet import sheet as duty_sheet
@@ -22,10 +26,14 @@ from ballscrew.questions.run import answer as run_documents
 from ballscrew.questions.run.compute import run
 from ballscrew.questions.run.sheet import SHOWN, results_table
 from ballscrew.questions.run.sheet import meaning as meaning_of
+from ballscrew.questions.run.sheet import of_rows as run_of_rows
 from ballscrew.questions.service import answer as service_documents
 from ballscrew.questions.service import compute as service
+from ballscrew.questions.shared import every_row
 from ballscrew.questions.sweep import answer as sweep_documents
 from ballscrew.questions.sweep import compute as sweep
+from ballscrew.questions.sweep import rows as sweep_rows
+from ballscrew.questions.sweep.band import with_band
 from ballscrew.questions.warm_up import answer as warm_up_documents
 from ballscrew.questions.warm_up import compute as warm_up
 from ballscrew.questions.warm_up import self_heating
@@ -250,8 +258,8 @@ def test_a_sweep_has_both_torques_where_it_is_starved_the_most_in_its_attributes
 COLD_TO_WARM = ("temperature=-10, 0, 40 degC",)
 
 
-def paired(case, vary, outputs, to=None, **options):
-    return sweep.with_flooded_torque(case, sweep.plan(case, vary, outputs, to, **options), to)
+def paired(case, vary, outputs, to=None, *, as_table=False, **options):
+    return sweep.with_flooded_torque(case, sweep.plan(case, vary, outputs, to, **options), as_table=as_table)
 
 
 def test_a_sweep_has_the_full_bath_beside_the_torque_where_some_of_its_points_are_starved():
@@ -269,17 +277,94 @@ def test_a_sweep_has_the_full_bath_beside_the_torque_where_some_of_its_points_ar
     assert outputs["flooded_torque"]["meaning"] == there.quantities["flooded_torque"].info.meaning
 
 
-def test_a_sweep_without_starved_points_has_one_torque_and_so_have_those_with_a_full_bath_of_their_own(tmp_path):
+def test_a_sweep_without_starved_points_has_one_torque_and_so_have_those_with_a_full_bath_of_their_own():
     case, torque = case_with("40 degC"), ["screw_torque"]
     assert paired(case, ("temperature=60, 80 degC",), torque).outputs == ("screw_torque",)
     assert paired(case_with("40 degC", 0.0), COLD_TO_WARM, torque).outputs == ("screw_torque",)
     assert paired(case, COLD_TO_WARM, ["efficiency"]).outputs == ("efficiency",)
     assert paired(case, (*COLD_TO_WARM, "inlet.replenishment_constant=0, 3e-8"), torque).outputs == ("screw_torque",)
-    assert paired(case, COLD_TO_WARM, torque, banded=True).outputs == ("screw_torque",)
-    assert paired(case, COLD_TO_WARM, torque, tmp_path / "map.zarr").outputs == ("screw_torque",)
-    # one output over two axes is a table
-    assert paired(case, SPEEDS_AND_OILS, torque).outputs == ("screw_torque",)
+    # one output over two axes is a table on the terminal
+    assert paired(case, SPEEDS_AND_OILS, torque, as_table=True).outputs == ("screw_torque",)
+    assert paired(case, SPEEDS_AND_OILS, torque).outputs == ("screw_torque", "flooded_torque")
     assert paired(case, SPEEDS_AND_OILS, [*torque, "flooded_torque"]).outputs == ("screw_torque", "flooded_torque")
+
+
+def test_a_sweep_with_bands_has_the_full_bath_as_it_is_beside_them():
+    case = case_with("40 degC")
+    plan = paired(case, COLD_TO_WARM, ["screw_torque"], banded=True)
+    assert plan.columns == ("screw_torque", "screw_torque_low", "screw_torque_high", "flooded_torque", "valid")
+    found = with_band(case, plan, sweep.sweep(case, plan), BandOptions(samples=64), inner=(0.5,))
+    outputs = sweep_documents.document(case, plan, found)["outputs"]
+    assert outputs["flooded_torque"].keys() == {"values", "unit", "meaning"}
+    assert outputs["screw_torque"]["inner"]
+    one = run(case_with("-10 degC")).friction
+    assert outputs["flooded_torque"]["values"][0] == pytest.approx(float(one.flooded_torque), rel=1e-9)
+
+
+def test_a_store_has_the_full_bath_beside_the_torque(tmp_path):
+    case, to = case_with("40 degC"), tmp_path / "map.zarr"
+    plan = paired(case, COLD_TO_WARM, ["screw_torque"], to)
+    found = sweep.sweep(case, plan, to=to)
+    assert set(plan.outputs) == {"screw_torque", "flooded_torque"} < set(map(str, found.data_vars))
+    one = run(case_with("-10 degC")).friction
+    assert found["flooded_torque"].to_numpy()[0] == pytest.approx(float(one.flooded_torque), rel=1e-9)
+
+
+def test_the_drag_torque_of_a_starved_nut_stands_beside_that_of_the_full_bath():
+    cold, bath = run(case_with()), run(case_with(constant=0.0))
+    assert cold.nut.flooded_drag == pytest.approx(bath.nut.preload_drag, rel=1e-12)
+    assert cold.nut.flooded_drag > 1.1 * cold.nut.preload_drag
+    assert bath.nut.flooded_drag == bath.nut.preload_drag
+    rows = {name: cells for name, *cells in results_table(cold, SHOWN).rows}
+    shown = [cell.value for cell in rows["drag torque without seals"]]
+    assert shown == pytest.approx([cold.nut.preload_drag, cold.nut.flooded_drag], rel=1e-12)
+
+
+ROWS = """name;d0 [mm];Ph [mm];Dw [mm];i;Ca [kN];Preload;Nut
+A;40;10;6,35;4;50,3;7 %;double
+B;20;2;1,2;4;5;;single
+"""
+
+
+def rows_at(temperature, folder):
+    """The runs of two screws of a table."""
+    tables = copy.deepcopy(COLD)
+    tables["lubricant"]["temperature"] = temperature
+    (folder / "case.json").write_text(json.dumps(tables), encoding="utf-8")
+    (folder / "own.csv").write_text(ROWS, encoding="utf-8")
+    return every_row.cases(folder / "case.json", folder / "own.csv")
+
+
+@pytest.mark.parametrize(("temperature", "is_starved"), [("-10 degC", True), ("60 degC", False)])
+def test_screws_of_a_table_have_both_where_one_is_starved(temperature, is_starved, tmp_path):
+    cases = rows_at(temperature, tmp_path).found
+    runs = {name: run(each.case) for name, each in cases.items()}
+    checks = {name: check.checked(name, each.case) for name, each in cases.items()}
+    for seen in (run_of_rows(runs), check_of_rows(list(checks.values()))):
+        (table,) = seen.of_kind(Table)
+        (columns,) = seen.of_kind(Columns)
+        names = [row[0] for row in table.rows]
+        heading = "screw_torque in a full bath of oil"
+        assert ("  in a full bath of oil" in names) == is_starved
+        assert (heading in [column.name for column in columns.columns]) == is_starved
+        assert ("no measurement on a ball screw decides" in terminal.text(seen).replace("\n    ", " ")) == is_starved
+        if is_starved:
+            flooded = float(runs["A"].friction.flooded_torque)
+            row = table.rows[names.index("  in a full bath of oil")]
+            assert names.index("  in a full bath of oil") == names.index("A") + 1
+            assert flooded in [cell.value for cell in row if isinstance(cell, Number)]
+            assert flooded > 1.1 * float(runs["A"].friction.screw_torque)
+            assert len(row) == len(table.columns)
+
+
+def test_a_sweep_of_the_screws_of_a_table_has_both_for_all_where_one_is_starved(tmp_path):
+    cases = rows_at("-10 degC", tmp_path).found
+    planned = sweep_rows.plans(cases, ["axial_load=1, 3 kN"], ["screw_torque"], None, False).found
+    assert {plan.outputs for _, plan in planned.values()} == {("screw_torque", "flooded_torque")}
+    found, _ = sweep_rows.sweep(planned, None)
+    flooded = float(run(cases["A"].case).friction.flooded_torque)
+    assert found["flooded_torque"].sel(screw="A").to_numpy()[1] == pytest.approx(flooded, rel=1e-9)
+    assert np.isfinite(found["flooded_torque"].to_numpy()).all()
 
 
 def test_a_sweep_that_heats_itself_is_judged_at_the_oil_as_warm_as_it_becomes():

@@ -1,8 +1,9 @@
 """The tests that an edit can break, as many as a minute holds: ``make quick [SINCE=commit] [SECONDS=45]``.
 
 Git says which functions have changed since a commit, the last one unless told; a map in ``out/quick`` says which tests
-run them. Tests that changed themselves come first, then those that run least beside the changed functions, one of each
-file in turn, until their measured times fill the budget. What is left out is counted and said.
+run them. Tests that changed themselves come first, then those in files named after a changed module, for half of the
+budget, and those that run least beside the changed functions, one of each file in turn, until their measured times fill
+it. What is left out is counted and said.
 
 ``make quick-map`` measures the map, in some twenty minutes. It holds functions by their names, so that it stays of use
 while they move and change; tests and functions that are newer than the map are not in it.
@@ -38,6 +39,8 @@ MODULE = "<module>"
 UNMEASURED = tuple(
     f"tests/{name}" for name in ("compiler/kernels", "docs", "engine/sweeps", "exports", "faces/site", "faces/web")
 )
+#: Share of the budget that tests named after a changed module may fill before others have their turn.
+OF_NAMED = 0.5
 #: Processes that run tests, and seconds that each takes to start.
 WORKERS = min(os.cpu_count() or 1, 4)
 PYTEST = ("-q", "-p", "no:randomly", "--no-header")
@@ -123,7 +126,10 @@ def changed_functions(lines: Mapping[str, set[int]]) -> set[str]:
 
 
 def chosen(reach: Reach, changed: Iterable[str], tests: Sequence[str], budget: float) -> Choice:
-    """Tests within a budget of seconds: changed ones, then those that run least else, of each file in turn."""
+    """Tests within a budget of seconds: changed ones, those named after what changed, then those that run least else.
+
+    Of each file in turn.
+    """
     of_module = defaultdict(set)
     runs = [0] * len(reach.tests)
     for function, indices in reach.functions.items():
@@ -140,15 +146,24 @@ def chosen(reach: Reach, changed: Iterable[str], tests: Sequence[str], budget: f
     for index in sorted(candidates, key=lambda index: (runs[index], reach.seconds[index])):
         by_file[reach.tests[index].partition("::")[0]].append(index)
     seconds = sum(s for test, s in zip(reach.tests, reach.seconds, strict=True) if test.partition("::")[0] in tests)
-    ids = []
-    for index in in_turn(list(by_file.values())):
-        if seconds + reach.seconds[index] <= budget:
-            seconds += reach.seconds[index]
-            ids.append(index)
+    ids: list[int] = []
+    named = [by_file[file] for file in by_file if is_named_after(file, changed)]
+    for share, lists in ((OF_NAMED, named), (1.0, list(by_file.values()))):
+        for index in in_turn(lists):
+            if index not in ids and seconds + reach.seconds[index] <= share * budget:
+                seconds += reach.seconds[index]
+                ids.append(index)
     left = candidates.difference(ids)
     return Choice(
         [*tests, *(reach.tests[index] for index in ids)], seconds, len(left), sum(reach.seconds[i] for i in left)
     )
+
+
+def is_named_after(file: str, changed: Iterable[str]) -> bool:
+    """Test whether a file of tests has the name of a module that has changed, perhaps with that of its room."""
+    paths = [Path(function.partition(":")[0]) for function in changed]
+    names = {name for path in paths for name in (path.stem, f"{path.parent.name}_{path.stem}")}
+    return Path(file).stem.removeprefix("test_") in names
 
 
 def in_turn(lists: Sequence[Sequence[int]]) -> Iterator[int]:
@@ -192,17 +207,17 @@ def run(since: str, budget: float, list_only: bool) -> int:
 # -- the map ----------------------------------------------------------------------------------------
 
 
-def measure() -> None:
-    """Run all tests that have a map, in as many processes as there are processors, and write what they run."""
+def measure(folders: Sequence[str], processes: int) -> None:
+    """Run all tests that have a map, or those in some folders, in so many processes, and write what they run."""
     shutil.rmtree(WORK, ignore_errors=True)
     files = sorted(file.relative_to(ROOT).as_posix() for file in (ROOT / "tests").rglob("test_*.py"))
-    files = [file for file in files if not file.startswith(UNMEASURED)]
+    files = [file for file in files if file.startswith(tuple(folders)) and not file.startswith(UNMEASURED)]
     started = time.monotonic()
-    shards = [measured(WORK / f"shard{number}", files[number::WORKERS]) for number in range(WORKERS)]
+    shards = [measured(WORK / f"shard{number}", files[number::processes]) for number in range(processes)]
     for process in shards:
         if process.wait() > 1:  # a test that fails is no reason to have no map
             raise SystemExit("The tests could not be run: see out/quick/shard*/pytest.txt")
-    reach = joined([WORK / f"shard{number}" for number in range(WORKERS)])
+    reach = joined([WORK / f"shard{number}" for number in range(processes)])
     with gzip.open(MAP, "wt", encoding="utf-8") as file:
         json.dump(reach._asdict(), file)
     minutes = (time.monotonic() - started) / 60
@@ -275,10 +290,13 @@ def main() -> None:
     parser.add_argument("--since", default="HEAD", help="the commit that the edit began from")
     parser.add_argument("--seconds", type=float, default=40.0, help="budget of the tests, without their start")
     parser.add_argument("--list", action="store_true", help="list the tests, and run nothing")
-    parser.add_argument("--measure", action="store_true", help="measure the map anew")
+    parser.add_argument(
+        "--measure", nargs="*", metavar="FOLDER", help="measure the map anew, of all tests or of folders"
+    )
+    parser.add_argument("--processes", type=int, default=WORKERS, help="that measure the map")
     options = parser.parse_args()
-    if options.measure:
-        measure()
+    if options.measure is not None:
+        measure(options.measure or ["tests/"], options.processes)
     else:
         sys.exit(run(options.since, options.seconds, options.list))
 

@@ -19,12 +19,18 @@ from ballscrew.basis.references import bibliography
 from ballscrew.cases.case_files import case_file, uncertain_inputs
 from ballscrew.engine.evaluation.comparison import Candidate
 from ballscrew.engine.uncertainty.bands import band, band_along
-from ballscrew.engine.uncertainty.default_uncertainties import JUDGEMENT, default_distributions, default_uncertainties
+from ballscrew.engine.uncertainty.default_uncertainties import (
+    JUDGEMENT,
+    NORMAL_95,
+    default_distributions,
+    default_uncertainties,
+)
 from ballscrew.engine.uncertainty.distributions import LogNormal, Normal, Uniform
 from ballscrew.engine.uncertainty.sampling import JointNormal
 from ballscrew.physics.components.laws import ProportionalBallForce, imposed_ball_force
 from ballscrew.physics.components.mixed_friction import BalanSharing
 from ballscrew.physics.components.rolling_laws import houpert_rolling
+from ballscrew.physics.solvers.load_distribution import preload_growth, preload_of
 from ballscrew.questions.band import compute
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
@@ -355,8 +361,47 @@ def test_every_input_in_the_file_exists(seed_screw):
     names |= {f"surroundings.{name}" for name in VARIED}
     losses = {slot: law() for slot, laws in LOSSES.items() for law in laws.values()}  # of a slot the last law
     nut = bs.DoubleNut(1000.0, losses=losses)
-    names |= set(inputs_of(model, dataclasses.replace(seed_screw, nut=nut), oil))
+    for one in (nut, bs.OversizeBallNut(oversize=1e-6)):
+        names |= set(inputs_of(model, dataclasses.replace(seed_screw, nut=one), oil))
     assert set(default_uncertainties()) - names == {"viscosity_of_grade", "viscosity_of_sheet"}
+
+
+def test_the_preload_of_oversize_balls_is_uncertain_by_half_a_gauge_too(seed_screw, seed_oil):
+    """Gauges of balls are 1 um apart: 95 % of the preloads are those of an oversize within half of it, and of 25 %."""
+    model, force = bs.FrictionModel.reference(), 1000.0
+
+    def usual(nut):
+        return default_distributions(model, dataclasses.replace(seed_screw, nut=nut), seed_oil)
+
+    def preload_at(oversize):
+        nut = bs.OversizeBallNut(oversize=oversize)
+        return float(preload_of(dataclasses.replace(seed_screw, nut=nut), nut))
+
+    oversize = 1e-6 * (force / preload_at(1e-6)) ** (2 / 3)
+    by_size = (preload_at(oversize + 1e-9) - preload_at(oversize - 1e-9)) / (2e-9 * force) * 0.5e-6
+    assert 0.25 < by_size < 0.35
+    distribution, why = usual(bs.OversizeBallNut(force))["preload"]
+    assert distribution.mean == force
+    assert distribution.deviation == pytest.approx(np.hypot(0.25, by_size) * force / NORMAL_95, rel=1e-6)
+    assert "gauge" in why.reason
+    assert usual(bs.DoubleNut(force))["preload"][0].deviation == pytest.approx(0.25 * force / NORMAL_95)
+    given = usual(bs.OversizeBallNut(oversize=2e-6))
+    assert "preload" not in given
+    assert given["oversize"][0].deviation == pytest.approx(0.5e-6 / NORMAL_95)
+    assert not {"preload", "oversize"} & usual(bs.OversizeBallNut(oversize=0.0)).keys()
+    assert "preload" not in usual(bs.OversizeBallNut(0.0))
+
+
+@pytest.mark.parametrize("bodies", [None, bs.Bodies()], ids=["rigid", "elastic"])
+def test_preloads_grow_with_the_oversize_as_those_of_balls_that_are_bigger(seed_screw, bodies):
+    def preload_at(oversize):
+        nut = bs.OversizeBallNut(oversize=oversize, bodies=bodies)
+        return float(preload_of(dataclasses.replace(seed_screw, nut=nut), nut))
+
+    for oversize in (0.5e-6, 1e-6, 2e-6):
+        slope = (preload_at(1.001 * oversize) / preload_at(0.999 * oversize) - 1) / (0.002 * oversize)
+        # the angle that the widening changes is left out
+        assert preload_growth(seed_screw, preload_at(oversize), bodies) == pytest.approx(slope, rel=0.02)
 
 
 def test_usual_distributions_are_about_the_values_of_the_case(seed_screw, seed_oil):

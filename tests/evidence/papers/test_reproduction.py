@@ -14,10 +14,10 @@ from ballscrew.evidence.papers import olaru2005 as paper
 from ballscrew.evidence.papers.olaru2005 import case, verdicts
 from ballscrew.evidence.papers.olaru2005.claims import judged
 from ballscrew.evidence.papers.olaru2005.observations import observe
-from ballscrew.faces.cli import reproduction
 from ballscrew.questions.reproduce import ball_figure as ball
 from ballscrew.questions.reproduce import figure as figures
 from ballscrew.questions.reproduce import preloaded_nut as nuts
+from ballscrew.questions.reproduce import reproduction
 from ballscrew.questions.shared.charts import Plot
 from support.pictures import drawn, size
 

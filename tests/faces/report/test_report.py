@@ -30,13 +30,14 @@ from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.makers_rules import by_rules
 from ballscrew.cases.case_files.named_calibration import vendor_rows_like
 from ballscrew.engine.uncertainty.band_evaluation import BAND_OUTPUTS
-from ballscrew.faces.cli import report as command
+from ballscrew.faces.cli import sharing
 from ballscrew.faces.report import contents, input_tables
 from ballscrew.faces.report import curve_figures as figures
 from ballscrew.faces.report.curves import curves
 from ballscrew.faces.report.files import report_bytes
 from ballscrew.faces.report.heading import Heading
 from ballscrew.faces.report.html import html_bytes
+from ballscrew.faces.report.options import ReportOptions
 from ballscrew.faces.report.pdf import pdf_bytes
 from ballscrew.physics.components.nut_losses import ConstantTorque
 from ballscrew.physics.friction.result import FrictionResult
@@ -47,6 +48,7 @@ from ballscrew.questions.band import compute as band
 from ballscrew.questions.check.compute import checked
 from ballscrew.questions.duty.compute import NUMBERS, duty
 from ballscrew.questions.run.compute import run
+from ballscrew.questions.shared.question import CaseOptions
 from ballscrew.questions.shared.report_blocks import (
     Bar,
     Bullets,
@@ -689,9 +691,10 @@ def test_what_cannot_be_written_is_one_line_and_nothing_is_left(ballscrew, tmp_p
 def test_without_the_extra_it_says_what_to_install(monkeypatch, tmp_path):
     known = importlib.util.find_spec
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None if name in ("typst", "jinja2") else known(name))
+    case = ROOT / "examples" / "feed_drive.toml"
     for kind, needed in (("pdf", "typst"), ("html", "jinja2")):
         with pytest.raises(InputError, match=rf'--to: needs {needed} .* · pip install "ballscrew\[report\]"'):
-            command.report(ROOT / "examples" / "feed_drive.toml", tmp_path / f"x.{kind}", written={})
+            sharing.report(case, tmp_path / f"x.{kind}", CaseOptions(), ReportOptions())
 
 
 def test_a_run_does_not_wait_for_what_only_a_report_needs():

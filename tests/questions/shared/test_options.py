@@ -13,27 +13,8 @@ from typer.testing import CliRunner
 
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.faces.cli import (
-    axis,
-    check,
-    compensation,
-    condition,
-    duty,
-    fit,
-    hand_over,
-    main,
-    optimise,
-    report,
-    reversal,
-    ripple,
-    run,
-    select,
-    sensitivity,
-    service,
-    sweep,
-    warm_up,
-)
-from ballscrew.faces.cli.flags import flags_of, with_flags
+from ballscrew.faces.cli import main
+from ballscrew.faces.cli.options import Output, with_flags
 from ballscrew.faces.report.options import ReportOptions
 from ballscrew.faces.web.bodies import (
     AxisBody,
@@ -52,9 +33,11 @@ from ballscrew.faces.web.vocabulary import OPTIONS, vocabulary
 from ballscrew.questions.axis.options import AxisOptions
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.check.options import CheckOptions
+from ballscrew.questions.compare_designs.question import CompareOptions
 from ballscrew.questions.compensation.options import CompensationOptions
 from ballscrew.questions.condition.options import ConditionOptions
 from ballscrew.questions.duty.options import DutyOptions
+from ballscrew.questions.duty.question import TraceOptions
 from ballscrew.questions.fit.options import FitOptions
 from ballscrew.questions.fit_motion.options import FitMotionOptions
 from ballscrew.questions.hand_over.options import HandOverOptions
@@ -66,28 +49,32 @@ from ballscrew.questions.sensitivity.options import SensitivityOptions
 from ballscrew.questions.service.options import ReadingOptions, ServiceOptions
 from ballscrew.questions.shared.option_values import read
 from ballscrew.questions.shared.options import Option, Range, body_fields, options_of, vocabulary_of
+from ballscrew.questions.shared.question import CaseOptions
 from ballscrew.questions.sweep.options import SweepOptions
 from ballscrew.questions.warm_up.options import DriftOptions, WarmUpOptions
 
 #: The classes of options of each command.
 COMMANDS = {
-    axis.axis: (AxisOptions,),
-    check.check: (CheckOptions,),
-    compensation.compensation: (CompensationOptions,),
-    condition.condition: (ConditionOptions,),
-    duty.duty: (DutyOptions,),
-    fit.fit: (FitOptions, FitMotionOptions),
-    hand_over.hand_over: (HandOverOptions,),
-    optimise.optimise: (OptimiseOptions,),
-    report.report: (ReportOptions,),
-    reversal.reversal: (ReversalOptions,),
-    ripple.ripple: (RippleOptions,),
-    run.run: (BandOptions,),
-    select.select: (SelectOptions, ListOptions),
-    sensitivity.sensitivity: (SensitivityOptions,),
-    service.service: (ServiceOptions, ReadingOptions),
-    sweep.sweep: (SweepOptions,),
-    warm_up.warm_up: (WarmUpOptions, DriftOptions),
+    "axis": (AxisOptions,),
+    "cite": (),
+    "compare": (CompareOptions,),
+    "check": (CheckOptions,),
+    "compensation": (CompensationOptions,),
+    "condition": (ConditionOptions,),
+    "duty": (TraceOptions, DutyOptions),
+    "fit": (FitOptions, FitMotionOptions),
+    "hand-over": (HandOverOptions,),
+    "optimise": (OptimiseOptions,),
+    "report": (ReportOptions,),
+    "reversal": (ReversalOptions,),
+    "ripple": (RippleOptions,),
+    "run": (BandOptions,),
+    "select": (SelectOptions, ListOptions),
+    "sensitivity": (SensitivityOptions,),
+    "service": (ServiceOptions, ReadingOptions),
+    "sweep": (SweepOptions,),
+    "validate": (),
+    "warm-up": (WarmUpOptions, DriftOptions),
 }
 #: The body of the API for the options of a question.
 BODIES = {
@@ -120,13 +107,13 @@ def flags(command):
 
 
 def test_every_command_with_options_is_looked_at():
-    assert {one for one in main.COMMANDS.values() if with_flags(one) is not one} == COMMANDS.keys()
+    assert {name for name, one in main.COMMANDS.items() if with_flags(one) is not one} == COMMANDS.keys()
 
 
-@pytest.mark.parametrize("command", COMMANDS, ids=named)
+@pytest.mark.parametrize("command", COMMANDS)
 def test_every_option_is_a_flag(command):
     """Also in the help; of an option that two classes have, the first one says what it means."""
-    said = flags(command)
+    said = flags(main.COMMANDS[command])
     meanings = {}
     for cls in COMMANDS[command]:
         for option in options_of(cls).values():
@@ -206,8 +193,7 @@ def test_every_kind_on_the_command_line():
     app = typer.Typer(rich_markup_mode=None)
     given = []
 
-    @flags_of(Every)
-    def command(case: str, *, written: Mapping[str, object], loud: bool = False) -> None:
+    def command(case: str, *, written: Annotated[Mapping[str, object], Every], loud: bool = False) -> None:
         given.append((case, read(Every, written, lengths), loud))
 
     app.command()(with_flags(command))
@@ -219,6 +205,28 @@ def test_every_kind_on_the_command_line():
     shown = CliRunner().invoke(app, ["--help"]).output
     assert [option.option.meaning in shown for option in options_of(Every).values()] == [True] * 12
     assert "[default: 0.5]" in shown
+
+
+def test_a_class_gives_an_instance_and_its_texts_may_change():
+    """One that is left out has its default; --allow-code stands last."""
+    app = typer.Typer(rich_markup_mode=None)
+    given = []
+
+    def command(
+        case_options: Annotated[CaseOptions, {"settings": "Other words.", "calibration": None}], output: Output
+    ) -> None:
+        given.append((case_options, output))
+
+    app.command()(with_flags(command))
+    assert CliRunner().invoke(app, ["--set", "a.b=1", "--set", "c.d=2", "--model", "m", "--json"]).exit_code == 0
+    assert CliRunner().invoke(app, []).exit_code == 0
+    assert given == [
+        (CaseOptions(settings=["a.b=1", "c.d=2"], model="m"), Output(as_json=True)),
+        (CaseOptions(), Output()),
+    ]
+    said = flags(command)
+    assert list(said) == ["--model", "--set", "--json", "--sheet", "--allow-code"]
+    assert said["--set"] == "Other words."
 
 
 def test_every_kind_in_a_body():

@@ -14,13 +14,14 @@ from ballscrew.axis.motion.states import Numbers
 from ballscrew.basis.arrays import ByValue, lazy
 from ballscrew.basis.quantities import Energy, fields_of
 from ballscrew.basis.records import Measured, Message
+from ballscrew.physics.friction.starvation import FULL_BATH
 from ballscrew.physics.sizing.checks import Check
 
 _LARGEST_SPEED = fields_of(Motor)["largest_speed"]
 
 
 #: The condition of the track of balls that a torque is of, where both are judged.
-AS_GIVEN, FULL_BATH = "starved of oil", "in a full bath of oil"
+AS_GIVEN = "starved of oil"
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -11,13 +11,15 @@ from collections.abc import Collection, Mapping
 from importlib import resources
 from typing import Any
 
-from ballscrew.basis.quantities import Info
+from ballscrew.basis.quantities import Force, Info
 from ballscrew.engine.evaluation.outputs import inputs_of
 from ballscrew.engine.uncertainty.distributions import Distribution, LogNormal, Normal, Triangular, Uniform, within
 from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
+from ballscrew.physics.components.nut import OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.solvers.load_distribution import preload_growth
 
 #: Half the width of the interval that holds 95 % of a normal distribution, in standard deviations.
 NORMAL_95 = 1.959963984540054
@@ -51,10 +53,10 @@ class DefaultUncertainty:
         """The distribution about a value of a quantity, SI; None for one at its lower bound, which was switched off."""
         bound = info.at_least if info.above is None else info.above
         above = value - (bound or 0.0)
+        if above <= 0:
+            return None
         if self.half_width is not None:
             found: Distribution = Normal(value, self.half_width / NORMAL_95)
-        elif above <= 0:
-            return None
         elif self.share is not None:
             found = Normal(value, self.share * above / NORMAL_95)
         elif self.between is not None:
@@ -94,7 +96,8 @@ def default_distributions(
 
     Left out are those whose distribution is ``given`` and those that are known exactly. Of an oil of a grade or
     of a data sheet the temperature is uncertain and the viscosity follows, or, where the temperature is exact, the
-    viscosity is by what a grade leaves open: never both, as one would undo the other.
+    viscosity is by what a grade leaves open: never both, as one would undo the other. The preload of oversize balls is
+    as uncertain as that of other nuts, and by what is uncertain of their size.
     """
     inputs, known = inputs_of(model, screw, lubricant), default_uncertainties()
     parts = {"screw": screw, "lubricant": lubricant, "model": model, "nut": screw.nut}
@@ -110,10 +113,24 @@ def default_distributions(
         if value is None:
             continue  # preload of balls whose oversize is given
         uncertainty = known[_of_oil(lubricant) if name == "viscosity" else name]
+        if name == "preload" and isinstance(screw.nut, OversizeBallNut) and value > 0:
+            uncertainty = _of_oversize_balls(uncertainty, known["oversize"], screw, float(value))
         distribution = uncertainty.about(float(value), quantity.info)
         if distribution is not None:
             found[name] = distribution, uncertainty
     return found
+
+
+def _of_oversize_balls(
+    usual: DefaultUncertainty, oversize: DefaultUncertainty, screw: BallScrew, preload: Force
+) -> DefaultUncertainty:
+    """The uncertainty of a preload that balls of an uncertain oversize make: both causes are independent."""
+    assert usual.share is not None
+    assert oversize.half_width is not None
+    by_size = preload_growth(screw, preload, screw.nut.bodies) * oversize.half_width
+    share = math.hypot(usual.share, by_size)
+    reason = f"{usual.share:.0%} as of other nuts, and {by_size:.0%} for half a gauge of balls: {oversize.reason}"
+    return dataclasses.replace(usual, share=share, source=oversize.source, reason=reason)
 
 
 def _of_oil(lubricant: Lubricant) -> str:

@@ -1,4 +1,4 @@
-"""The application of the command line: its commands, each in a file of its own, and how errors end.
+"""The application of the command line: the table of its commands, and how errors end.
 
 Scientific packages are imported inside the commands, so that ``ballscrew --help`` is instant.
 """
@@ -18,39 +18,19 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 
 from ballscrew.basis import pint_plugins as _pint_plugins
-from ballscrew.faces.cli import (
-    INTERRUPTED,
-    axis,
-    card,
-    catalogue,
-    check,
-    cite,
-    compare,
-    compensation,
-    condition,
-    duty,
-    fit,
-    hand_over,
-    names,
-    oils,
-    optimise,
-    report,
-    reproduce,
-    reversal,
-    ripple,
-    run,
-    schema,
-    select,
-    sensitivity,
-    serve,
-    service,
-    site,
-    sweep,
-    validate,
-    warm_up,
-)
-from ballscrew.faces.cli.common_options import CALIBRATION_NAMES, MODEL_NAMES, compiling_on_terminal
-from ballscrew.faces.cli.flags import with_flags
+from ballscrew.faces.cli import INTERRUPTED, cases, choosing, lists, logs, questions, sharing
+from ballscrew.faces.cli.options import with_flags
+from ballscrew.faces.cli.progress import compiling_on_terminal
+from ballscrew.questions.axis.question import QUESTION as AXIS
+from ballscrew.questions.compare_designs.question import QUESTION as COMPARE
+from ballscrew.questions.condition.question import QUESTION as CONDITION
+from ballscrew.questions.duty.question import QUESTION as DUTY
+from ballscrew.questions.reversal.question import QUESTION as REVERSAL
+from ballscrew.questions.ripple.question import QUESTION as RIPPLE
+from ballscrew.questions.sensitivity.question import QUESTION as SENSITIVITY
+from ballscrew.questions.service.question import QUESTION as SERVICE
+from ballscrew.questions.shared.question import CALIBRATION_NAMES, MODEL_NAMES, Question
+from ballscrew.questions.warm_up.question import QUESTION as WARM_UP
 
 
 class _Command(TyperCommand):
@@ -83,36 +63,43 @@ class _Command(TyperCommand):
         super().format_help(ctx, formatter)
 
 
-#: The commands by their names, in the order of the help.
-COMMANDS: Mapping[str, Callable[..., None]] = {
-    command.__name__.replace("_", "-"): command
-    for command in (
-        run.run,
-        compare.compare,
-        sweep.sweep,
-        reproduce.reproduce,
-        check.check,
-        select.select,
-        optimise.optimise,
-        fit.fit,
-        hand_over.hand_over,
-        report.report,
-        duty.duty,
-        axis.axis,
-        ripple.ripple,
-        warm_up.warm_up,
-        compensation.compensation,
-        reversal.reversal,
-        sensitivity.sensitivity,
-        serve.serve,
-        site.site,
-        service.service,
-        condition.condition,
-        validate.validate,
-        schema.schema,
-        cite.cite,
-    )
-} | {"list": names.list_names}
+#: The commands in the order of the help: questions, and functions of their own.
+_COMMANDS: Sequence[Question | Callable[..., None]] = (
+    cases.run,
+    COMPARE,
+    cases.sweep,
+    lists.reproduce,
+    cases.check,
+    choosing.select,
+    choosing.optimise,
+    logs.fit,
+    sharing.hand_over,
+    sharing.report,
+    DUTY,
+    AXIS,
+    RIPPLE,
+    WARM_UP,
+    sharing.compensation,
+    REVERSAL,
+    SENSITIVITY,
+    sharing.serve,
+    sharing.site,
+    SERVICE,
+    CONDITION,
+    logs.validate,
+    lists.schema,
+    lists.cite,
+)
+
+
+def _named(command: Question | Callable[..., None]) -> tuple[str, Callable[..., None]]:
+    if isinstance(command, Question):
+        return command.name, questions.command_of(command)
+    return command.__name__.replace("_", "-"), command
+
+
+#: The commands by their names.
+COMMANDS: Mapping[str, Callable[..., None]] = {**dict(map(_named, _COMMANDS)), "list": lists.list_names}
 
 
 class _Commands(TyperGroup):
@@ -143,9 +130,9 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
-app.add_typer(catalogue.app, name="catalogue")
-app.add_typer(card.app, name="card")
-app.add_typer(oils.app, name="oils")
+app.add_typer(choosing.catalogue, name="catalogue")
+app.add_typer(lists.card, name="card")
+app.add_typer(lists.oils, name="oils")
 for _name, _function in COMMANDS.items():
     app.command(_name, help=_function.__doc__)(_listed)
 

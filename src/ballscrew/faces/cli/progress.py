@@ -1,11 +1,15 @@
-"""A bar for those who wait."""
+"""The error stream: a bar for those who wait, what is logged meanwhile, and notes on the work that was done."""
 
 from __future__ import annotations
 
 import contextlib
 import sys
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Mapping, Sequence
 from typing import Any
+
+import typer
+
+from ballscrew.faces.cli import INTERRUPTED
 
 
 @contextlib.contextmanager
@@ -55,3 +59,59 @@ def _bar(what: str, cost: str) -> Generator[Callable[[int, int], None]]:
 
 def _silent(*_: int) -> None:
     """Nothing, for nobody looks."""
+
+
+def print_notes_of_rows(notes: Sequence[str], interrupted: bool = False) -> None:
+    """Print notes on rows of tables; after Ctrl-C the command ends with its exit code."""
+    for note in notes:
+        typer.echo(note, err=True)
+    if interrupted:
+        raise typer.Exit(INTERRUPTED)
+
+
+def print_engine(attributes: Mapping[str, Any]) -> None:
+    """Print the engine that evaluated, and why it was that one."""
+    reason = attributes.get("engine_reason")
+    typer.echo(f"evaluated by {attributes['engine']}" + (f": {reason}" if reason else ""), err=True)
+
+
+#: What logs that something is compiled.
+_COMPILER = "ballscrew.compiler.kernels"
+
+
+@contextlib.contextmanager
+def log_on_stderr() -> Generator[None]:
+    """Show on the error stream what the package logs; compiling is for :func:`compiling_on_terminal`."""
+    with _echo("ballscrew", but=_COMPILER):
+        yield
+
+
+@contextlib.contextmanager
+def compiling_on_terminal() -> Generator[None]:
+    """Say on a terminal what is compiled, where that takes more than a second; silent where nobody looks."""
+    if not sys.stderr.isatty():
+        yield
+        return
+    with _echo(_COMPILER):
+        yield
+
+
+@contextlib.contextmanager
+def _echo(of: str, but: str | None = None) -> Generator[None]:
+    """Show on the error stream what a logger and those below it say, but for one of these."""
+    import logging  # not for those who ask for help only
+
+    class Echo(logging.Handler):
+        def emit(self, record: logging.LogRecord) -> None:
+            if but is None or not record.name.startswith(but):
+                sys.stderr.write(f"{record.getMessage()}\n")  # that of a bar, where there is one: above it
+
+    logger, handler = logging.getLogger(of), Echo()
+    before = logger.level
+    logger.addHandler(handler)
+    logger.setLevel(logging.INFO)
+    try:
+        yield
+    finally:
+        logger.setLevel(before)
+        logger.removeHandler(handler)

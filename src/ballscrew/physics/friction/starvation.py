@@ -22,6 +22,8 @@ from ballscrew.physics.equations import rolling
 
 #: The id of the record, in every answer that holds a torque.
 STARVED = "lubricant.starved"
+#: What is beside a starved number.
+FULL_BATH = "in a full bath of oil"
 #: Two torques differ where that of the full bath is larger by more than this share of the other.
 LARGEST_DIFFERENCE = 0.1
 #: Share of the rolling force that is left, at and above which the torque of a full bath is not asked for: were all of

@@ -25,6 +25,7 @@ balls, and the change of K with the contact angle.
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections.abc import Callable, Sequence
 from typing import Annotated, Any, NamedTuple
 
@@ -375,6 +376,24 @@ def preload_of_rigid_bodies(screw: BallScrew, nut: Nut) -> Force:
     K = pair_load_deflection(screw)
     axial = xp.sin(screw.contact_angle) * xp.cos(screw.lead_angle)
     return screw.carrying_balls * K * oversize * xp.sqrt(oversize) * axial
+
+
+def preload_growth(screw: BallScrew, preload: Force, bodies: Bodies | None = None) -> float:
+    r"""The share by which the preload of oversize balls grows with their oversize, 1/m, at a preload.
+
+    .. math:: \frac{1}{F_{pr}} \frac{dF_{pr}}{d\delta_w} =
+        \frac{1}{\frac{2}{3} \delta_b + 2 F_{pr} \cos\alpha / (k_r \tan\alpha \cos\varphi)}
+
+    The approach of a ball is :math:`\delta_b`, see :func:`preload_of_rigid_bodies`; the other part of the oversize
+    widens bodies of the radial stiffness :math:`k_r`.
+    """
+    alpha, c_phi = screw.contact_angle, math.cos(screw.lead_angle)
+    of_balls = (preload / (screw.carrying_balls * pair_load_deflection(screw) * math.sin(alpha) * c_phi)) ** (2 / 3)
+    of_bodies = 0.0
+    if bodies is not None and bodies.swelling:
+        k_r = radial_stiffness(screw, bodies.sized(screw))
+        of_bodies = 2 * preload * math.cos(alpha) / (k_r * math.tan(alpha) * c_phi)
+    return float(1 / (2 / 3 * of_balls + of_bodies))
 
 
 def pair_load_deflection(screw: BallScrew) -> LoadDeflection:

@@ -11,6 +11,7 @@ from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.friction.starvation import FULL_BATH
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.check.compute import Checked, Rated
 from ballscrew.questions.run import sheet as run_sheet
@@ -83,26 +84,35 @@ def of_rows(screws: Sequence[Checked]) -> Sheet:
         f"{len(screws)} screws; all checks judged and held: {holding}",
         [
             columns_of("screws", [cells(screw) for screw in screws]),
-            Table("list", "name", headings, [_row(screw) for screw in screws]),
+            Table("list", "name", headings, [row for screw in screws for row in _rows(screw)]),
+            run_sheet.starved_line({screw.name: screw.run for screw in screws}),
         ],
     )
 
 
-def _row(screw: Checked) -> list[Cell]:
+def _rows(screw: Checked) -> list[list[Cell]]:
+    """The row of a screw, and where it is starved another one of what is different in a full bath of oil."""
     result = screw.run.friction
+
+    def numbers(of: FrictionResult) -> list[Cell]:
+        names = ("screw_torque", "efficiency", "back_driving_efficiency")
+        return [Number(float(getattr(of, name)), _RESULT[name]) for name in names]
+
     # at the same speed as all others: the revolutions would say no more
     life = screw.check("running_time")
-    return [
-        screw.name,
-        Number(float(result.axial_load), LISTED["dynamic_load_rating"]),
-        *(
-            Number(float(getattr(result, name)), _RESULT[name])
-            for name in ("screw_torque", "efficiency", "back_driving_efficiency")
-        ),
-        Number(float(screw.nut.loads.rigidity), _LOADS["rigidity"]),
-        None if life.value is None else Number(life.value, quantity_of(life)),
-        screw.verdict,
+    rows: list[list[Cell]] = [
+        [
+            screw.name,
+            Number(float(result.axial_load), LISTED["dynamic_load_rating"]),
+            *numbers(result),
+            Number(float(screw.nut.loads.rigidity), _LOADS["rigidity"]),
+            None if life.value is None else Number(life.value, quantity_of(life)),
+            screw.verdict,
+        ]
     ]
+    if screw.run.is_starved:
+        rows.append([f"  {FULL_BATH}", "", *numbers(result.in_full_bath), "", "", ""])
+    return rows
 
 
 def cells(screw: Checked) -> Cells:

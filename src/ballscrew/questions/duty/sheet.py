@@ -40,6 +40,7 @@ from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.schema.duty_schema import MOTIONS
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
 from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.physics.friction.starvation import FULL_BATH
 from ballscrew.questions.duty.compute import CAUSES, IF_ANY, NUMBERS, DutyReport, PhaseNumbers, cause_of
 from ballscrew.questions.duty.verdicts import verdicts, warnings
 from ballscrew.questions.shared.check_lines import check_table
@@ -335,7 +336,7 @@ def _cloud(report: DutyReport) -> Iterator[Curve]:
     speed = duty.motor_speed[some]
     yield Curve("cycle", speed, duty.torque[some], style="dots")
     if duty.starved:
-        yield Curve("in a full bath of oil", speed, duty.flooded.torque[some], "blue", "circles")
+        yield Curve(FULL_BATH, speed, duty.flooded.torque[some], "blue", "circles")
     if report.motor is not None:
         motor = report.motor.motor
         along = np.linspace(-float(motor.largest_speed), float(motor.largest_speed), _CURVE_POINTS)

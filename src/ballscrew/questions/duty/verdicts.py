@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from ballscrew.axis.duty_cycle.axis import Axis
-from ballscrew.axis.duty_cycle.drive import FULL_BATH, MotorCheck
+from ballscrew.axis.duty_cycle.drive import MotorCheck
 from ballscrew.axis.motion.profiles import Trapezoid
 from ballscrew.axis.motion.trajectory import Trajectory
 from ballscrew.axis.supports.bearing import DIRECTION
@@ -159,7 +159,7 @@ def _motor(report: DutyReport) -> list[Record]:
     message = (
         Message("the motor does not suffice: {names}", {"names": names}) if failed else Message("the motor suffices")
     )
-    if FULL_BATH in report.motor.torques:
+    if starvation.FULL_BATH in report.motor.torques:
         message = Message(
             "{verdict}; judged by the larger torque: {conditions}",
             {"verdict": message, "conditions": _conditions(report.motor)},

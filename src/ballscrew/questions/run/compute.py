@@ -90,6 +90,13 @@ class Run:
         return known if self.nut is None else {n: q for n, q in known.items() if n not in OF_ONE_BALL}
 
     @property
+    def is_starved(self) -> bool:
+        """Its torque, or that of its nut without load, is another one in a full bath of oil."""
+        nut = self.nut
+        is_idle_starved = nut is not None and bool(starvation.differs(nut.preload_drag, nut.flooded_drag))
+        return bool(self.friction.starvation) or is_idle_starved
+
+    @property
     def curvature_alone(self) -> bool:
         """Curvature is the only slip of the model."""
         return traits_of(self.case.model.slip).curvature_alone
@@ -211,6 +218,7 @@ def with_nut(case: Case, nut: Nut) -> Run:
             nut=nut,
             preload=float(preload_of(screw, nut)),
             preload_drag=float(beside.screw_torque[1]),
+            flooded_drag=float((beside.flooded_torque if beside.may_starve else beside.screw_torque)[1]),
             idle_losses={name: float(np.broadcast_to(torque, 2)[1]) for name, torque in beside.losses.items()},
             drag_coefficients={name: float(np.broadcast_to(getattr(beside, name), 2)[1]) for name in OF_IDLE_NUT},
             loads=loads,

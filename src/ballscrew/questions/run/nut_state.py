@@ -36,6 +36,8 @@ class NutState:
     preload: float
     #: Torque of the nut without load: of its balls under the preload, and of seals and other losses.
     preload_drag: float
+    #: The same in a full bath of oil; equal where no oil is late.
+    flooded_drag: float
     #: What of it are losses beside those of the balls, by name, N m.
     idle_losses: Mapping[str, float]
     #: That of the balls as coefficients of catalogues, by the names of the result; NaN without preload.

@@ -29,6 +29,7 @@ from ballscrew.cases.case_files.nut_tables import seal_torque_source
 from ballscrew.cases.screw_tables.nut_kinds import NUT_FIELDS, kind_of
 from ballscrew.physics.components.contact import RaceState
 from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
+from ballscrew.physics.friction.starvation import FULL_BATH
 from ballscrew.physics.sizing.rigidity import RECALLED_ACCURACY_FACTORS, AxialRigidity
 from ballscrew.physics.sizing.rules import RULES
 from ballscrew.physics.solvers.load_distribution import BallLoads
@@ -87,6 +88,8 @@ _SHORT: Mapping[str, str] = {
 _RESULT, _LOADS, _CONTACT = quantities_of(FrictionResult), quantities_of(BallLoads), quantities_of(RaceState)
 _RIGIDITY = quantities_of(AxialRigidity)
 _TORQUE = _RESULT["screw_torque"]
+#: Those that a full bath of oil changes.
+_OF_BATH = ("screw_torque", "nut_torque", "drive_torque", "efficiency", "back_driving_efficiency", "friction_power")
 #: The results of each screw of a table, beside the nut without load.
 _OF_ROW = (
     "axial_load",
@@ -155,30 +158,34 @@ def results_table(run: Run, names: Sequence[str], bands: Mapping[str, OutputBand
         ]
         for name in names
     ]
-    if run.friction.starvation:
+    if run.is_starved:
         flooded = run.friction.in_full_bath
         for name, row in zip(names, rows, strict=True):
             row.append(Number(float(getattr(flooded, name)), run.quantities[name]))
-    for label, torque in unloaded_rows(run):
-        rows.append([label, Number(torque, _TORQUE)])
+    for label, *torques in unloaded_rows(run):
+        rows.append([label, *(Number(torque, _TORQUE) for torque in torques[: 1 + run.is_starved])])
     for name, value in ({} if run.nut is None else run.nut.drag_coefficients).items():
         if math.isfinite(value):
             rows.append([_RESULT[name].info.meaning, Number(value, _RESULT[name])])
-    columns = ("", "value", *(["in a full bath of oil"] if run.friction.starvation else []))
+    columns = ("", "value", *([FULL_BATH] if run.is_starved else []))
     rows = [[*row, *[""] * (len(columns) - len(row))] for row in rows]
     return Table("results", "Torque and efficiency", columns, rows, rules_contradict(run))
 
 
-def unloaded_rows(run: Run) -> list[tuple[str, float]]:
-    """The drag torque of the nut with seals and other losses, these, and without them, as makers' rules have it."""
+def unloaded_rows(run: Run) -> list[tuple[str, *tuple[float, ...]]]:
+    """The drag torque of the nut with seals and other losses, these, and without them, as makers' rules have it.
+
+    Behind those of the nut stand those in a full bath of oil; the rules know no oil.
+    """
     nut = run.nut
     if nut is None:
         return []
     losses = [(_of_loss(name, run.case), torque) for name, torque in nut.idle_losses.items() if torque]
     rules = [(rule.label, float(rule.by_rule.torque)) for rule in beside_rules(run.case, nut)]
     lost = [name for name, torque in nut.idle_losses.items() if torque]
-    whole = [(drag_label(lost, included=True), nut.preload_drag), *losses] if lost else []
-    return [*whole, (drag_label(lost, included=False), nut.drag_of_balls), *rules]
+    whole = [(drag_label(lost, included=True), nut.preload_drag, nut.flooded_drag), *losses] if lost else []
+    more = nut.flooded_drag - nut.preload_drag
+    return [*whole, (drag_label(lost, included=False), nut.drag_of_balls, nut.drag_of_balls + more), *rules]
 
 
 def drag_label(losses: Sequence[str], *, included: bool) -> str:
@@ -305,7 +312,7 @@ def _contacts(run: Run) -> Table:
 def of_rows(runs: Mapping[str, Run]) -> Sheet:
     """All that people see of the screws of a table: a row for each, and the conditions that fail."""
     headings = ("", "nut", "preload", "friction torque", "drag torque", "drive torque", "eff.", "eff. back")
-    rows = [_row(name, run) for name, run in runs.items()]
+    rows = [row for name, run in runs.items() for row in _rows(name, run)]
     failed: dict[str, dict[str, None]] = {}
     for name, run in runs.items():
         for record in run.warnings:
@@ -315,25 +322,42 @@ def of_rows(runs: Mapping[str, Run]) -> Sheet:
         [
             columns_of("screws", [cells(name, run) for name, run in runs.items()]),
             Table("list", "name", headings, rows),
+            starved_line(runs),
             Lines([Line("; ".join(texts), "warning", name) for name, texts in failed.items()]),
         ],
     )
 
 
-def _row(name: str, run: Run) -> list[Cell]:
-    result, nut = run.friction, run.nut
+def starved_line(runs: Mapping[str, Run]) -> Lines:
+    """The screws of a table that are starved of oil, below which their row in a full bath stands."""
+    starved = [name for name, run in runs.items() if run.is_starved]
+    text = (
+        f"{' and '.join(filter(None, (', '.join(starved[:-1]), *starved[-1:])))}: the first row is with oil this thick "
+        f"back in the track too late, as formulas for bearings say, the second {FULL_BATH}; no measurement on a ball "
+        "screw decides between them"
+    )
+    return Lines([Line(text, "warning", "starved")] if starved else [])
 
-    def number(field: str) -> Number:
-        return Number(float(getattr(result, field)), _RESULT[field])
 
-    return [
-        name,
-        "–" if nut is None else kind_of(nut.nut),
-        Number(nut.preload, NUT_FIELDS["preload"]) if nut is not None and nut.preload else None,
-        number("screw_torque"),
-        None if nut is None else Number(nut.preload_drag, _TORQUE),
-        *map(number, ("drive_torque", "efficiency", "back_driving_efficiency")),
-    ]
+def _rows(name: str, run: Run) -> list[list[Cell]]:
+    """The row of a screw, and where it is starved another one of what is different in a full bath of oil."""
+    nut = run.nut
+
+    def numbers(of: FrictionResult, *fields: str) -> list[Cell]:
+        return [Number(float(getattr(of, field)), _RESULT[field]) for field in fields]
+
+    def row(first: Sequence[Cell], of: FrictionResult, drag: Cell) -> list[Cell]:
+        powers = numbers(of, "drive_torque", "efficiency", "back_driving_efficiency")
+        return [*first, *numbers(of, "screw_torque"), drag, *powers]
+
+    preload = Number(nut.preload, NUT_FIELDS["preload"]) if nut is not None and nut.preload else None
+    kind = "–" if nut is None else kind_of(nut.nut)
+    drag = None if nut is None else Number(nut.preload_drag, _TORQUE)
+    rows = [row([name, kind, preload], run.friction, drag)]
+    if run.is_starved:
+        flooded = None if nut is None else Number(nut.flooded_drag, _TORQUE)
+        rows.append(row([f"  {FULL_BATH}", "", ""], run.friction.in_full_bath, flooded))
+    return rows
 
 
 def cells(name: str, run: Run) -> Cells:
@@ -348,6 +372,10 @@ def cells(name: str, run: Run) -> Cells:
         torque = None if found.rules is None else getattr(found.rules, name_of_rule)
         values[f"torque without load by {RULES[name_of_rule].label}"] = (torque, quantity)
     values["rigidity"] = (None if nut is None else nut.loads.rigidity, _LOADS["rigidity"])
+    if run.is_starved:
+        flooded = run.friction.in_full_bath
+        values[f"torque without load {FULL_BATH}"] = (None if nut is None else nut.flooded_drag, _TORQUE)
+        values |= {f"{_RESULT[f].name} {FULL_BATH}": (getattr(flooded, f), _RESULT[f]) for f in _OF_BATH}
     values["valid"] = (int(run.friction.valid), None)
     values["warnings"] = ("; ".join(record.text for record in run.warnings), None)
     return values

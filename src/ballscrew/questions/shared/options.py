@@ -139,11 +139,6 @@ def _without_none(annotation: Any) -> Any:
     return several[0] if type(None) in get_args(annotation) and len(several) == 1 else annotation
 
 
-def is_any_given(cls: type, written: Mapping[str, Any]) -> bool:
-    """Test whether any option of a dataclass is given, by what was written."""
-    return any(one.is_given(written) for one in options_of(cls).values())
-
-
 def body_fields(cls: type) -> dict[str, Any]:
     """The fields of a body of the API, as ``pydantic.create_model`` takes them."""
     from pydantic import Field  # the command line does not need it

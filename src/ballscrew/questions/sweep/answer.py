@@ -83,11 +83,11 @@ def results(plan: Plan, dataset: xr.Dataset) -> SweepResults:
         return plan.quantities[name].unit, plan.quantities[name].info.meaning
 
     def output(name: str) -> Swept:
-        ends = (dataset[f"{name}_{end}"].to_numpy().tolist() for end in ENDS) if plan.banded else ()
+        ends = (dataset[end].to_numpy().tolist() for end in plan.ends_of(name))
         inner = [
             InnerInterval(level, *(dataset[inner_end(name, end, level)].to_numpy().tolist() for end in ENDS))
             for level in inner_levels(dataset)
-            if name in plan.outputs
+            if name in plan.outputs and plan.ends_of(name)
         ]
         return Swept(dataset[name].to_numpy().tolist(), *said(name), *ends, inner=inner or None)
 

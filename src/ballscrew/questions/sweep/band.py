@@ -64,21 +64,22 @@ def with_band(
     ``recorded``: no bit depends on the kernels that are kept. Raises
     :class:`~ballscrew.basis.errors.InputError` that names options of the command line.
     """
+    outputs = tuple(name for name in plan.outputs if name != sweeps.FLOODED)
     count = options.samples
     if count is None:
         count = NUT_SAMPLES if case.screw.nut.one_by_one else SAMPLES
     level = LEVEL if options.level is None else options.level
     with bands.options_named():
-        raise_if_any(faults_of_options(plan.outputs, count, _SEED, level, None))
+        raise_if_any(faults_of_options(outputs, count, _SEED, level, None))
     dims = tuple(plan.axes)
     shape = tuple(len(values) for values in plan.axes.values())
     points = _points(case, plan)
     possible = np.ravel(dataset["validity_inputs"].transpose(*dims).to_numpy())
     varied = {name.removeprefix("nut.") for name in plan.axes}
     groups = _groups(case, points, varied, np.flatnonzero(possible), only_given=options.only_given)
-    ends = {name: (np.full(possible.size, np.nan), np.full(possible.size, np.nan)) for name in plan.outputs}
+    ends = {name: (np.full(possible.size, np.nan), np.full(possible.size, np.nan)) for name in outputs}
     levels = [one for one in inner if one < level]
-    within = {(name, one): np.full((len(ENDS), possible.size), np.nan) for name in plan.outputs for one in levels}
+    within = {(name, one): np.full((len(ENDS), possible.size), np.nan) for name in outputs for one in levels}
     outside = np.ones(possible.size)
     before, total = 0, int(possible.sum()) * count
     for places, group in groups:
@@ -89,7 +90,7 @@ def with_band(
 
         found = bands_of(
             group,
-            plan.outputs,
+            outputs,
             count=count,
             seed=_SEED,
             level=level,
@@ -101,7 +102,7 @@ def with_band(
         for name, both in ends.items():
             for end, values in zip(both, found.both[name], strict=True):
                 end[places] = values
-        for name in plan.outputs:
+        for name in outputs:
             for one, pair in zip(levels, found.inner[name], strict=True):
                 within[name, one][:, places] = pair
         outside[places] = found.invalid_share

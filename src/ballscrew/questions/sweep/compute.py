@@ -49,6 +49,7 @@ _FROM_TO = re.compile(
     r"(?P<start>[-+]?\d+(?:\.\d+)?)\s*(?:-|–|—|…|\.{2,3}|to|bis)\s*(?P<stop>\d+(?:\.\d+)?)\s*(?P<unit>1\s*/.*|[^\d\s.].*)?"
 )
 _RANGE = re.compile(r"(?P<start>[^:]+):(?P<stop>[^:]+):\s*(?P<count>\d{1,18})\s*(?P<unit>1\s*/.*|[^\d\s.].*)?")
+_TORQUE = "screw_torque"
 _SECTIONS = ("operation", "screw", "lubricant", "model", "nut")
 #: A folder that is filled block by block, so that a sweep need not fit into memory.
 STORE = ".zarr"
@@ -60,6 +61,8 @@ _XLSX_COLUMNS = 16_384
 _LONGEST_AXIS = 10_000_000
 #: What of an oil of a grade depends on its temperature.
 OF_TEMPERATURE = ("viscosity", "pressure_viscosity_coefficient", "temperature_coefficient")
+#: The torque in a full bath of oil, which stands beside that of the screw, with its value alone where there are bands.
+FLOODED = "flooded_torque"
 #: Above this, a sweep in memory is refused.
 MOST_VALUES = 200_000_000
 
@@ -91,7 +94,7 @@ class Plan:
 
     def ends_of(self, name: str) -> tuple[str, ...]:
         """The names of the ends of the band of an output; none without a band."""
-        return tuple(f"{name}_{end}" for end in ENDS) if self.banded else ()
+        return tuple(f"{name}_{end}" for end in ENDS) if self.banded and name != FLOODED else ()
 
 
 def plan(
@@ -375,21 +378,28 @@ def _blank_unit(quantity: Quantity) -> str:
     return "" if quantity.unit == "1" else f" {quantity.shown_in}"
 
 
-def with_flooded_torque(case: Case, plan: Plan, to: Path | None = None) -> Plan:
+def with_flooded_torque(case: Case, plan: Plan, *, as_table: bool = False) -> Plan:
     """The plan with the torque in a full bath of oil beside that of the screw, where some of its points are starved.
 
-    A single output over two axes stays a table, and where the replenishment is varied the full bath is a point of its
-    own. Bands, self-heating and stores have no such column.
+    What is written ``as_table``, a single output over two axes, stays one table, and where the replenishment is varied
+    the full bath is a point of its own. Where points heat themselves, each would end in another state in a full bath.
     """
-    torque, flooded = "screw_torque", "flooded_torque"
-    has_own = plan.heats or plan.banded or is_store(to) or "inlet.replenishment_constant" in plan.axes
-    if has_own or plan.is_table or torque not in plan.outputs or flooded in plan.outputs:
+    stays = plan.heats or (as_table and plan.is_table) or "inlet.replenishment_constant" in plan.axes
+    if stays or _TORQUE not in plan.outputs or FLOODED in plan.outputs or not starves(case, plan):
         return plan
-    if _swept(case, plan, plan.outputs).starved_torques is None:
-        return plan
-    outputs = tuple(column for name in plan.outputs for column in ((name, flooded) if name == torque else (name,)))
-    quantity = known_outputs(case.screw.nut)[flooded].quantity
-    return dataclasses.replace(plan, outputs=outputs, quantities={**plan.quantities, flooded: quantity})
+    return with_column_of_bath(case, plan)
+
+
+def starves(case: Case, plan: Plan) -> bool:
+    """Test whether some points of a plan are starved of oil."""
+    return _swept(case, plan, plan.outputs).starved_torques is not None
+
+
+def with_column_of_bath(case: Case, plan: Plan) -> Plan:
+    """The plan with the torque in a full bath of oil right behind that of the screw."""
+    outputs = tuple(column for name in plan.outputs for column in ((name, FLOODED) if name == _TORQUE else (name,)))
+    quantity = known_outputs(case.screw.nut)[FLOODED].quantity
+    return dataclasses.replace(plan, outputs=outputs, quantities={**plan.quantities, FLOODED: quantity})
 
 
 def _swept(case: Case, plan: Plan, names: Sequence[str], *, later: bool = False) -> Swept:

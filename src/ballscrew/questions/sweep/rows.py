@@ -40,6 +40,15 @@ def plans(
         lambda row: (row, compute.plan(row.case, vary, wanted, to)),
         keep_going=keep_going,
     )
+    # outputs are those of all, so the full bath stands beside every torque where it counts for one of them
+    if any(
+        compute.FLOODED in compute.with_flooded_torque(row.case, plan).outputs for row, plan in found.found.values()
+    ):
+        both = {
+            place: (row, plan if compute.FLOODED in plan.outputs else compute.with_column_of_bath(row.case, plan))
+            for place, (row, plan) in found.found.items()
+        }
+        found = dataclasses.replace(found, found=both)
     size = sum(_size(plan) * len(plan.outputs) for _, plan in found.found.values())
     if size > compute.MOST_VALUES:
         remedy = "take fewer values an axis, or fewer outputs, or one screw: --row NAME"

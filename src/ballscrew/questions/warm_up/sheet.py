@@ -30,6 +30,7 @@ from ballscrew.basis.output.sheet import (
 )
 from ballscrew.basis.quantities import Array, Info, Quantity
 from ballscrew.cases.case_files import descriptions
+from ballscrew.physics.friction.starvation import FULL_BATH
 from ballscrew.questions.duty.compute import NUMBERS
 from ballscrew.questions.warm_up.compute import EQUILIBRIUM, PLACE, SERIES, WarmUpReport
 from ballscrew.questions.warm_up.verdicts import band_records, verdicts, warnings
@@ -52,7 +53,6 @@ _SHOWN = {
 }
 #: Instants of the table, besides the first and the last of work and of rest.
 _INSTANTS = 6
-_BATH = "in a full bath of oil"
 _TEMPERATURES: Mapping[str, Colour] = {
     "nut_temperature": "red",
     "oil_temperature": "orange",
@@ -73,7 +73,7 @@ def sheet(report: WarmUpReport, bands: WarmUpBandReport | None = None) -> Sheet:
             verdict_lines(verdicts(report)),
             warning_lines(records),
             _instants(report, "instants", "Over time"),
-            *(() if bath is None else [_instants(bath, "instants in a full bath", f"Over time, {_BATH}")]),
+            *(() if bath is None else [_instants(bath, "instants in a full bath", f"Over time, {FULL_BATH}")]),
             *_end_of_work(bands),
             _steady(report, bands),
             _drift(report),
@@ -152,7 +152,7 @@ def _steady(report: WarmUpReport, bands: WarmUpBandReport | None) -> Table:
     end = report.warm_up.equilibrium
     reports = [report] if report.full_bath is None else [report, report.full_bath]
     margins = [Number(each.warm_up.equilibrium.margin, _MARGIN, 3) for each in reports]
-    columns = ("", "value", _BATH)[: 1 + len(reports)]
+    columns = ("", "value", FULL_BATH)[: 1 + len(reports)]
     if not end.exists:
         row = [f"{_MARGIN.info.meaning}; below 0 there is none", *margins]
         return Table("steady state", "Steady state: none", columns, [row])
@@ -238,7 +238,7 @@ def _over_time(report: WarmUpReport, bands: WarmUpBandReport | None, name: str, 
         marks.append(Curve(words, time[resting], values[resting], colour, "dotted"))
     bath = report.full_bath
     if bath is not None:
-        marks.append(Curve(_BATH, bath.warm_up.time, bath.series[name], "blue"))
+        marks.append(Curve(FULL_BATH, bath.warm_up.time, bath.series[name], "blue"))
     if np.isfinite(end):
         marks.append(Level("steady state", end))
     words = name.replace("_", " ").replace("screw ", "")
@@ -261,7 +261,7 @@ def _files(report: WarmUpReport, bands: WarmUpBandReport | None) -> Iterator[Col
     if report.full_bath is not None:
         bath = report.full_bath.warm_up
         torque = np.interp(result.time, bath.time, bath.screw_torque, right=np.nan)
-        columns.append(Column(f"{_TORQUE.info.meaning}, {_BATH}", torque, _TORQUE))
+        columns.append(Column(f"{_TORQUE.info.meaning}, {FULL_BATH}", torque, _TORQUE))
     places, growth = report.drift
     columns += _at_places("growth at", places, growth, _GROWTH)
     yield Columns("over time", [*columns, Column("works", [int(works) for works in result.works])])

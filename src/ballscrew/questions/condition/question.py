@@ -1,0 +1,60 @@
+"""The question of the state of a nut over time."""
+
+from __future__ import annotations
+
+from ballscrew.questions.condition.options import ConditionOptions
+from ballscrew.questions.shared.options import Option
+from ballscrew.questions.shared.question import CASE_OF_LOGS, Answer, Done, File, Question, Request, Work
+
+
+def _prepare(request: Request) -> Work:
+    from ballscrew.questions.condition import compute
+    from ballscrew.questions.condition.answer import document
+    from ballscrew.questions.condition.sheet import sheet
+
+    tests = request.files["tests"]
+    _check_files(request)
+    compute.check_kind(len(tests), request.written)
+    options, case = request.options(ConditionOptions), request.load()
+
+    def answer(done: Done) -> Answer:
+        condition = compute.of_files(case, tests, options, done)
+        return Answer(sheet(case, condition), lambda: document(case, condition), f"{len(condition.states)} tests")
+
+    return Work(answer, "condition")
+
+
+def _check_files(request: Request) -> None:
+    """Raise :class:`~ballscrew.basis.errors.InputError` for a question without case or tests."""
+    from ballscrew.basis.errors import Fault, raise_if_any
+
+    faults: list[Fault] = []
+    if not request.files["case"]:
+        faults.append(Fault("--case", "missing", "", "give the case file of the screw: --case FILE"))
+    if not request.files["tests"]:
+        faults.append(Fault("TABLE", "missing", "", "give a table with a row for each test, or the logs of the tests"))
+    raise_if_any(faults)
+
+
+QUESTION = Question(
+    name="condition",
+    help="""Preload of a nut over time, with trend and alarm. From torques that were logged test by test.
+
+    All torques are reduced to one temperature by the model; without logged temperatures the intervals are wide, and the
+    output says so first.
+    """,
+    reads=(
+        File(
+            "tests",
+            "A table with a row for each test (date, torque, temperature), or the logs of the tests in order.",
+            metavar="TABLE | LOG1 LOG2 …",
+            is_optional=True,
+            is_repeated=True,
+        ),
+        CASE_OF_LOGS,
+    ),
+    options=(ConditionOptions,),
+    case_texts={"settings": 'Change a value: --set nut.preload="4 kN ± 10 %".'},
+    files=Option("Also write tables (.xlsx, .csv) or a picture (.pdf, .png, .svg).", metavar="FILE"),
+    prepare=_prepare,
+)

@@ -1,0 +1,156 @@
+"""A question as a record: its name, what it reads, its options, and the function that answers it.
+
+Faces list these records and make what they need of them: the command line a command. The records load nothing that is
+slow: the function of a question imports its computation when it is called.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, TypeVar
+
+from ballscrew.questions.shared.options import Option
+
+if TYPE_CHECKING:
+    from ballscrew.basis.output.sheet import Sheet
+    from ballscrew.cases.case_files.case import Case
+
+T = TypeVar("T")
+#: Gets how many steps of how many are done.
+Done = Callable[[int, int], None]
+#: Stand for the names of the models and of the calibrations in help texts; replaced when the help is shown.
+MODEL_NAMES, CALIBRATION_NAMES = "{models}", "{calibrations}"
+SELF_HEATING = Option("Take the oil as warm as friction makes it in the [surroundings] of the case.")
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class CaseOptions:
+    """How a case is read: its model and calibration, values in place of those of the file, code of its own."""
+
+    model: Annotated[str | None, Option(f"Model, in place of that of the file: {MODEL_NAMES}.", metavar="NAME")] = None
+    calibration: Annotated[
+        str | None,
+        Option(
+            f"Calibration, in place of that of the file: {CALIBRATION_NAMES}, by-make or none.",
+            metavar="NAME",
+        ),
+    ] = None
+    settings: Annotated[
+        Sequence[str],
+        Option(
+            'Change a value: --set operation.axial_load="4 kN".',
+            flag="set",
+            metavar="SECTION.FIELD=VALUE",
+            is_table=True,
+        ),
+    ] = ()
+    allow_code: Annotated[bool, Option('Let the case name laws of your own, "module:name", and run their code.')] = (
+        False
+    )
+
+    def load(self, path: Path) -> Case:
+        """The case of a file."""
+        return self.build(self.tables(path), path.parent)
+
+    def tables(self, path: Path) -> dict[str, Any]:
+        """The tables of a case file, with the settings."""
+        from ballscrew.cases.case_files import case_file
+
+        return case_file.override(case_file.read(path), self.settings)
+
+    def build(self, tables: Mapping[str, Any], folder: Path, *, moves: bool = False) -> Case:
+        """The case of tables, whose motion counts where it ``moves``; files that they name are in ``folder``."""
+        from ballscrew.cases.case_files import case_file
+
+        return case_file.build(
+            tables, self.model, folder, calibration=self.calibration, allow_code=self.allow_code, moves=moves
+        )
+
+
+@dataclasses.dataclass(frozen=True)
+class File:
+    """A file that a question reads: an argument of its command, or a flag."""
+
+    name: str
+    meaning: str
+    _: dataclasses.KW_ONLY
+    metavar: str = ""
+    is_flag: bool = False
+    is_optional: bool = False
+    is_repeated: bool = False
+
+
+CASE = File("case", "Case file (TOML); ballscrew catalogue show NAME --case makes one.")
+#: The case beside logs, which are the arguments.
+CASE_OF_LOGS = File(
+    "case", "Case file (TOML) of screw, nut, oil and model.", metavar="FILE", is_flag=True, is_optional=True
+)
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Request:
+    """A question with the files and options of one call."""
+
+    #: The files to read, by the names of the question.
+    files: Mapping[str, Sequence[Path]]
+    case_options: CaseOptions
+    written: Mapping[str, Any]
+    #: Files to write.
+    to: Sequence[Path] = ()
+
+    @property
+    def case_file(self) -> Path:
+        """The file of the case."""
+        return self.files["case"][0]
+
+    def load(self) -> Case:
+        """The case, with the case_options."""
+        return self.case_options.load(self.case_file)
+
+    def options(self, cls: type[T]) -> T:
+        """The options of a class as values. Raises :class:`~ballscrew.basis.errors.InputError` for faults in them."""
+        from ballscrew.questions.shared.option_values import read
+
+        return read(cls, self.written)
+
+
+class Answer(NamedTuple):
+    """An answer as people see it, and as a document, which is made only where it is needed."""
+
+    sheet: Sheet
+    document: Callable[[], Any]
+    #: Words for its size, such as "361 angles", for the line on a file that is written.
+    size: str = ""
+
+
+class Work(NamedTuple):
+    """The work for an answer, once all that it needs is read and checked."""
+
+    answer: Callable[[Done], Answer]
+    #: Its name beside a progress bar; without one it has no bar.
+    name: str = ""
+    #: Files to write in place of those of the request, each with the name of the table that a .csv has.
+    files: Mapping[Path, str] | None = None
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Question:
+    """A question of a user, as faces list it."""
+
+    name: str
+    #: The help: its first paragraph stands in lists.
+    help: str
+    reads: Sequence[File] = (CASE,)
+    #: Classes of options; of an option that several have, the first says what the help says.
+    options: Sequence[type]
+    #: Texts in place of those of :class:`CaseOptions`, by the name of the option; None leaves the option out.
+    case_texts: Mapping[str, str | None] = dataclasses.field(default_factory=dict)
+    #: The option that names files to write of the sheet, and whether it may be repeated.
+    files: Option
+    has_several_files: bool = False
+    #: True where the help has the options behind all others.
+    has_options_last: bool = False
+    #: Reads and checks all of a request. Raises :class:`~ballscrew.basis.errors.InputError` for faults in it.
+    prepare: Callable[[Request], Work]
