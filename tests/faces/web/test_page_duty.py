@@ -121,7 +121,7 @@ def test_a_duty_from_an_example_to_a_fault_and_back(visit, server):
     assert "motor" not in case
     assert violations(here) == []
     # the link has all of it, with the card open
-    page.wait_for_function("location.hash.includes('view=duty.axis')")
+    page.wait_for_function("() => location.hash.includes('view=duty')")
     here.open(page.url.partition("/")[2].partition("#")[2].join(["#", ""]))
     answered(here, "duty")
     assert page.input_value("#f-axis-mass") == "200"
@@ -146,7 +146,7 @@ def test_warming_up_with_a_band_that_is_cancelled(visit, server):
     page.locator("#undo").click()
     answered(here.settle(), "warm-up")
     edited(here, "warm-up", lambda: page.locator("#warm-hours").fill("0,75"))
-    page.wait_for_function("new URLSearchParams(location.hash.slice(1)).get('hours') === '0,75'")
+    page.wait_for_function("() => new URLSearchParams(location.hash.slice(1)).get('hours') === '0,75'")
     # what takes long says so, and is cancelled
     held = []
     page.route("**/api/v1/jobs/warm-up", lambda route: held.append(route))

@@ -172,9 +172,8 @@ def test_a_new_tab_restores_the_latest_edit(browser, server):
     edit(second, "2222")
     first.reload()
     first.wait_for_selector("html[data-ready]")
-    for view in ("hand-over", "hand-over.files"):
-        first.locator(f'[data-to="{view}"]').first.click()
-    first.wait_for_function("() => Object.values(localStorage).some((one) => one.includes('view=handover.files'))")
+    first.locator("[data-view=handover]").click()
+    first.wait_for_function("() => Object.values(localStorage).some((one) => one.includes('view=handover'))")
     third = opened(server.address)
     assert third.locator("#f-operation-axial_load").input_value() == "2222"
     context.close()

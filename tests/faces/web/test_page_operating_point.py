@@ -83,7 +83,8 @@ def test_designs_over_any_input(visit, server):
     here.page.locator("#add").click()
     for _ in range(4):
         here.settle().page.locator("#add").click()
-    here.settle().page.wait_for_selector("#over-input-chart ul.legend li:nth-child(8)")
+    here.settle().see("#over-input-chart")  # it follows where it is seen
+    here.page.wait_for_selector("#over-input-chart ul.legend li:nth-child(8)")
     looks = here.page.evaluate(
         "[...document.querySelectorAll('#over-input-chart ul.legend li .key')].slice(0, 7)"
         ".map((key) => `${key.className} ${getComputedStyle(key).color}`)"

@@ -19,7 +19,9 @@ def test_one_verdict_where_a_cycle_is_given(visit):
     assert here.text("#checks .verdict") == "Over the cycle: All 11 checks hold."
     assert here.page.locator("#checks [data-check=motor_speed]").count() == 1
     here.go("duty").page.locator("#f-motor-rated_torque").fill("2")
-    here.page.wait_for_selector("#summary:has-text('Over the cycle: Fails: RMS torque of the motor.')", state="attached")
+    here.page.wait_for_selector(
+        "#summary:has-text('Over the cycle: Fails: RMS torque of the motor.')", state="attached"
+    )
     assert here.text("#checks .verdict") == "Over the cycle: Fails: RMS torque of the motor."
 
 

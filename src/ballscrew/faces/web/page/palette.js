@@ -26,13 +26,13 @@ export const PAPER = {
   careful: "#8f2d00",
 };
 
-/** @type {Palette | undefined} */
-let screen;
+/** The colours of the screen, once they were read. @type {{ palette?: Palette }} */
+const screen = {};
 
 /** The colours of the screen, which are read once for each set of them. @returns {Palette} */
 export function ofScreen() {
-  screen ??= readScreen();
-  return screen;
+  screen.palette ??= readScreen();
+  return screen.palette;
 }
 
 /** @returns {Palette} */
@@ -44,7 +44,7 @@ function readScreen() {
 
 /** Read the colours of the screen again. */
 export function forget() {
-  screen = undefined;
+  screen.palette = undefined;
 }
 
 /** The colour of a name of the palette, or itself. @param {string} colour @param {Palette} palette */

@@ -20,9 +20,6 @@ const VIEWS = /** @type {const} */ ([
 /** What addresses named once. @type {Record<string, string>} */
 const FORMERLY = { "start.own": "choose.own", start: "torque", "hand-over": "handover" };
 
-/** The address that was shown last. @type {string | undefined} */
-let shown;
-
 /** An address as it is named now. @param {string} address */
 function nowOf(address) {
   const [first, ...part] = (FORMERLY[address] ?? address).split(".");
@@ -79,16 +76,16 @@ function scrollTo(address) {
 /** Show the view of the state, and hide the others; the tab that has the focus keeps it. */
 export function show() {
   const { view: address } = store.state;
-  if (address === shown) return; // every key comes here
-  const isFirst = shown === undefined;
-  shown = address;
+  const { seenAddress: before } = document.body.dataset;
+  if (address === before) return; // every key comes here
+  document.body.dataset.seenAddress = address;
   const view = current();
   keepFocus(() => byId("views").replaceChildren(...VIEWS.map((name) => tab(name, name === view))));
   for (const holder of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-in]"))) {
     holder.classList.toggle("elsewhere", !isIn(holder, view));
   }
   document.body.dataset.seenView = view;
-  if (!isFirst || address.includes(".")) scrollTo(address);
+  if (before !== undefined || address.includes(".")) scrollTo(address);
 }
 
 /** @param {typeof VIEWS[number]} name @param {boolean} isCurrent */
