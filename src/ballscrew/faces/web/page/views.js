@@ -17,6 +17,8 @@ const VIEWS = /** @type {const} */ ([
   "measure",
   "handover",
 ]);
+/** Milliseconds for which a part stays where it was scrolled to. */
+const KEPT = 4000;
 /** What addresses named once. @type {Record<string, string>} */
 const FORMERLY = { "start.own": "choose.own", start: "torque", "hand-over": "handover" };
 
@@ -66,11 +68,24 @@ export async function go(address) {
   );
 }
 
-/** Scroll to the part of a view that an address names, or to its top. @param {string} address */
+/**
+ * Scroll to the part of a view that an address names, or to its top. What is above it may still grow while it loads: it stays in
+ * sight until somebody moves, or for some seconds.
+ *
+ * @param {string} address
+ */
 function scrollTo(address) {
   const part = document.querySelector(`[data-anchor="${CSS.escape(nowOf(address))}"]`);
-  if (part) part.scrollIntoView({ block: "start" });
-  else window.scrollTo(0, 0);
+  if (!part) {
+    window.scrollTo(0, 0);
+    return;
+  }
+  const kept = new ResizeObserver(() => part.scrollIntoView({ block: "start" }));
+  kept.observe(byId("results"));
+  for (const moved of ["wheel", "pointerdown", "keydown", "touchmove"]) {
+    addEventListener(moved, () => kept.disconnect(), { once: true, passive: true });
+  }
+  setTimeout(() => kept.disconnect(), KEPT);
 }
 
 /** Show the view of the state, and hide the others; the tab that has the focus keeps it. */
