@@ -39,6 +39,7 @@ HOLDERS = {
     "server.js awaited": "requests under way, by what was asked: the same is asked once",
     "server.js connection": "whether the server answers",
     "server.js kept": "answers by what was asked",
+    "views.js kept": "keeps the part that is seen where it is, until somebody moves",
     "vocabulary.js vocabulary": "the words of the server, filled once before anything is shown",
 }
 #: What ``new`` makes that does not change.

@@ -40,11 +40,5 @@ declare global {
   type SelectPlan = Schemas["Plan"];
   type CaseModule = Schemas["CaseModule"];
 
-  var Plotly: {
-    react(place: Element, traces: object[], layout: object, config: object): Promise<void>;
-    purge(place: Element): void;
-    restyle(place: Element, changes: object, traces: number[]): Promise<void>;
-    toImage(figure: object, options: object): Promise<string>;
-  };
   var SwaggerUIBundle: (options: object) => void;
 }

@@ -148,6 +148,55 @@ def test_a_chart_is_read_enlarged_and_shown_whole_again(visit):
     assert not here.page.locator("#pressure-chart button.whole").is_visible()
 
 
+#: A figure: two curves, one of a single point, a band of fewer points, dots, and a range that is not valid.
+FIGURE = """
+  const curve = (name, x, y, style = "line") => ({ kind: "curve", name, x, y, colour: "ink", style });
+  const figure = { x: { title: "x (s)" }, y: { title: "y (N)" }, marks: [
+    curve("one", [0, 1, 2, 3, 4], [0, 10, 20, 30, 40]), curve("alone", [4], [7]), curve("tests", [3], [5], "dots"),
+    { kind: "band", name: "band", x: [0, 4], low: [0, 8], high: [4, 12], colour: "ink", solid: false },
+    { kind: "outside", name: "outside", x: [0, 1, 2, 3, 4], valid: [true, false, false, false, true] },
+  ] };
+"""
+READ = f"""async (places) => {{
+  const {{ readingAt }} = await import("/page/figure_words.js");
+  const {{ Scale }} = await import("/page/scale.js");
+  {FIGURE}
+  const box = {{ left: 0, top: 0, right: 400, bottom: 100 }};
+  const frame = {{ box, x: new Scale(0, 4, 0, 400), y: new Scale(0, 40, 100, 0) }};
+  return places.map((place) => {{
+    const {{ title, lines }} = readingAt(figure, frame, ...place);
+    return [title, ...lines.map(({{ words }}) => words)];
+  }});
+}}"""
+#: The length of the picture of a small part of it.
+PART = f"""async (range) => {{
+  const {{ drawFigure }} = await import("/page/figure.js");
+  const {{ PAPER }} = await import("/page/palette.js");
+  const {{ SvgPen }} = await import("/page/pen.js");
+  {FIGURE}
+  const pen = new SvgPen(400, 200);
+  drawFigure(pen, figure, {{ width: 400, height: 200 }}, PAPER, {{ x: range }});
+  return pen.document("", "").length;
+}}"""
+
+
+def test_all_marks_are_read_at_one_place(visit):
+    """A band between its points, a curve only where it is, dots only near them."""
+    found = visit().open("#A=paper&band=0").page.evaluate(READ, [[110, 10], [398, 10], [301, 88]])
+    assert found == [
+        ["x (s): 1", "one (N): 10", "band (N): 2 to 6"],
+        ["x (s): 4", "one (N): 40", "alone (N): 7", "band (N): 8 to 12"],
+        ["x (s): 3", "tests (N): 5"],
+    ]
+
+
+def test_a_small_part_of_a_chart_is_drawn_as_fast_as_the_whole(visit):
+    """The stripes over what is not valid were drawn far beyond the chart: 10 million of them after three drags."""
+    page = visit().open("#A=paper&band=0").page
+    whole, part = (page.evaluate(PART, ends) for ends in ([0, 4], [2, 2.000001]))
+    assert part < 2 * whole
+
+
 def test_a_chart_is_saved_as_it_is_seen(visit):
     """Its curves, its words and its legend as SVG, on white whatever the screen is."""
     here = visit(scheme="dark").open("#A=paper&band=0")

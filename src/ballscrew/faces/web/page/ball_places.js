@@ -50,23 +50,6 @@ const WIDTH = 1.5;
 export const COLOURS = ["#7FB8DA", "#3C8DBC", "#8A6FB0", "#B0457B", "#5B1A3A"];
 
 /**
- * The colour at a share of the scale, 0 to 1.
- *
- * @param {number} share
- */
-export function colourAt(share) {
-  const at = Math.min(1, Math.max(0, share)) * (COLOURS.length - 1);
-  const place = Math.min(COLOURS.length - 2, Math.floor(at));
-  const channels = [1, 3, 5].map((start) => {
-    const [from, to] = [COLOURS[place], COLOURS[place + 1]].map((one) =>
-      Number.parseInt(one.slice(start, start + 2), 16),
-    );
-    return Math.round(from + (at - place) * (to - from));
-  });
-  return `rgb(${channels.join(", ")})`;
-}
-
-/**
  * The nut of an answer; nothing where it has too many balls to be drawn, or no number of them.
  *
  * @param {Run} answer

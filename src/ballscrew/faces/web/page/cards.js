@@ -137,6 +137,7 @@ export async function jump(path) {
   /** @type {NodeListOf<HTMLElement>} */
   const fields = holder.querySelectorAll("[data-path]");
   const field = [...fields].find((one) => one.dataset.path === path);
+  views.release(); // the field is where one goes, not its section
   (field ?? holder).scrollIntoView({ block: "center" });
   /** @type {HTMLElement | null | undefined} */ (field?.querySelector("input, select"))?.focus();
 }

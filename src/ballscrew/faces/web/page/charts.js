@@ -4,6 +4,7 @@ import * as parts from "./chart_parts.js";
 import { element } from "./dom.js";
 import { draw, hide } from "./plot.js";
 import { data, greatestPressure, leastFilm } from "./results.js";
+import { extent } from "./scale.js";
 import { text } from "./texts.js";
 import * as units from "./units.js";
 
@@ -185,7 +186,7 @@ export function map(swept, answer) {
   // where load and speed have not the same sign, the load drives the screw
   const isDriven = loads.some((load) => speeds.some((speed) => load * speed < 0));
   const values = driving.map((row, i) => row.map((value, j) => (loads[i] * speeds[j] < 0 ? driven[i][j] : value)));
-  const known = values.flat().filter((value) => value !== null);
+  const [from, to] = extent(values.flat()) ?? [0, 1];
   const operation = parts.operationOf(answer);
   const efficiency = units.digits(answer.results.efficiency ?? answer.results.back_driving_efficiency);
   const words = text("chart.efficiency");
@@ -211,7 +212,7 @@ export function map(swept, answer) {
           values,
           valid,
           colour: "",
-          shades: { from: Math.min(...known), to: Math.max(...known), title: words, colours: SHADES },
+          shades: { from, to, title: words, colours: SHADES },
         },
         ...(isDriven ? [/** @type {Mark} */ ({ kind: "level", name: text("map.driven"), colour: "soft" })] : []),
         { kind: "outside", name: parts.OUTSIDE, x: [], valid: valid.flat() },
@@ -384,7 +385,7 @@ export function stribeck(swept, answer) {
       colour,
     }),
   );
-  const now_ = answer.results.screw_torque;
+  const torqueNow = answer.results.screw_torque;
   const title = parts.titled("screw_torque", text("chart.torque"));
   const regime = (now && REGIMES.find(([, , to]) => now < to)?.[0]) || "";
   const lines = parts.linesByValidity(
@@ -400,13 +401,13 @@ export function stribeck(swept, answer) {
     caption: text("stribeck.caption", { load: units.formatted("axial_load", load) }),
     description: text("stribeck.description", {
       film: units.digits(now),
-      torque: units.formatted("screw_torque", now_),
+      torque: units.formatted("screw_torque", torqueNow),
       regime,
     }),
     figure: {
       x: { title: x, log: true, from: low, to: high },
       y: { title, zero: true },
-      marks: [...zones, ...lines, parts.pointAt(now, units.inDisplayUnit("screw_torque", now_))],
+      marks: [...zones, ...lines, parts.pointAt(now, units.inDisplayUnit("screw_torque", torqueNow))],
     },
     numbers: () => [
       [x, title, parts.titled("screw_speed", text("chart.speed")), text("chart.valid")],

@@ -78,11 +78,10 @@ export function drawFigure(pen, figure, size, palette, ranges = {}) {
 /** @param {Figure} figure @param {{ width: number, height: number }} size @param {Ranges} ranges @returns {Frame} */
 function frameOf(figure, { width, height }, ranges) {
   const { x, y, second, marks } = figure;
-  const [across, up, other] = [
-    ranges.x ?? rangeOf(x, valuesAlong(marks, "x"), marks, false),
-    ranges.y ?? rangeOf(y, valuesAlong(marks, "y"), marks, true),
-    second && rangeOf(second, valuesAlong(marks, "second"), marks, true),
-  ];
+  const across = ranges.x ?? rangeOf(x, valuesAlong(marks, "x"), marks, false);
+  const whole = rangeOf(y, valuesAlong(marks, "y"), marks, true);
+  const up = ranges.y ?? whole;
+  const other = second && partOf(rangeOf(second, valuesAlong(marks, "second"), marks, true), whole, up);
   const names = y.names?.flatMap(({ words }) => linesOf(words)) ?? [];
   const ticks = new Scale(up[0], up[1], 1, 0, y.log).ticks(height / TICK_Y).map(tickWords);
   const widest = (/** @type {string[]} */ words) => Math.max(0, ...words.map((one) => widthOf(one)));
@@ -99,6 +98,12 @@ function frameOf(figure, { width, height }, ranges) {
     y: new Scale(up[0], up[1], box.bottom, box.top, y.log),
     second: other && second && new Scale(other[0], other[1], box.bottom, box.top, second.log),
   };
+}
+
+/** The same part of the second axis as is shown of the first. @param {[number, number]} range @param {[number, number]} whole @param {[number, number]} part @returns {[number, number]} */
+function partOf([from, to], [low, high], part) {
+  const [start, end] = part.map((value) => from + ((value - low) / (high - low)) * (to - from));
+  return [start, end];
 }
 
 /** All values of marks along an axis. @param {Mark[]} marks @param {"x" | "y" | "second"} along @returns {Values} */
@@ -146,6 +151,7 @@ function rangeOf({ log = false, from, to, zero = false, names }, values, marks, 
     [low, high] = log
       ? [low / 2, high * 2]
       : [low - AROUND * (Math.abs(low) || 10), high + AROUND * (Math.abs(high) || 10)];
+  if (from === to) [from, to] = [undefined, undefined]; // of one value there is no range
   const hasDots = marks.some((mark) => mark.kind === "bar" || (mark.kind === "curve" && DOTS.includes(mark.style)));
   if (log) {
     const beyond = isUp || hasDots ? (high / low) ** BEYOND : 1;
@@ -198,7 +204,7 @@ function drawAxes(pen, { x, y, second }, frame, palette, hasLines) {
 
 /** @param {Axis} axis @param {Scale} scale @param {number} most */
 function ticksOf({ step }, scale, most) {
-  if (!step) return scale.ticks(most);
+  if (!step || Math.abs(scale.to - scale.from) < 2 * step) return scale.ticks(most);
   const first = Math.ceil(Math.min(scale.from, scale.to) / step);
   const count = Math.floor(Math.max(scale.from, scale.to) / step) - first + 1;
   return Array.from({ length: count }, (_, place) => (first + place) * step);

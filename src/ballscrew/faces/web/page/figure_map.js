@@ -31,6 +31,7 @@ export function drawGrid(pen, grid, { x, y }, palette) {
   const stepAt = (/** @type {number} */ value) =>
     Number.isFinite(value) ? Math.min(STEPS - 1, Math.max(0, Math.floor((STEPS * (value - shades.from)) / span))) : -1;
   const [columns, rows] = [grid.x, grid.y].map((places) => fineOf(places));
+  if (!columns.length) return; // one value of an axis has no area
   for (const row of rows) {
     const [top, bottom] = [y.pixel(row.to), y.pixel(row.from)].sort((one, other) => one - other);
     let start = columns[0].from;

@@ -130,14 +130,10 @@ function pieces(path) {
 
 /** @param {Pen} pen @param {Band} band @param {Frame} frame @param {Palette} palette */
 function drawBand(pen, { x: at, low, high, colour: name, solid }, { x, y }, palette) {
-  const isKnown = low.map((value, place) => value !== null && high[place] !== null);
-  const [lows, highs] = [low, high].map((values) =>
-    pathOf(
-      at,
-      values.map((value, place) => (isKnown[place] ? value : null)),
-      x,
-      y,
-    ),
+  const ends = [low, high].map((values) => pathOf(at, values, x, y));
+  // where one of both is not known there is no area
+  const [lows, highs] = ends.map((path) =>
+    path.map((point, place) => (ends[0][place] && ends[1][place] ? point : null)),
   );
   const colour = shade(name, palette);
   const uppers = pieces(highs);
@@ -149,8 +145,9 @@ function drawBand(pen, { x: at, low, high, colour: name, solid }, { x, y }, pale
 
 /** @param {Pen} pen @param {Level} level @param {Frame} frame @param {Palette} palette */
 function drawLevel(pen, level, { x, y, box }, palette) {
-  const path =
-    level.y === undefined ? vertical(crisp(x.pixel(level.x)), box) : horizontal(crisp(y.pixel(level.y)), box);
+  const at = level.y === undefined ? x.pixel(level.x) : y.pixel(level.y);
+  if (!Number.isFinite(at)) return; // a note of the legend alone
+  const path = level.y === undefined ? vertical(crisp(at), box) : horizontal(crisp(at), box);
   pen.path(path, { stroke: shade(level.colour, palette), width: 1.3, dash: DASHES.dotted });
 }
 
@@ -177,8 +174,9 @@ function drawOutside(pen, { x: at, valid }, { x, box }, palette) {
     if (valid[first]) continue;
     let end = first;
     while (end < at.length && !valid[end]) end += 1;
-    const [left, right] = [edge(first), edge(end)].sort((one, other) => one - other);
-    hatch(pen, { ...box, left, right }, palette.careful, 0.5);
+    const [from, to] = [edge(first), edge(end)].sort((one, other) => one - other);
+    const [left, right] = [Math.max(box.left, from), Math.min(box.right, to)];
+    if (right > left) hatch(pen, { ...box, left, right }, palette.careful, 0.5);
     first = end;
   }
 }

@@ -75,14 +75,18 @@ export function nameCurves(pen, { marks }, frame, palette) {
 
 /** The height of a curve at a pixel of the horizontal axis, along which it goes one way. @param {Curve} curve @param {Frame} frame @returns {(at: number) => number} */
 function heightOf(curve, { x, y, second }) {
-  const path = pathOf(curve.x, curve.y, x, (curve.second && second) || y);
-  const across = path.map((point) => point?.[0] ?? Number.NaN).filter(Number.isFinite);
-  const goesOneWay = across.every((value, place) => !place || value >= across[place - 1]);
+  const points = pathOf(curve.x, curve.y, x, (curve.second && second) || y).filter((point) => point !== null);
+  if (points.length > 1 && points[0][0] > points[points.length - 1][0]) points.reverse();
+  const goesOneWay = points.every(([at], place) => !place || at >= points[place - 1][0]);
   return (at) => {
-    if (!goesOneWay) return Number.NaN;
-    const next = path.findIndex((point) => point && point[0] >= at);
-    const [one, other] = [path[next - 1], path[next]];
-    if (!one || !other) return Number.NaN;
+    if (!goesOneWay || !points.length || at < points[0][0] || at > points[points.length - 1][0]) return Number.NaN;
+    let [low, high] = [0, points.length - 1];
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (points[middle][0] < at) low = middle;
+      else high = middle;
+    }
+    const [one, other] = [points[low], points[high]];
     return one[1] + ((at - one[0]) / (other[0] - one[0] || 1)) * (other[1] - one[1]);
   };
 }

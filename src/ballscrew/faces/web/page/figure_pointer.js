@@ -49,9 +49,13 @@ export function follow({ plot, drawn, read, select, enlarge, drag, drop }) {
 
   plot.addEventListener("pointerdown", (event) => {
     const place = placeOf(event);
+    const there = drawn();
+    if (event.button !== 0 || !there) return;
     if (isNear(place)) from = "point";
-    else if (event.pointerType !== "touch" && event.button === 0 && isInside(place) && !drawn()?.figure.y.names)
-      from = place;
+    else if (event.pointerType === "touch") {
+      read(readingAt(there.figure, there.frame, ...place), ...place);
+      return;
+    } else if (isInside(place) && !there.figure.y.names) from = place;
     else return;
     read(undefined, 0, 0);
     plot.setPointerCapture(event.pointerId);

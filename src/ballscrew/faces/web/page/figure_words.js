@@ -1,6 +1,7 @@
 // What is read of a figure: its legend, its numbers as a table, and what stands below a pointer.
 
 import { element } from "./dom.js";
+import { DOTS } from "./figure_marks.js";
 import { text } from "./texts.js";
 import { digits } from "./units.js";
 
@@ -170,7 +171,7 @@ function readDots({ x: axis, y: up, second: other, marks }, { x, y, second }, ac
   /** @type {{ far: number, curve: Curve, place: number } | undefined} */
   let best;
   for (const curve of marks) {
-    if (curve.kind !== "curve" || curve.isQuiet || !["dots", "circles", "crosses"].includes(curve.style)) continue;
+    if (curve.kind !== "curve" || curve.isQuiet || !DOTS.includes(curve.style)) continue;
     const scale = (curve.second && second) || y;
     for (const [place, at] of curve.x.entries()) {
       const far = Math.hypot(x.pixel(at) - across, scale.pixel(curve.y[place]) - down);
@@ -217,50 +218,55 @@ function readBars({ y: { names }, marks }, { x, y }, across, down) {
 
 /** @param {Figure} figure @param {Frame} frame @param {number} across @returns {Reading | undefined} */
 function readCurves({ x: axis, y, second, marks }, { x }, across) {
-  const at = x.value(across);
-  /** @param {Values} places */
-  const nearest = (places) =>
-    places.reduce((/** @type {number} */ best, place, index) => {
-      const far = Math.abs(Number(place ?? Number.POSITIVE_INFINITY) - at);
-      return far < Math.abs(Number(places[best] ?? Number.POSITIVE_INFINITY) - at) ? index : best;
-    }, 0);
-  /** @type {{ at: number | null, words: string, colour: string, order: number }[]} */
-  const lines = [];
-  const hasNames = marks.some((mark) => mark.kind === "curve" && mark.name);
-  for (const mark of marks) {
-    if (mark.kind === "curve" && (mark.name || !hasNames) && !mark.isQuiet) {
-      const place = nearest(mark.x);
-      const title = mark.second && second ? second.title : y.title;
-      if (Number.isFinite(mark.y[place] ?? Number.NaN)) {
-        const words = `${(mark.words?.[place] ?? mark.name) ? inUnitOf(mark.name, title) : title}: ${digits(mark.y[place])}`;
-        lines.push({ at: mark.x[place], words, colour: mark.colour, order: 0 });
-      }
-    } else if (mark.kind === "band" && mark.name) {
-      const place = nearest(mark.x);
-      const words = mark.solid
-        ? digits(partOf(mark)[place])
-        : text("sheet.band", { low: digits(mark.low[place]), high: digits(mark.high[place]) });
-      lines.push({
-        at: mark.x[place],
-        words: `${inUnitOf(mark.name, y.title)}: ${words}`,
-        colour: mark.colour,
-        order: mark.solid ? 1 : 2,
-      });
-    }
+  const curves = /** @type {Curve[]} */ (
+    marks.filter((mark) => mark.kind === "curve" && !mark.isQuiet && !DOTS.includes(mark.style))
+  );
+  const bands = /** @type {Band[]} */ (marks.filter((mark) => mark.kind === "band" && mark.name));
+  const named = curves.some(({ name }) => name) ? curves.filter(({ name }) => name) : curves;
+  const longest = [...named, ...bands].reduce(
+    (/** @type {Values} */ most, { x: own }) => (own.length > most.length ? own : most),
+    [],
+  );
+  const at = nearest(longest, x.value(across));
+  if (at === null) return undefined;
+  /** @param {string} name @param {string} title @param {string} value @param {string} colour */
+  const line = (name, title, value, colour) => ({ words: `${name ? inUnitOf(name, title) : title}: ${value}`, colour });
+  const lines = named.flatMap((mark) => {
+    const value = valueAt(mark.x, mark.y, at);
+    const title = mark.second && second ? second.title : y.title;
+    return value === null ? [] : [line(mark.name, title, digits(value), mark.colour)];
+  });
+  const areas = [...bands.filter(({ solid }) => solid).toReversed(), ...bands.filter(({ solid }) => !solid)];
+  for (const mark of areas) {
+    const [low, high] = [mark.low, mark.high].map((values) => valueAt(mark.x, values, at));
+    if (low === null || high === null) continue;
+    const ends = text("sheet.band", { low: digits(low), high: digits(high) });
+    lines.push(line(mark.name, y.title, mark.solid ? digits(high - low) : ends, mark.colour));
   }
-  if (!lines.length) return undefined;
-  const stacked = lines.filter(({ order }) => order === 1).toReversed();
-  const ordered = [
-    ...lines.filter(({ order }) => order === 0),
-    ...stacked,
-    ...lines.filter(({ order }) => order === 2),
-  ];
-  const place = ordered[0].at;
-  return {
-    across: place === null ? undefined : x.pixel(place),
-    title: `${axis.title}: ${digits(place)}`,
-    lines: ordered,
-  };
+  return lines.length ? { across: x.pixel(at), title: `${axis.title}: ${digits(at)}`, lines } : undefined;
+}
+
+/** The nearest of some values; nothing where there is none. @param {Values} values @param {number} at @returns {number | null} */
+function nearest(values, at) {
+  /** @type {number | null} */
+  let best = null;
+  for (const value of values) {
+    if (value !== null && (best === null || Math.abs(value - at) < Math.abs(best - at))) best = value;
+  }
+  return best;
+}
+
+/** The value of a curve at a place, between two of its points; nothing beyond its ends. @param {Values} xs @param {Values} ys @param {number} at @returns {number | null} */
+function valueAt(xs, ys, at) {
+  for (const [place, value] of ys.entries()) {
+    const x = xs[place];
+    if (x === null || value === null) continue;
+    if (x === at) return value;
+    const [nextX, next] = [xs[place + 1] ?? null, ys[place + 1] ?? null];
+    if (nextX === null || next === null || (x - at) * (nextX - at) > 0) continue;
+    return value + ((at - x) / (nextX - x)) * (next - value);
+  }
+  return null;
 }
 
 /** A reading as what is shown beside the pointer. @param {Reading} reading @param {(colour: string) => string} shade */

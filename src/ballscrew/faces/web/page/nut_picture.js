@@ -1,8 +1,9 @@
 // The side view of a screw and its nut, to scale, with the load of each ball in front as its colour.
 
-import { colourAt, nutOf, rangeOf } from "./ball_places.js";
+import { COLOURS, nutOf, rangeOf } from "./ball_places.js";
 import { byId, element, update } from "./dom.js";
 import { NARROW } from "./drawing.js";
+import { colourAt } from "./palette.js";
 import { arrow, line, polygon, shape } from "./shapes.js";
 import { text } from "./texts.js";
 import * as units from "./units.js";
@@ -133,7 +134,7 @@ function drawnBall(one, nut, range, at, factor) {
     return shape("circle", { cx, cy, r, class: "spacer-ball", "data-place": place }, words);
   }
   const words = shape("title", {}, text("nut_picture.ball", { place, load: loadText(one.load) }));
-  const marks = { class: "ball", fill: colourAt(share(one.load, range)), "data-place": place };
+  const marks = { class: "ball", fill: colourAt(share(one.load, range), COLOURS), "data-place": place };
   const found = shape("circle", { cx, cy, r, ...marks }, words);
   found.dataset.load = String(one.load);
   return found;
@@ -257,7 +258,7 @@ function scale([least, greatest], width) {
       y: top,
       width: long / steps + 0.5,
       height: 12,
-      fill: colourAt(isOne ? 0 : place / (steps - 1)),
+      fill: colourAt(isOne ? 0 : place / (steps - 1), COLOURS),
     }),
   );
   const marks = values.map((value, place) => {

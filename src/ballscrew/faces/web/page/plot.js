@@ -2,6 +2,7 @@
 
 import { byId, csv, element, table, update, within } from "./dom.js";
 import { drawFigure } from "./figure.js";
+import { vertical } from "./figure_marks.js";
 import { follow } from "./figure_pointer.js";
 import { legendOf, numbersOf, readingElement } from "./figure_words.js";
 import * as point from "./operating_point.js";
@@ -93,8 +94,7 @@ class Place {
     this.holder.hidden = false;
     this.holder.classList.remove("behind");
     if (!this.holder.querySelector(".plot")) this.#build(chart);
-    if (before && (before.x.title !== chart.figure.x.title || before.y.title !== chart.figure.y.title))
-      this.#enlarge({});
+    if (before && isAnother(before, chart.figure)) this.#enlarge({});
     within(this.holder, ".plot").setAttribute("aria-label", chart.description);
     this.#showLegend(ofScreen());
     this.#showNumbers();
@@ -105,6 +105,7 @@ class Place {
   /** There is nothing to show any more. */
   clear() {
     this.#chart = this.#frame = undefined;
+    this.#ranges = {};
     this.#isPending = false;
   }
 
@@ -112,8 +113,8 @@ class Place {
   paint(palette = ofScreen(), size) {
     this.#isPending = false;
     const plot = this.holder.querySelector(".plot");
-    const canvas = plot?.querySelector("canvas");
-    if (!this.#chart || !plot || !canvas) return;
+    const [canvas, above] = plot?.querySelectorAll("canvas") ?? [];
+    if (!this.#chart || !plot || !canvas || !above) return;
     this.#size ??= { width: plot.clientWidth, height: plot.clientHeight };
     const { width, height } = size ?? this.#size;
     if (!width || !height) {
@@ -125,7 +126,8 @@ class Place {
     const figure = this.#figure(this.#chart);
     const held = this.#frame && moving.isHeld ? rangesOf(this.#frame) : this.#ranges;
     this.#frame = drawFigure(pen, figure, { width, height }, palette, held);
-    this.#drawPointer(pen, palette, this.#frame);
+    if (!size) this.#paintPointer();
+    else above.width = 0; // nothing is pointed at on paper
     // as it is drawn, for those who look from outside
     Object.assign(plot, { drawn: { figure, frame: this.#frame } });
     /** @type {HTMLElement} */ (plot).dataset.drawn = "";
@@ -141,21 +143,20 @@ class Place {
     };
   }
 
-  /** @param {CanvasPen} pen @param {Palette} palette @param {Frame} frame */
-  #drawPointer(pen, { soft, accent }, { box }) {
+  /** Draw what the pointer does over the chart: where it reads, and the part that it draws out. */
+  #paintPointer() {
+    const above = this.holder.querySelectorAll("canvas")[1];
+    if (!above || !this.#size || !this.#frame) return;
+    const { box } = this.#frame;
+    const { soft, accent } = ofScreen();
+    const pen = new CanvasPen(above, this.#size.width, this.#size.height, globalThis.devicePixelRatio || 1);
     if (this.#selected) {
       const [left, top, right, bottom] = this.#selected;
       pen.inside(box, () => {
         pen.path(corners({ left, top, right, bottom }), { fill: accent, stroke: accent, opacity: 0.25 }, true);
       });
     } else if (this.#read !== undefined) {
-      pen.path(
-        [
-          [this.#read, box.top],
-          [this.#read, box.bottom],
-        ],
-        { stroke: soft, dash: [3, 3] },
-      );
+      pen.path(vertical(this.#read, box), { stroke: soft, dash: [3, 3] });
     }
   }
 
@@ -239,8 +240,12 @@ class Place {
         label,
       );
     const saveCsv = () => save(`-${this.#chart?.name}.csv`, new Blob([csv(...this.#numbers())], { type: "text/csv" }));
+    const showWhole = () => {
+      this.#enlarge({});
+      summary.focus(); // the button is gone
+    };
     const reading = element("div", { class: "reading", hidden: true });
-    const plot = element("div", { class: "plot", role: "img" }, element("canvas"), reading);
+    const plot = element("div", { class: "plot", role: "img" }, element("canvas"), element("canvas"), reading);
     this.holder.replaceChildren(
       plot,
       element("ul", { class: "legend" }),
@@ -248,7 +253,7 @@ class Place {
         "div",
         { class: "beside" },
         details,
-        button(text("chart.whole"), () => this.#enlarge({}), true),
+        button(text("chart.whole"), showWhole, true),
         button("CSV", saveCsv),
         button("SVG", () => this.#saveSvg()),
       ),
@@ -280,11 +285,11 @@ class Place {
           reading.style.setProperty("left", `${Math.max(0, left)}px`);
           reading.style.setProperty("top", `${Math.max(0, Math.min(y, height - reading.offsetHeight))}px`);
         }
-        this.paint();
+        this.#paintPointer();
       },
       select: (ends) => {
         this.#selected = ends;
-        this.paint();
+        this.#paintPointer();
       },
       enlarge: (ranges) => this.#enlarge(ranges),
       drag: (at) => {
@@ -297,10 +302,22 @@ class Place {
         const [handle, at] = [this.#chart?.drag, this.#dragged];
         this.#dragged = undefined;
         if (isDropped && handle && at) point.take(handle, at);
-        else point.letGo();
+        else {
+          point.letGo();
+          this.paint();
+        }
       },
     });
   }
+}
+
+/** Test whether a figure is of something else than the one before: other axes, or from elsewhere on. @param {Figure} before @param {Figure} figure */
+function isAnother(before, figure) {
+  const key = (/** @type {Figure} */ { x, y, marks }) => {
+    const along = marks.flatMap((mark) => ("x" in mark && Array.isArray(mark.x) ? [[mark.x[0], mark.x.at(-1)]] : []));
+    return JSON.stringify([x.title, y.title, along[0]]);
+  };
+  return key(before) !== key(figure);
 }
 
 /** The ends of the axes of what is drawn. @param {Frame} frame @returns {import("./figure.js").Ranges} */

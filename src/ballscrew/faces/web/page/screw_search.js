@@ -42,6 +42,7 @@ export function setUp() {
     designs.startFrom(name);
     input.value = "";
     show();
+    input.focus(); // the button is gone
   }
 
   /** @param {string} name */

@@ -1,6 +1,7 @@
 // The charts of sheets: curves with bands and lines, bars of parts, and maps, as figures in the units of the page.
 
 import * as plot from "./plot.js";
+import { extent } from "./scale.js";
 import { text } from "./texts.js";
 import { converted, digits, symbolOf, titled } from "./units.js";
 
@@ -63,14 +64,14 @@ function chartOf(block) {
   return { description: text("sheet.chart", { title, x: figure.x.title, y: figure.y.title }), figure };
 }
 
-/** A mark in the units of the page; none where its place is not known. @param {any} mark @param {Axis} x @param {Axis} y @param {any[]} all_ @returns {Drawn[]} */
-function markOf(mark, x, y, all_) {
+/** A mark in the units of the page; none where its place is not known. @param {any} mark @param {Axis} x @param {Axis} y @param {any[]} marks @returns {Drawn[]} */
+function markOf(mark, x, y, marks) {
   if ("style" in mark) return [curveOf(mark, x, y)];
   if ("low" in mark) {
     const { name, colour, solid, low, high } = /** @type {Band} */ (mark);
     return [{ kind: "band", name, x: all(mark.x, x), low: all(low, y), high: all(high, y), colour, solid }];
   }
-  return levelOf(mark, x, y, all_);
+  return levelOf(mark, x, y, marks);
 }
 
 /** @param {Curve} curve @param {Axis} x @param {Axis} y @returns {Drawn} */
@@ -202,10 +203,10 @@ function mapOf(block) {
   /** @type {{ title: string, x: Axis, y: Axis, value: Axis, places: [Values, Values], values: Values[], marks: any[] }} */
   const { title, x, y, value, places, values, marks } = /** @type {any} */ (block);
   const grid = values.map((row) => all(row, value));
-  const known = grid.flat().filter((one) => one !== null);
+  const [from, to] = extent(grid.flat()) ?? [0, 1];
   const shades = {
-    from: Math.min(...known),
-    to: Math.max(...known),
+    from,
+    to,
     title: titled(value.name, value.quantity),
     colours: SHADES,
   };

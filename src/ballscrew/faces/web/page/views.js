@@ -22,6 +22,9 @@ const KEPT = 4000;
 /** What addresses named once. @type {Record<string, string>} */
 const FORMERLY = { "start.own": "choose.own", start: "torque", "hand-over": "handover" };
 
+/** Keeps the part that is seen where it is. */
+const kept = new ResizeObserver(() => partAt(store.state.view)?.scrollIntoView({ block: "start" }));
+
 /** An address as it is named now. @param {string} address */
 function nowOf(address) {
   const [first, ...part] = (FORMERLY[address] ?? address).split(".");
@@ -75,17 +78,26 @@ export async function go(address) {
  * @param {string} address
  */
 function scrollTo(address) {
-  const part = document.querySelector(`[data-anchor="${CSS.escape(nowOf(address))}"]`);
-  if (!part) {
+  release();
+  if (!partAt(address)) {
     window.scrollTo(0, 0);
     return;
   }
-  const kept = new ResizeObserver(() => part.scrollIntoView({ block: "start" }));
   kept.observe(byId("results"));
   for (const moved of ["wheel", "pointerdown", "keydown", "touchmove"]) {
-    addEventListener(moved, () => kept.disconnect(), { once: true, passive: true });
+    addEventListener(moved, release, { once: true, passive: true });
   }
-  setTimeout(() => kept.disconnect(), KEPT);
+  setTimeout(release, KEPT);
+}
+
+/** The part of a view that an address names. @param {string} address */
+function partAt(address) {
+  return document.querySelector(`[data-anchor="${CSS.escape(nowOf(address))}"]`);
+}
+
+/** Keep no part in sight any more. */
+export function release() {
+  kept.disconnect();
 }
 
 /** Show the view of the state, and hide the others; the tab that has the focus keeps it. */
