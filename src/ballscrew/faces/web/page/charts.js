@@ -2,6 +2,7 @@
 
 import * as parts from "./chart_parts.js";
 import { element } from "./dom.js";
+import { yesOrNo } from "./figure_words.js";
 import { draw, hide } from "./plot.js";
 import { data, greatestPressure, leastFilm } from "./results.js";
 import { extent } from "./scale.js";
@@ -411,7 +412,7 @@ export function stribeck(swept, answer) {
     },
     numbers: () => [
       [x, title, parts.titled("screw_speed", text("chart.speed")), text("chart.valid")],
-      points.map((one) => [one.film, one.torque, one.speed, text(one.valid ? "chart.yes" : "chart.no")]),
+      points.map((one) => [one.film, one.torque, one.speed, yesOrNo(one.valid)]),
     ],
   });
 }

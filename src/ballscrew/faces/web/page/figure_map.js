@@ -1,7 +1,7 @@
 // Maps: values over both axes in colours, with lines at round ones, and the colours of values beside a figure.
 
 import { colourAt } from "./palette.js";
-import { corners } from "./pen.js";
+import { corners, SMALL } from "./pen.js";
 import { Scale, tickWords } from "./scale.js";
 
 /** @typedef {import("./pen.js").Pen} Pen */
@@ -12,8 +12,8 @@ import { Scale, tickWords } from "./scale.js";
 /** @typedef {import("./figure.js").Grid} Grid */
 /** @typedef {import("./figure.js").Shades} Shades */
 
-/** Steps of colour, pieces between two values of an axis, lines at most, pixels between numbers, size of small letters. */
-const [STEPS, FINE, LINES, TICK, SMALL] = [48, 6, 11, 42, 11];
+/** Steps of colour, pieces between two values of an axis, lines at most, pixels between numbers. */
+const [STEPS, FINE, LINES, TICK] = [48, 6, 11, 42];
 /** Opacity over where the model does not hold. */
 const VEIL = 0.35;
 

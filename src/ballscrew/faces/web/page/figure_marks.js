@@ -2,7 +2,7 @@
 
 import { drawGrid } from "./figure_map.js";
 import { colourAt, shade } from "./palette.js";
-import { corners, widthOf } from "./pen.js";
+import { corners, ROOM, SMALL, widthOf } from "./pen.js";
 
 /** @typedef {import("./pen.js").Pen} Pen */
 /** @typedef {import("./pen.js").Path} Path */
@@ -25,8 +25,8 @@ import { corners, widthOf } from "./pen.js";
 const DASHES = { dashed: [7, 4], dotted: [2, 3], dashdot: [8, 3, 2, 3] };
 /** Styles of curves whose points are not joined. */
 export const DOTS = ["dots", "circles", "crosses"];
-/** Opacity of a band, and of a zone; height of an area that has room for a name; size of small letters. */
-const [LIGHT, ZONE, ROOM, SMALL] = [0.2, 0.13, 17, 11];
+/** Opacity of a band, and of a zone. */
+const [LIGHT, ZONE] = [0.2, 0.13];
 
 // -- marks ------------------------------------------------------------------------------------------
 

@@ -2,7 +2,7 @@
 
 import { DOTS, pathOf } from "./figure_marks.js";
 import { isDark, shade } from "./palette.js";
-import { widthOf } from "./pen.js";
+import { ROOM, SMALL, widthOf } from "./pen.js";
 
 /** @typedef {import("./pen.js").Pen} Pen */
 /** @typedef {import("./pen.js").Box} Box */
@@ -14,8 +14,8 @@ import { widthOf } from "./pen.js";
 /** @typedef {import("./figure.js").Band} Band */
 /** @typedef {import("./figure.js").Point} Point */
 
-/** Pixels of an area in which its name has room, size of small letters, and names at curves at most. */
-const [ROOM, SMALL, FEW] = [17, 11, 7];
+/** Names at curves at most. */
+const FEW = 7;
 /** Places along a curve where its name may stand. */
 const PLACES = [0.94, 0.82, 0.68, 0.54, 0.4, 0.26];
 

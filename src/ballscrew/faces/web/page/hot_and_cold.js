@@ -2,6 +2,7 @@
 
 import * as parts from "./chart_parts.js";
 import { byId } from "./dom.js";
+import { yesOrNo } from "./figure_words.js";
 import { localEngine, pointsOf } from "./local_engine.js";
 import { draw, hide, showFailure } from "./plot.js";
 import { Latest, linesOf, sendJson } from "./server.js";
@@ -18,6 +19,7 @@ import * as units from "./units.js";
  * @property {Run} answer
  * @property {number[]} temperatures
  * @property {number[]} speeds
+ * @property {boolean} [isAsked]
  * @property {Curve[]} [curves]
  */
 
@@ -106,7 +108,8 @@ class HotAndCold {
 
   async #compute() {
     const wanted = this.#wanted;
-    if (!wanted || wanted.curves) return;
+    if (!wanted || wanted.isAsked) return; // also where it comes into view again meanwhile
+    wanted.isAsked = true;
     const signal = this.#requests.begin();
     try {
       wanted.curves = computedHere(wanted) ?? (await computedThere(wanted, signal));
@@ -161,7 +164,7 @@ function drawCurves({ answer, temperatures, speeds }, curves) {
       shown.map((at, i) => [
         at,
         ...torques.map((values) => values[i]),
-        ...curves.map(({ valid }) => text(valid[i] ? "chart.yes" : "chart.no")),
+        ...curves.map(({ valid }) => yesOrNo(valid[i])),
       ]),
     ],
   });

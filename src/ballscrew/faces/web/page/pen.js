@@ -16,6 +16,8 @@
 
 const FAMILY = 'system-ui, "Segoe UI", "DejaVu Sans", sans-serif';
 const SIZE = 12;
+/** Size of small letters, and the height of an area that has room for them. */
+export const [SMALL, ROOM] = [11, 17];
 /** Width of the light edge around a text. */
 const EDGE = 3;
 /** Width of a letter by its height, where nothing can measure it. */

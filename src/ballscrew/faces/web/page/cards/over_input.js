@@ -4,6 +4,7 @@ import * as parts from "../chart_parts.js";
 import * as designs from "../designs.js";
 import { menu, textField } from "../controls.js";
 import { element } from "../dom.js";
+import { yesOrNo } from "../figure_words.js";
 import { inWords } from "../messages.js";
 import { labelIn } from "../fields.js";
 import { draw, showFailure } from "../plot.js";
@@ -379,10 +380,7 @@ function chart(all, { path, output }) {
     },
     numbers: () => [
       [x, ...curves.flatMap(({ name }) => [`${y}, ${name}`, `${text("chart.valid")}, ${name}`])],
-      curves[0].x.map((at, place) => [
-        at,
-        ...curves.flatMap((one) => [one.y[place], text(one.valid[place] ? "chart.yes" : "chart.no")]),
-      ]),
+      curves[0].x.map((at, place) => [at, ...curves.flatMap((one) => [one.y[place], yesOrNo(one.valid[place])])]),
     ],
   });
 }
