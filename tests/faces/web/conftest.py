@@ -159,6 +159,7 @@ class Visit:
     def leave(self) -> None:
         """The page is for somebody else: with what it asks for, as without this visitor."""
         self.page.unroute_all()
+        self.page.evaluate("() => { try { sessionStorage.clear() } catch {} }")  # its jobs end by themselves
         self.page.goto("about:blank")
         for event, listener in self._listeners.items():
             self.page.remove_listener(event, listener)
@@ -168,7 +169,7 @@ class Visit:
 
     def _heard(self, message: ConsoleMessage) -> None:
         if message.type in ("error", "warning"):
-            self.complaints.append(f"{message.type}: {message.text}")
+            self.complaints.append(f"{message.type}: {message.text} ({message.location['url']})")
 
     def _failed(self, error: Error) -> None:
         self.complaints.append(str(error))

@@ -47,7 +47,7 @@ def test_a_fault_opens_its_section(visit):
     assert fault.inner_text()
 
 
-def test_the_server_stops_and_comes_back(visit, start):
+def test_the_server_stops_and_comes_back(start, visit):
     own = start()
     here = visit(own.address)
     # 404: a job of a band that ended with the server, which the next one does not know

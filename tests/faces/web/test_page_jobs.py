@@ -64,7 +64,7 @@ def test_cancelling_on_the_page_kills_the_work(visit, server):
     assert jobs_of(server) == []
 
 
-def test_a_limit_that_was_reached_is_said_as_it_is(visit, start):
+def test_a_limit_that_was_reached_is_said_as_it_is(start, visit):
     """Once, in true words: no field is marked, and no browser sends it again."""
     server = start("--time-limit", "0.1")
     here = visit(server.address)

@@ -108,11 +108,8 @@ export function answerOfKept(options) {
   return job && answerOf(job, options);
 }
 
-/** Cancel and forget the job of a place. @param {string} place */
-export function drop(place) {
-  const job = keptJob(place);
-  if (!job) return;
-  cancel(job);
+/** Forget the job of a place, whose answer somebody else may still read. @param {string} place */
+export function forget(place) {
   keep(place, undefined);
 }
 

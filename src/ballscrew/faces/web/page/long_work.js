@@ -2,7 +2,7 @@
 // foot of the page that says how far each is, and cancels it.
 
 import { element } from "./dom.js";
-import { digest, drop, keptJob, runJob } from "./jobs.js";
+import { digest, forget, keptJob, runJob } from "./jobs.js";
 import { ask, Problem, sendJson } from "./server.js";
 import { text, textOr } from "./texts.js";
 
@@ -84,7 +84,7 @@ async function asJob(address, body, place, signal) {
   const patience = setTimeout(() => show(line), PATIENCE);
   try {
     const found = await (await runJob(address, body, { place, signal: own.signal, told })).json();
-    drop(place); // its answer is here
+    forget(place); // its answer is here
     if (performance.now() - start < SOON) slow.delete(address); // the next one may be waited for again
     return found;
   } catch (error) {
