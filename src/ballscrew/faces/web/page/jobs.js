@@ -108,6 +108,14 @@ export function answerOfKept(options) {
   return job && answerOf(job, options);
 }
 
+/** Cancel and forget the job of a place. @param {string} place */
+export function drop(place) {
+  const job = keptJob(place);
+  if (!job) return;
+  cancel(job);
+  forget(place);
+}
+
 /** Forget the job of a place, whose answer somebody else may still read. @param {string} place */
 export function forget(place) {
   keep(place, undefined);
