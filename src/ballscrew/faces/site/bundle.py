@@ -1,8 +1,8 @@
 """The files of the page as one script and one document, so that they run from a folder of files, too.
 
 A browser loads no module of JavaScript from ``file://``. The modules of the page are therefore written one after the
-other into one function, in the order in which they import each other. They may import by name, from each other, and
-nothing else; names at the top are unique.
+other, each as a function that returns its exports, in the order in which they import each other. They may import from
+each other, and from those of the page of the server, by name and nothing else.
 """
 
 from __future__ import annotations
@@ -14,22 +14,26 @@ import re
 from collections.abc import Sequence
 from importlib import resources
 
-_ENTRY = "main.js"
-#: Modules that the page of the server has too, and that stand there.
-_SHARED = ("engine.js", "part_search.js")
+_ENTRY = "site/main.js"
 #: The script that computes bands beside the page.
-_WORKER = "band_worker.js"
-_IMPORT = re.compile(r'^import \{[^}]*\} from "(?:\./|\.\./\.\./web/page/)([\w.]+)";\n', re.MULTILINE)
-_EXPORT = re.compile(r"^export (?=const |let |function\*? |async function |class )", re.MULTILINE)
+_WORKER = "site/band_worker.js"
+_IMPORT = re.compile(r'^import \{([^}]*)\} from "(\./|\.\./\.\./web/page/)([\w.]+)";\n', re.MULTILINE)
+_EXPORT = re.compile(r"^export (?=(?:const|function\*?|async function|class) (\[[^\]]*\]|\w+))", re.MULTILINE)
 #: What no file of the page may have at its top, as the files become one.
-_ELSEWISE = re.compile(r"^(?:import|export)\b", re.MULTILINE)
+_OTHER = re.compile(r"^(?:import|export)\b", re.MULTILINE)
 
 
 @functools.cache
 def text_of(name: str) -> str:
-    """A file of the page."""
-    room = "web" if name in _SHARED else "site"
-    return resources.files(f"ballscrew.faces.{room}").joinpath("page", name).read_text(encoding="utf-8")
+    """A file of the page, by its room and name; one without a room is of this page alone."""
+    room, _, file = name.rpartition("/")
+    return resources.files(f"ballscrew.faces.{room or 'site'}").joinpath("page", file).read_text(encoding="utf-8")
+
+
+@functools.cache
+def style() -> str:
+    """The style of the page: that of charts, which both pages have, and its own."""
+    return text_of("web/charts.css") + text_of("style.css")
 
 
 @functools.cache
@@ -45,7 +49,7 @@ def worker() -> str:
 
 
 def _joined(names: Sequence[str]) -> str:
-    return '"use strict";\n(() => {\n' + "\n".join(map(_plain, names)) + "\n})();\n"
+    return "\n".join(['"use strict";\n(() => {\nconst ofModule = {};', *map(_as_function, names), "})();\n"])
 
 
 def modules() -> list[str]:
@@ -72,16 +76,28 @@ def _in_order(name: str, above: tuple[str, ...] = ()) -> list[str]:
     """A module after those that it imports. Raises :class:`ValueError` where they import each other in a circle."""
     if name in above:
         raise ValueError(f"the page imports in a circle: {' > '.join([*above, name])}")
-    found: dict[str, None] = {}
-    for imported in _IMPORT.findall(text_of(name)):
-        found |= dict.fromkeys(_in_order(imported, (*above, name)))
-    return [*found, name]
+    modules: dict[str, None] = {}
+    for _, folder, file in _IMPORT.findall(text_of(name)):
+        modules |= dict.fromkeys(_in_order(_name(name, folder, file), (*above, name)))
+    return [*modules, name]
 
 
-def _plain(name: str) -> str:
-    """A module without imports and exports. Raises :class:`ValueError` for other ones than :data:`_IMPORT`."""
-    plain = _EXPORT.sub("", _IMPORT.sub("", text_of(name)))
-    other = _ELSEWISE.search(plain)
+def _name(importing: str, folder: str, file: str) -> str:
+    """The name of a module by where another one imports it from."""
+    room = importing.partition("/")[0] if folder == "./" else "web"
+    return f"{room}/{file}"
+
+
+def _as_function(name: str) -> str:
+    """A module as a function. Raises :class:`ValueError` for other imports and exports than those of this page."""
+    text = text_of(name)
+    exports = ", ".join(exported.strip("[]") for exported in _EXPORT.findall(text))
+
+    def imported(match: re.Match[str]) -> str:
+        return f'const {{{match[1].replace(" as ", ": ")}}} = ofModule["{_name(name, match[2], match[3])}"];\n'
+
+    plain = _EXPORT.sub("", _IMPORT.sub(imported, text))
+    other = _OTHER.search(plain)
     if other is not None:
         raise ValueError(f"{name} imports or exports in another way: {plain[other.start() :].splitlines()[0]}")
-    return plain
+    return f'ofModule["{name}"] = (() => {{\n{plain}return {{ {exports} }};\n}})();'

@@ -22,7 +22,7 @@ from ballscrew.faces.site.judging import CHECKED_AS, module_of_judging
 from ballscrew.faces.site.modules import module_of_calibrated, module_of_structure
 
 #: Files of the folder that are as they are in the package.
-_PLAIN = ("style.css", "icon.svg")
+_PLAIN = ("icon.svg",)
 _KERNELS = "kernels"
 #: Files of an earlier page, by where they stand in the folder.
 _OLD = {
@@ -147,7 +147,7 @@ def _chosen(models: Sequence[str], nuts: Sequence[str]) -> list[tuple[str, str]]
 def _digest(known: Mapping[str, Any], script: str) -> str:
     """The digest of a page: of what it computes, what it says, and how it looks."""
     files = map(bundle.text_of, ("index.html", "service_worker.js", *_PLAIN))
-    everything = [_json(known), script, bundle.worker(), bundle.policy(), _json(_manifest()), *files]
+    everything = [_json(known), script, bundle.worker(), bundle.policy(), bundle.style(), _json(_manifest()), *files]
     return hashlib.sha256("\n".join(everything).encode()).hexdigest()[:16]
 
 
@@ -176,6 +176,7 @@ def _folder(known: Mapping[str, Any], codes: Mapping[str, bytes]) -> dict[str, b
     texts = {
         **scripts,
         **{name: bundle.text_of(name) for name in _PLAIN},
+        "style.css": bundle.style(),
         f"contents-{digest}.js": _contents(known, digest, {}, f"bands-{digest}.js"),
         f"page-{digest}.js": script,
         f"bands-{digest}.js": bundle.worker(),
@@ -206,7 +207,7 @@ def _document(policy: str) -> str:
 
 
 def _single(known: Mapping[str, Any], codes: Mapping[str, bytes]) -> dict[str, bytes]:
-    script, style = bundle.script(), bundle.text_of("style.css")
+    script, style = bundle.script(), bundle.style()
     held = _contents(known, _digest(known, script), {name: _in_text(code) for name, code in codes.items()}, "")
     held = held.replace("</", "<\\/")
     icon = f"data:image/svg+xml;base64,{_in_text(bundle.text_of('icon.svg').encode())}"

@@ -1,12 +1,15 @@
 // The charts of the page.
 
+import { element } from "../../web/page/dom.js";
+import { linesByValidity, pointAt } from "../../web/page/figure_parts.js";
 import { SPEED, TORQUE } from "./bands.js";
-import { colourOf, evenly, evenlyLog, rounded, spanOf } from "./plot.js";
-import { inShownUnit, inSiUnit, reasonsIn, View } from "./view.js";
-import { digitsOf, element, plainDigits, signOf, withUnit } from "./words.js";
+import { evenly, holding, inShownUnit, inSiUnit, reasonsIn, View } from "./view.js";
+import { digitsOf, plainDigits, signOf, withUnit } from "./words.js";
 
 /** @typedef {import("./view.js").Columns} Columns */
 /** @typedef {import("./view.js").Scene} Scene */
+/** @typedef {import("../../web/page/figure.js").Mark} Mark */
+/** @typedef {import("../../web/page/figure.js").Values} Values */
 
 const LOAD = "axial_load";
 /** Points along an axis, and the least of them while a slider moves. */
@@ -24,13 +27,7 @@ const MIXED = [1, 3];
 const COLD = 0;
 const HOT = 80;
 /** Colours from little to much, for eyes of every kind. */
-const RAMP = [
-  [68, 1, 84],
-  [59, 82, 139],
-  [33, 145, 140],
-  [94, 201, 98],
-  [253, 231, 37],
-];
+const RAMP = ["#440154", "#3b528b", "#21918c", "#5ec962", "#fde725"];
 
 /** The sign of the present number of a field. @param {Scene} scene @param {string} name */
 function signIn(scene, name) {
@@ -54,6 +51,11 @@ export function torqueTitle() {
   return withUnit("friction torque", "N m");
 }
 
+/** The friction torque as a curve. @param {Values} x @param {Values} torque @returns {Mark} */
+export function torqueCurve(x, torque) {
+  return { kind: "curve", name: "friction torque", x, y: torque, colour: "ink", style: "line", width: 2 };
+}
+
 /** The friction torque in its parts, piled up over the speed or the load. */
 export class Parts extends View {
   /**
@@ -65,106 +67,52 @@ export class Parts extends View {
     super(scene, id, { heading, hint });
     this.over = over;
     this.hasValues = hasValues;
-    this.xs = new Float64Array();
-    /** @type {Columns} */
-    this.found = {};
-    /** @type {{ name: string, value: HTMLElement, item: HTMLElement }[]} */
-    this.items = [];
-    this.follow(over);
-  }
-
-  prepare() {
-    const { contents, spec } = this.scene.case;
-    this.mechanisms = Object.keys(contents.mechanisms).filter((name) => spec.outputs.includes(`contribution_${name}`));
-    this.items = this.mechanisms.map((name) => {
-      const { words, colour } = contents.mechanisms[name];
-      const swatch = element("span", { class: "swatch", "aria-hidden": "true" });
-      swatch.style.background = colour;
-      const value = element("span", { class: "value" });
-      const item = element("li", {}, swatch, element("span", {}, words), value);
-      return { name, value, item };
-    });
-    this.legend.replaceChildren(...this.items.map(({ item }) => item));
   }
 
   paint() {
-    const { scene, plot } = this;
-    if (!plot || !this.mechanisms) return;
-    const { fields, results, mechanisms } = scene.case.contents;
-    const field = fields[this.over];
-    const end = endOf(scene, this.over);
-    this.xs = evenly(end * BEGIN, end, scene.count(POINTS, LEAST));
-    this.found = scene.evaluate({ [this.over]: inSiUnit(this.xs, field) }, this.xs.length);
-    const { xs, found } = this;
+    const { scene, over } = this;
+    const { fields, results } = scene.case.contents;
+    const end = endOf(scene, over);
+    const x = evenly(end * BEGIN, end, scene.count(POINTS, LEAST));
+    const found = scene.evaluate({ [over]: inSiUnit(x, fields[over]) }, x.length);
     const torque = inShownUnit(found[TORQUE], results[TORQUE]);
-    const piles = this.#piles();
-    const edge = piles.flatMap(({ lows, highs }) => [lows, highs]);
-    plot.begin(
-      { from: Math.min(0, end), to: Math.max(0, end), title: axisOf(scene, this.over) },
-      { ...rounded(spanOf(torque, ...edge)), title: torqueTitle() },
+    const [present] = inShownUnit([scene.outputs[TORQUE]], results[TORQUE]);
+    const marks = [
+      ...this.#piles(x, found),
+      torqueCurve(x, torque),
+      ...this.marksOf(x, found, scene.case.shown(over), present),
+    ];
+    this.show(
+      { x: { title: axisOf(scene, over), zero: true }, y: { title: torqueTitle(), zero: true }, marks },
+      { across: over, said: `At the operating point ${inTorque(scene.outputs[TORQUE], 4)}.` },
     );
-    plot.inside(() => {
-      for (const { name, lows, highs } of piles) plot.area(xs, lows, highs, mechanisms[name].colour);
-      plot.shade(xs, found.valid);
-    });
-    plot.axes();
-    plot.inside(() => plot.line(xs, torque, colourOf("ink")));
-    plot.point(scene.case.shown(this.over), inShownUnit([scene.outputs[TORQUE]], results[TORQUE])[0]);
     this.sayShaded(found);
-    if (this.hasValues) this.#sayValues();
   }
 
-  /** Where each part lies: what is positive is piled up, what is negative down. */
-  #piles() {
-    const count = this.xs.length;
-    const high = new Float64Array(count);
-    const low = new Float64Array(count);
-    return (this.mechanisms ?? []).map((name) => {
-      const part = this.found[`contribution_${name}`];
-      const lows = new Float64Array(count);
-      const highs = new Float64Array(count);
-      for (let place = 0; place < count; place += 1) {
-        const pile = part[place] < 0 ? low : high;
-        lows[place] = pile[place];
-        pile[place] += part[place];
-        highs[place] = pile[place];
+  /** Where each part lies: what is positive is piled up, what is negative down. @param {Values} x @param {Columns} found @returns {Mark[]} */
+  #piles(x, found) {
+    const { contents, spec } = this.scene.case;
+    const names = Object.keys(contents.mechanisms).filter((name) => spec.outputs.includes(`contribution_${name}`));
+    const [above, below] = [x.map(() => 0), x.map(() => 0)];
+    return names.map((name) => {
+      const [low, high] = [x.map(() => 0), x.map(() => 0)];
+      for (const [place, part] of found[`contribution_${name}`].entries()) {
+        const pile = part < 0 ? below : above;
+        low[place] = pile[place];
+        pile[place] += part;
+        high[place] = pile[place];
       }
-      return { name, lows, highs };
+      const { words, colour } = contents.mechanisms[name];
+      const own = this.scene.outputs[`contribution_${name}`];
+      const note = this.hasValues ? element("span", { class: "value" }, inTorque(own, 3)) : undefined;
+      return { kind: "band", name: words, x, low, high, colour, solid: true, note };
     });
   }
+}
 
-  #sayValues() {
-    for (const { name, value, item } of this.items) {
-      const part = this.scene.outputs[`contribution_${name}`];
-      value.textContent = `${digitsOf(part, 3)} ${signOf("N m")}`;
-      item.classList.toggle("none", part === 0);
-    }
-  }
-
-  numbers() {
-    const { contents } = this.scene.case;
-    const names = this.mechanisms ?? [];
-    return {
-      caption: this.words.heading,
-      head: [
-        axisOf(this.scene, this.over),
-        torqueTitle(),
-        ...names.map((name) => contents.mechanisms[name].words),
-        "valid",
-      ],
-      rows: Array.from(this.xs, (x, place) => [
-        x,
-        this.found[TORQUE][place],
-        ...names.map((name) => this.found[`contribution_${name}`][place]),
-        this.found.valid[place],
-      ]),
-    };
-  }
-
-  description() {
-    const torque = `${digitsOf(this.scene.outputs[TORQUE])} ${signOf("N m")}`;
-    return `${this.words.heading}. At the operating point ${torque}.`;
-  }
+/** @param {number} torque @param {number} digits */
+function inTorque(torque, digits) {
+  return `${digitsOf(torque, digits)} ${signOf("N m")}`;
 }
 
 /** One or two numbers of the contacts over the speed, whose axis is logarithmic. */
@@ -179,54 +127,48 @@ export class OverSpeed extends View {
     this.output = output;
     this.title = title;
     this.hasLog = hasLog;
-    this.xs = new Float64Array();
-    /** @type {Columns} */
-    this.found = {};
-    this.follow(SPEED);
-  }
-
-  get sides() {
-    return [
-      { name: `screw_${this.output}`, words: "ball and screw", colour: colourOf("accent") },
-      { name: `nut_${this.output}`, words: "ball and nut", colour: colourOf("second") },
-    ];
-  }
-
-  prepare() {
-    const items = this.sides.map(({ words }, place) => {
-      const swatch = element("span", { class: `swatch line ${place ? "second" : "first"}`, "aria-hidden": "true" });
-      return element("li", {}, swatch, element("span", {}, words));
-    });
-    this.legend.replaceChildren(...items);
   }
 
   paint() {
-    const { scene, plot } = this;
-    if (!plot) return;
+    const { scene, output } = this;
     const field = scene.case.contents.fields[SPEED];
     const sign = signIn(scene, SPEED);
     const end = Math.abs(endOf(scene, SPEED));
-    this.xs = evenlyLog(end * BEGIN * BEGIN, end, scene.count(POINTS, LEAST));
-    const signed = this.xs.map((value) => sign * value);
-    this.found = scene.evaluate({ [SPEED]: inSiUnit(signed, field) }, signed.length);
-    const { xs, found } = this;
-    const rows = this.sides.map(({ name }) => found[name]);
-    const span = spanOf(...rows);
-    const least = Math.min(...rows.flatMap((row) => Array.from(row).filter((value) => value > 0)), span.to);
-    const up = this.hasLog
-      ? { from: 10 ** Math.floor(Math.log10(least)), to: 10 ** -Math.floor(-Math.log10(span.to)), log: true }
-      : rounded(span);
-    plot.begin({ from: xs[0], to: end, title: axisOf(scene, SPEED), log: true }, { ...up, title: this.title });
-    plot.inside(() => plot.shade(xs, found.valid));
-    plot.axes();
-    plot.inside(() => {
-      if (this.hasLog) for (const value of MIXED) plot.level(value);
-      this.sides.forEach(({ name, colour }, place) => {
-        plot.line(xs, found[name], colour, { dash: place ? [7, 4] : [] });
-      });
-    });
+    const x = evenlyLog(end * BEGIN * BEGIN, end, scene.count(POINTS, LEAST));
+    const signed = x.map((value) => sign * value);
+    const found = scene.evaluate({ [SPEED]: inSiUnit(signed, field) }, signed.length);
+    const plain = { factor: 1, offset: 0 };
     const present = Math.abs(scene.case.shown(SPEED));
-    if (present >= xs[0]) plot.point(present, scene.outputs[this.sides[0].name]);
+    const value = scene.outputs[`screw_${output}`];
+    /** @type {Mark[]} */
+    const marks = [
+      ...MIXED.filter(() => this.hasLog).map(
+        (y) => /** @type {Mark} */ ({ kind: "level", name: "", y, colour: "soft" }),
+      ),
+      {
+        kind: "curve",
+        name: "ball and screw",
+        x,
+        y: inShownUnit(found[`screw_${output}`], plain),
+        colour: "accent",
+        style: "line",
+        width: 2,
+      },
+      {
+        kind: "curve",
+        name: "ball and nut",
+        x,
+        y: inShownUnit(found[`nut_${output}`], plain),
+        colour: "second",
+        style: "dashed",
+      },
+      ...this.marksOf(x, found, present >= x[0] ? present : Number.NaN, value),
+    ];
+    const across = { title: axisOf(scene, SPEED), log: true, from: x[0], to: end };
+    this.show(
+      { x: across, y: { title: this.title, log: this.hasLog, zero: !this.hasLog }, marks },
+      { across: SPEED, said: `At the operating point ${digitsOf(value)}.` },
+    );
     this.sayShaded(found);
   }
 
@@ -234,23 +176,11 @@ export class OverSpeed extends View {
   take(name, shown) {
     super.take(name, signIn(this.scene, SPEED) * shown);
   }
+}
 
-  numbers() {
-    return {
-      caption: this.words.heading,
-      head: [axisOf(this.scene, SPEED), ...this.sides.map(({ words }) => words), "valid"],
-      rows: Array.from(this.xs, (x, place) => [
-        x,
-        ...this.sides.map(({ name }) => this.found[name][place]),
-        this.found.valid[place],
-      ]),
-    };
-  }
-
-  description() {
-    const value = digitsOf(this.scene.outputs[this.sides[0].name]);
-    return `${this.words.heading}. At the operating point ${value}.`;
-  }
+/** Numbers at equal ratios. @param {number} from @param {number} to @param {number} count */
+function evenlyLog(from, to, count) {
+  return evenly(Math.log10(from), Math.log10(to), count).map((exponent) => 10 ** exponent);
 }
 
 /** The efficiency over load and speed. */
@@ -261,91 +191,63 @@ export class EfficiencyMap extends View {
       heading: "Efficiency over load and speed",
       hint: "Where load and speed have opposite signs the load drives the screw.",
     });
-    this.loads = new Float64Array();
-    this.speeds = new Float64Array();
-    /** @type {Float64Array} */
-    this.values = new Float64Array();
-    /** @type {Columns} */
-    this.found = {};
-    this.low = element("span");
-    this.high = element("span");
-    this.follow(SPEED, LOAD);
-  }
-
-  prepare() {
-    const bar = element("span", { class: "ramp", "aria-hidden": "true" });
-    this.legend.replaceChildren(element("li", {}, this.low, bar, this.high));
   }
 
   paint() {
-    const { scene, plot } = this;
-    if (!plot) return;
+    const { scene } = this;
     const { fields } = scene.case.contents;
     const most = scene.count(CELLS * CELLS, FEW_CELLS * FEW_CELLS);
     const count = [CELLS, SOME_CELLS].find((each) => each * each <= most) ?? FEW_CELLS;
-    const ends = [endOf(scene, LOAD), endOf(scene, SPEED)];
-    this.loads = evenly(ends[0] / (2 * count), ends[0] - ends[0] / (2 * count), count);
-    this.speeds = evenly(ends[1] / (2 * count), ends[1] - ends[1] / (2 * count), count);
-    const whole = Array.from({ length: count * count }, (_, place) => place);
-    const loads = whole.map((place) => this.loads[(place - (place % count)) / count]);
-    const speeds = whole.map((place) => this.speeds[place % count]);
-    this.found = scene.evaluate(
-      { [LOAD]: inSiUnit(loads, fields[LOAD]), [SPEED]: inSiUnit(speeds, fields[SPEED]) },
-      whole.length,
-    );
-    const drives = ends[0] < 0 === ends[1] < 0;
-    this.values = this.found[drives ? "efficiency" : "back_driving_efficiency"];
-    const finite = this.values.filter((value) => Number.isFinite(value));
-    // what is below zero holds by itself: one colour for all of it leaves the others for what moves
-    const low = finite.length ? Math.max(0, Math.min(...finite)) : 0;
-    const high = finite.length ? Math.max(low, ...finite) : 1;
-    plot.begin(
-      { from: Math.min(0, ends[1]), to: Math.max(0, ends[1]), title: axisOf(scene, SPEED) },
-      { from: Math.min(0, ends[0]), to: Math.max(0, ends[0]), title: axisOf(scene, LOAD) },
-    );
-    plot.inside(() => {
-      plot.cells(this.speeds, this.loads, (row, column) => {
-        const place = row * count + column;
-        const value = this.values[place];
-        const colour = Number.isFinite(value) ? rampAt((value - low) / (high - low || 1)) : colourOf("panel");
-        return { colour, isValid: this.found.valid[place] === 1 };
-      });
+    const [loads, speeds] = [LOAD, SPEED].map((name) => {
+      const end = endOf(scene, name);
+      return evenly(end * BEGIN, end, count);
     });
-    plot.axes();
-    plot.point(scene.case.shown(SPEED), scene.case.shown(LOAD));
-    this.low.textContent = `${low === 0 ? "≤ 0" : digitsOf(100 * low, 3)} %`;
-    this.high.textContent = `${digitsOf(100 * high, 3)} %`;
-    this.sayShaded(this.found);
+    const points = loads.flatMap((load) => speeds.map((speed) => [load, speed]));
+    const [ofLoads, ofSpeeds] = [LOAD, SPEED].map((name, place) =>
+      inSiUnit(
+        points.map((point) => point[place]),
+        fields[name],
+      ),
+    );
+    const found = scene.evaluate({ [LOAD]: ofLoads, [SPEED]: ofSpeeds }, points.length);
+    const drives = loads[0] < 0 === speeds[0] < 0;
+    const values = inShownUnit(found[drives ? "efficiency" : "back_driving_efficiency"], { factor: 0.01, offset: 0 });
+    const valid = holding(found.valid);
+    const finite = values.filter((value) => value !== null);
+    // what is below zero holds by itself: one colour for all of it leaves the others for what moves
+    const from = finite.length ? Math.max(0, Math.min(...finite)) : 0;
+    const to = finite.length ? Math.max(from, ...finite) : 100;
+    const rowsOf = (/** @type {any[]} */ all) => loads.map((_, row) => all.slice(row * count, (row + 1) * count));
+    const shades = { from, to, title: "efficiency (%)", colours: RAMP };
+    this.show(
+      {
+        x: { title: axisOf(scene, SPEED) },
+        y: { title: axisOf(scene, LOAD) },
+        marks: [
+          {
+            kind: "grid",
+            name: "",
+            x: speeds,
+            y: loads,
+            values: rowsOf(values),
+            shades,
+            valid: rowsOf(valid),
+            colour: "",
+          },
+          pointAt(scene.case.shown(SPEED), scene.case.shown(LOAD), "accent"),
+        ],
+      },
+      { across: SPEED, up: LOAD },
+    );
+    this.sayShaded(found);
   }
-
-  numbers() {
-    const count = this.speeds.length;
-    return {
-      caption: "efficiency over axial load (down) and speed (across)",
-      head: [axisOf(this.scene, LOAD), ...Array.from(this.speeds, (value) => digitsOf(value, 3))],
-      rows: Array.from(this.loads, (load, row) => [load, ...this.values.slice(row * count, (row + 1) * count)]),
-    };
-  }
-}
-
-/** A colour between little and much. @param {number} share */
-function rampAt(share) {
-  const place = Math.max(0, Math.min(1, share)) * (RAMP.length - 1);
-  const first = Math.min(RAMP.length - 2, Math.floor(place));
-  const mixed = RAMP[first].map((value, part) => value + (RAMP[first + 1][part] - value) * (place - first));
-  return `rgb(${mixed.map((value) => Math.round(value)).join(" ")})`;
 }
 
 /** The torque over the speed with cold and with hot oil. */
 export class Temperatures extends View {
   /** @param {Scene} scene @param {string} id */
   constructor(scene, id) {
-    super(scene, id, { heading: "Cold and hot", hint: "" });
-    this.xs = new Float64Array();
-    /** @type {{ degrees: number, found: Columns, colour: string, dash: number[] }[]} */
-    this.lines = [];
-    this.without = element("p", { class: "hint" });
-    this.hint.after(this.without);
+    super(scene, id, { heading: "Cold and hot" });
   }
 
   /** Only an oil of a grade has a viscosity at each temperature. */
@@ -354,75 +256,48 @@ export class Temperatures extends View {
   }
 
   prepare() {
-    const isThere = this.isThere;
-    this.without.textContent = isThere
+    this.hint.textContent = this.isThere
       ? ""
       : "The oil is given by one viscosity, at one temperature. Choose a grade to see it cold and hot.";
-    for (const one of [this.plot?.canvas.parentElement, this.legend, this.note, this.details]) {
-      if (one) one.hidden = !isThere;
-    }
+    this.chart.hidden = this.note.hidden = !this.isThere;
   }
 
   paint() {
-    const { scene, plot } = this;
-    if (!plot || !this.isThere) return;
+    const { scene } = this;
+    if (!this.isThere) return;
     const { fields, results } = scene.case.contents;
     const end = endOf(scene, SPEED);
-    const count = scene.count(3 * POINTS, 3 * LEAST) / 3;
-    this.xs = evenly(end * BEGIN, end, Math.floor(count));
-    const speeds = inSiUnit(this.xs, fields[SPEED]);
-    const colours = ["accent", "ink", "second"].map(colourOf);
+    const x = evenly(end * BEGIN, end, Math.floor(scene.count(3 * POINTS, 3 * LEAST) / 3));
     const present = scene.case.shown("temperature");
-    const all = [COLD, present, HOT].map((degrees, place) => {
-      const { viscosity, pressure_viscosity_coefficient, temperature_coefficient } = scene.oil(
-        inSiUnit([degrees], fields.temperature),
-      );
-      const oil = { viscosity: viscosity[0], pressure_viscosity_coefficient: pressure_viscosity_coefficient[0] };
-      const changes = { ...oil, temperature_coefficient: temperature_coefficient[0] };
-      const kept = Object.fromEntries(Object.entries(changes).filter(([name]) => !(name in scene.case.state.edits)));
-      const found = scene.evaluate({ ...kept, [SPEED]: speeds }, speeds.length);
-      return { degrees, found, colour: colours[place], dash: [[8, 4], [], [2, 4]][place] };
+    const lines = [COLD, present, HOT]
+      .map((degrees, place) => ({ degrees, found: this.#at(degrees, inSiUnit(x, fields[SPEED])), place }))
+      .filter(({ degrees, place }) => place === 1 || degrees !== present);
+    const marks = lines.flatMap(({ degrees, found, place }) => {
+      const torque = inShownUnit(found[TORQUE], results[TORQUE]);
+      const [colour, style] = [["accent", "ink", "second"][place], ["dashed", "line", "dashdot"][place]];
+      return linesByValidity(x, torque, holding(found.valid), inDegrees(degrees), colour, style);
     });
-    this.lines = all.filter(({ degrees }, place) => place === 1 || degrees !== present);
-    const torques = this.lines.map(({ found }) => inShownUnit(found[TORQUE], results[TORQUE]));
-    plot.begin(
-      { from: Math.min(0, end), to: Math.max(0, end), title: axisOf(scene, SPEED) },
-      { ...rounded(spanOf(...torques)), title: torqueTitle() },
-    );
-    plot.axes();
-    plot.inside(() => {
-      this.lines.forEach(({ found }, place) => {
-        // only along the line itself: the others may hold there
-        plot.halo(
-          this.xs,
-          torques[place].map((value, point) => (found.valid[point] === 1 ? Number.NaN : value)),
-        );
-      });
-      this.lines.forEach(({ colour, dash }, place) => {
-        plot.line(this.xs, torques[place], colour, { dash });
-      });
+    const [now] = inShownUnit([scene.outputs[TORQUE]], results[TORQUE]);
+    this.show({
+      x: { title: axisOf(scene, SPEED), zero: true },
+      y: { title: torqueTitle(), zero: true },
+      marks: [...marks, pointAt(scene.case.shown(SPEED), now, "accent")],
     });
-    plot.point(scene.case.shown(SPEED), scene.outputs[TORQUE]);
-    const items = this.lines.map(({ degrees, colour }) => {
-      const swatch = element("span", { class: "swatch line", "aria-hidden": "true" });
-      swatch.style.background = colour;
-      return element("li", {}, swatch, element("span", {}, inDegrees(degrees)));
-    });
-    const reasons = this.lines
+    const reasons = lines
       .map(({ degrees, found }) => ({ degrees, own: reasonsIn(scene.case, found) }))
       .filter(({ own }) => own.length)
       .map(({ degrees, own }) => `${inDegrees(degrees)}: ${own.join("; ")}`);
     this.sayReasons(reasons);
-    this.legend.replaceChildren(...items);
   }
 
-  numbers() {
-    if (!this.isThere || !this.lines.length) return undefined;
-    return {
-      caption: `Cold and hot: ${torqueTitle()}`,
-      head: [axisOf(this.scene, SPEED), ...this.lines.map(({ degrees }) => inDegrees(degrees))],
-      rows: Array.from(this.xs, (x, place) => [x, ...this.lines.map(({ found }) => found[TORQUE][place])]),
-    };
+  /** The model with the oil at a temperature, but for what was given of it. @param {number} degrees @param {Float64Array} speeds */
+  #at(degrees, speeds) {
+    const { scene } = this;
+    const oil = scene.oil(inSiUnit([degrees], scene.case.contents.fields.temperature));
+    const changes = ["viscosity", "pressure_viscosity_coefficient", "temperature_coefficient"]
+      .filter((name) => !(name in scene.case.state.edits))
+      .map((name) => [name, oil[name][0]]);
+    return scene.evaluate({ ...Object.fromEntries(changes), [SPEED]: speeds }, speeds.length);
   }
 }
 
@@ -438,7 +313,7 @@ export class Quadrants extends View {
     super(scene, id, {
       heading: "Back-driving in four quadrants",
       hint: "With this load and this speed, each with both signs.",
-      hasCanvas: false,
+      hasChart: false,
     });
     this.grid = element("table", { class: "quadrants" });
     this.section.append(element("div", { class: "scroll", tabindex: "0" }, this.grid), this.note);

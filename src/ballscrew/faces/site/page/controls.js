@@ -1,8 +1,9 @@
 // The sliders, each with a field for the same number.
 
+import { byId, element } from "../../web/page/dom.js";
+import { stepOf } from "../../web/page/scale.js";
 import { NO_NUMBER } from "./case.js";
-import { stepOf } from "./plot.js";
-import { byId, element, plainDigits, quantityIn, signOf, spaced, symbolElement } from "./words.js";
+import { plainDigits, quantityIn, signOf, spaced, symbolElement } from "./words.js";
 
 /** @typedef {import("./case.js").Case} Case */
 /** @typedef {{ min: number, max: number, step: number }} Range */
@@ -100,7 +101,7 @@ function around(middle, reach) {
 
 /** @param {number} min @param {number} max @returns {Range} */
 function stepped(min, max) {
-  const step = stepOf(max - min, STEPS);
+  const step = stepOf((max - min) / STEPS);
   const low = tidy(step * Math.round(min / step));
   return { min: low > 0 || min <= 0 ? low : tidy(step), max: tidy(-step * Math.floor(-max / step)), step: tidy(step) };
 }

@@ -1,12 +1,12 @@
 // How far off the numbers of a case may be: the ends between which most samples lie, and a fan over the speed.
 
+import { element } from "../../web/page/dom.js";
 import { SPEED, TORQUE } from "./bands.js";
-import { axisOf, BEGIN, endOf, torqueTitle } from "./charts.js";
-import { colourOf, evenly, rounded, spanOf } from "./plot.js";
-import { inShownUnit, inSiUnit, View } from "./view.js";
-import { digitsOf, element, signOf } from "./words.js";
+import { axisOf, BEGIN, endOf, torqueCurve, torqueTitle } from "./charts.js";
+import { evenly, inShownUnit, inSiUnit, View } from "./view.js";
+import { digitsOf, signOf } from "./words.js";
 
-/** @typedef {import("./view.js").Columns} Columns */
+/** @typedef {import("../../web/page/figure.js").Mark} Mark */
 /** @typedef {import("./view.js").Scene} Scene */
 
 /** Points of the line in the middle, and the least of them while a slider moves. */
@@ -54,39 +54,37 @@ export function levelOf(scene) {
 export class Fan extends View {
   /** @param {Scene} scene @param {string} id */
   constructor(scene, id) {
-    super(scene, id, { heading: "How far off the torque may be", hint: "" });
-    this.xs = new Float64Array();
-    /** @type {Columns} */
-    this.found = {};
+    super(scene, id, { heading: "How far off the torque may be" });
     this.ends = element("dl", { class: "ends" });
     this.said = element("p", { class: "hint" });
     this.hint.replaceWith(this.ends);
     this.section.append(this.said);
-    this.follow(SPEED);
   }
 
   paint() {
-    const { scene, plot } = this;
-    if (!plot) return;
+    const { scene } = this;
     const { fields, results } = scene.case.contents;
     const end = endOf(scene, SPEED);
-    this.xs = evenly(end * BEGIN, end, scene.count(POINTS_OF_LINE, LEAST_OF_LINE));
-    this.found = scene.evaluate({ [SPEED]: inSiUnit(this.xs, fields[SPEED]) }, this.xs.length);
-    const torque = inShownUnit(this.found[TORQUE], results[TORQUE]);
-    const { fan } = scene.banded();
-    const rows = fan ? [fan.lows, fan.highs].map((row) => inShownUnit(row, results[TORQUE])) : [];
-    plot.begin(
-      { from: Math.min(0, end), to: Math.max(0, end), title: axisOf(scene, SPEED) },
-      { ...rounded(spanOf(torque, ...rows)), title: torqueTitle() },
+    const x = evenly(end * BEGIN, end, scene.count(POINTS_OF_LINE, LEAST_OF_LINE));
+    const found = scene.evaluate({ [SPEED]: inSiUnit(x, fields[SPEED]) }, x.length);
+    const { fan, point } = scene.banded();
+    const [now] = inShownUnit([scene.outputs[TORQUE]], results[TORQUE]);
+    /** @type {Mark[]} */
+    const marks = [
+      torqueCurve(x, inShownUnit(found[TORQUE], results[TORQUE])),
+      ...this.marksOf(x, found, scene.case.shown(SPEED), now),
+    ];
+    if (fan) {
+      const [low, high] = [fan.lows, fan.highs].map((row) => inShownUnit(row, results[TORQUE]));
+      const speeds = inShownUnit(fan.speeds, fields[SPEED]);
+      marks.unshift({ kind: "band", name: levelOf(scene), x: speeds, low, high, colour: "accent", solid: false });
+    }
+    const ends = point?.ends[TORQUE];
+    this.show(
+      { x: { title: axisOf(scene, SPEED), zero: true }, y: { title: torqueTitle(), zero: true }, marks },
+      { across: SPEED, said: ends ? `${levelOf(scene)}, inputs alone: ${wordsOfEnds(scene, TORQUE, ends)}` : "" },
     );
-    plot.inside(() => {
-      if (fan) plot.band(inShownUnit(fan.speeds, fields[SPEED]), rows[0], rows[1], colourOf("accent"));
-      plot.shade(this.xs, this.found.valid);
-    });
-    plot.axes();
-    plot.inside(() => plot.line(this.xs, torque, colourOf("ink")));
-    plot.point(scene.case.shown(SPEED), inShownUnit([scene.outputs[TORQUE]], results[TORQUE])[0]);
-    this.sayShaded(this.found);
+    this.sayShaded(found);
     this.#sayEnds();
   }
 
@@ -123,25 +121,5 @@ export class Fan extends View {
       sentences.push(`Outside the model's validity lie ${share} of the samples.`);
     }
     return sentences.join(" ");
-  }
-
-  numbers() {
-    const { fan } = this.scene.banded();
-    if (!fan) return undefined;
-    const { fields } = this.scene.case.contents;
-    const level = levelOf(this.scene);
-    return {
-      caption: this.words.heading,
-      head: [axisOf(this.scene, SPEED), `${torqueTitle()}, low end, ${level}`, `${torqueTitle()}, high end, ${level}`],
-      rows: Array.from(inShownUnit(fan.speeds, fields[SPEED]), (x, place) => [x, fan.lows[place], fan.highs[place]]),
-    };
-  }
-
-  description() {
-    const ends = this.scene.banded().point?.ends[TORQUE];
-    const heading = this.words.heading;
-    return ends
-      ? `${heading}. ${levelOf(this.scene)}, inputs alone: ${wordsOfEnds(this.scene, TORQUE, ends)}`
-      : heading;
   }
 }

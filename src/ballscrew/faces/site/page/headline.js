@@ -1,9 +1,10 @@
 // The numbers that matter most, and what the model says of them.
 
+import { byId, element } from "../../web/page/dom.js";
 import { levelOf, wordsOfEnds } from "./fan.js";
 import { textOf } from "./judgements.js";
 import { reasonsIn } from "./view.js";
-import { byId, digitsOf, element, inPlace, signOf } from "./words.js";
+import { digitsOf, inPlace, signOf } from "./words.js";
 
 /** @typedef {import("./view.js").Scene} Scene */
 

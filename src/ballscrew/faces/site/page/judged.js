@@ -1,10 +1,12 @@
 // The checks with their limits, and the ball in its grooves.
 
+import { element } from "../../web/page/dom.js";
+import { ofScreen } from "../../web/page/palette.js";
+import { CanvasPen } from "../../web/page/pen.js";
 import { ballAt, drawBall } from "./ball.js";
 import { textOf } from "./judgements.js";
-import { colourOf } from "./plot.js";
 import { View } from "./view.js";
-import { digitsOf, element, inPlace, plainDigits, powerOf, quantityIn, signOf, spaced } from "./words.js";
+import { digitsOf, inPlace, plainDigits, powerOf, quantityIn, signOf, spaced } from "./words.js";
 
 /** @typedef {import("./judgements.js").JudgedRecord} JudgedRecord */
 /** @typedef {{ factor: number, offset: number, shown_in: string }} Shown */
@@ -67,11 +69,11 @@ export class Checks extends View {
     super(scene, id, {
       heading: "Checks",
       hint: "Life, strength and speed against their limits.",
-      hasCanvas: false,
+      hasChart: false,
     });
     this.asked = element("div", { class: "asked" });
     this.facts = element("p", { class: "hint" });
-    this.table.className = "checks";
+    this.table = element("table", { class: "checks" });
     this.section.append(this.asked, element("div", { class: "scroll", tabindex: "0" }, this.table), this.facts);
     this.written = "";
   }
@@ -190,29 +192,28 @@ export class BallView extends View {
     this.engine = engine;
     /** @type {Record<string, number>} */
     this.places = {};
-    this.details?.remove(); // its numbers are in words
+    this.canvas = element("canvas", { role: "img", "aria-label": this.words.heading });
+    this.chart.replaceWith(element("div", { class: "picture" }, this.canvas));
   }
 
   paint() {
-    const { scene, plot } = this;
-    if (!plot) return;
+    const { scene, canvas } = this;
+    const size = { width: canvas.clientWidth, height: canvas.clientHeight };
+    if (!size.width || !size.height) return;
     const { case: one, inputs, outputs } = scene;
     const all = { ...one.unchanged(), ...inputs };
     this.places = ballAt(this.engine, one.contents, { structure: one.structure, inputs: all, outputs });
-    const colours = {
-      ink: colourOf("ink"),
-      soft: colourOf("soft"),
-      body: colourOf("line"),
-      accent: colourOf("accent"),
-    };
+    const { ink, soft, line, accent } = ofScreen();
+    const colours = { ink, soft, body: line, accent };
     const angles = this.#angles();
     // two pairs of flanks leave no room for both angles
     const words = { nut: "nut", screw: "screw", angle: angles.length > 1 ? "" : `α ${angles[0]}` };
-    drawBall(plot.pen, plot, this.places, colours, words);
+    const pen = new CanvasPen(canvas, size.width, size.height, globalThis.devicePixelRatio || 1);
+    drawBall(pen.context, size, this.places, colours, words);
     this.note.className = "hint";
     const said = this.#said();
     if (this.note.textContent !== said) this.note.textContent = said;
-    plot.canvas.setAttribute("aria-label", this.description());
+    canvas.setAttribute("aria-label", this.description());
   }
 
   /** The pairs of flanks that the ball touches, the one that carries the load first. */

@@ -1,5 +1,7 @@
 // The page: what is chosen, what is computed at once, and what is drawn when.
 
+import { drawOnPaper, drawOnScreen } from "../../web/page/chart_place.js";
+import { byId, element, saveFile } from "../../web/page/dom.js";
 import { Banding } from "./banding.js";
 import { Case } from "./case.js";
 import { EfficiencyMap, OverSpeed, Parts, Quadrants, Temperatures } from "./charts.js";
@@ -11,10 +13,10 @@ import { BallView, Checks } from "./judged.js";
 import { judgedAt, recordsOf, textOf } from "./judgements.js";
 import { keepOffline, moduleOf, site } from "./modules.js";
 import { screwsFor } from "../../web/page/part_search.js";
-import { readColours } from "./plot.js";
+import { forget } from "../../web/page/palette.js";
 import { Taking } from "./taking.js";
 import { inSiUnit } from "./view.js";
-import { byId, element, inPlace, keep, kept, useSymbols } from "./words.js";
+import { inPlace, keep, kept, useSymbols } from "./words.js";
 
 /** Milliseconds after the last change that the hand is at rest. */
 const REST = 160;
@@ -53,6 +55,7 @@ const scene = {
   outputs: {},
   judged: undefined,
   banded: () => banding.banded,
+  save: (name, content) => saveFile(`ballscrew${name}`, content),
   evaluate(changes, count) {
     const began = performance.now();
     const found = engine.evaluate(shownCase.structure, { ...scene.inputs, ...changes }, count);
@@ -216,7 +219,6 @@ function askIdle() {
       const [view] = others.splice(next, 1);
       others.push(view); // so that each has its turn while a slider moves
       view.draw();
-      if (!isMoving) view.settle();
       askIdle();
     },
     { timeout: 100 },
@@ -239,8 +241,6 @@ function rest() {
   }
   askBand();
   controls.refresh();
-  for (const view of views) if (view.isSeen && !view.isDirty) view.settle();
-  first.settle();
   taking.write();
   writeAddress();
 }
@@ -287,7 +287,7 @@ function build() {
   showChoices();
   controls.build();
   headline.build();
-  for (const view of views) view.build();
+  for (const view of views) view.prepare();
 }
 
 /** @param {string} id */
@@ -404,7 +404,7 @@ function followScheme() {
   const show = () => {
     const chosen = kept(SCHEME_KEPT) ?? "";
     document.documentElement.dataset.scheme = SCHEMES.includes(chosen) ? chosen : SCHEMES[system.matches ? 1 : 0];
-    readColours();
+    drawOnScreen();
   };
   const redraw = () => {
     show();
@@ -416,8 +416,9 @@ function followScheme() {
   // paper is light, and has the charts that nobody has seen yet
   addEventListener("beforeprint", () => {
     document.documentElement.dataset.scheme = SCHEMES[0];
-    readColours();
+    forget();
     for (const view of views) view.draw();
+    drawOnPaper();
   });
   addEventListener("afterprint", redraw);
   byId("scheme").addEventListener("click", () => {

@@ -1,6 +1,7 @@
 // Taking the case to the program: as a file, and as a link that its page opens.
 
-import { byId, keep, kept } from "./words.js";
+import { byId, saveFile } from "../../web/page/dom.js";
+import { keep, kept } from "./words.js";
 
 /** @typedef {import("./case.js").Case} Case */
 
@@ -49,10 +50,6 @@ export class Taking {
   }
 
   #download() {
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(new Blob([this.case.toml()], { type: "application/toml" }));
-    link.download = "case.toml";
-    link.click();
-    URL.revokeObjectURL(link.href);
+    saveFile("case.toml", new Blob([this.case.toml()], { type: "application/toml" }));
   }
 }

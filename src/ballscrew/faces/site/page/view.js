@@ -1,9 +1,13 @@
-// A chart with its heading, its numbers as a table, and what is said of it.
+// A part of the page: its heading, its chart, and what is said of it.
 
-import { Plot } from "./plot.js";
-import { digitsOf, element } from "./words.js";
+import { draw } from "../../web/page/chart_place.js";
+import { element } from "../../web/page/dom.js";
+import { outside, pointAt } from "../../web/page/figure_parts.js";
+import { valueAt } from "../../web/page/figure_words.js";
 
 /** @typedef {import("./case.js").Case} Case */
+/** @typedef {import("../../web/page/figure.js").Figure} Figure */
+/** @typedef {import("../../web/page/figure.js").Values} Values */
 /** @typedef {Record<string, Float64Array>} Columns */
 /**
  * What a chart is of: the case, its numbers at the operating point in SI, and the model.
@@ -18,12 +22,9 @@ import { digitsOf, element } from "./words.js";
  *   judged: (ReturnType<typeof import("./judgements.js").recordsOf> & { derived: Record<string, any> }) | undefined,
  *   give: (name: string, shown: number | string | undefined) => void,
  *   banded: () => import("./banding.js").Banded,
+ *   save: (name: string, content: Blob) => void,
  * }} Scene
  */
-/** @typedef {{ caption: string, head: string[], rows: number[][] }} Numbers */
-
-/** The rows of a table at most. */
-const ROWS = 21;
 
 /**
  * The reasons for which the model does not hold at any of the points.
@@ -41,9 +42,9 @@ export function reasonsIn(one, found) {
     .map(([, words]) => words);
 }
 
-/** Numbers in the unit they are shown in. @param {ArrayLike<number>} numbers @param {{ factor: number, offset: number }} quantity */
+/** Numbers in the unit they are shown in; nothing where there is none. @param {ArrayLike<number>} numbers @param {{ factor: number, offset: number }} quantity @returns {Values} */
 export function inShownUnit(numbers, { factor, offset }) {
-  return Float64Array.from(numbers, (value) => (value - offset) / factor);
+  return Array.from(numbers, (value) => (Number.isFinite(value) ? (value - offset) / factor : null));
 }
 
 /** @param {ArrayLike<number>} numbers @param {{ factor: number, offset: number }} quantity */
@@ -51,79 +52,89 @@ export function inSiUnit(numbers, { factor, offset }) {
   return Float64Array.from(numbers, (value) => value * factor + offset);
 }
 
+/** Where the model holds. @param {ArrayLike<number>} valid */
+export function holding(valid) {
+  return Array.from(valid, (value) => value === 1);
+}
+
+/** Numbers at equal distances. @param {number} from @param {number} to @param {number} count */
+export function evenly(from, to, count) {
+  return Array.from({ length: count }, (_, place) => from + ((to - from) * place) / (count - 1));
+}
+
 export class View {
-  /** @type {Plot | undefined} */
-  plot;
   isDirty = true;
   isSeen = false;
 
   /**
    * @param {Scene} scene
    * @param {string} id
-   * @param {{ heading: string, hint?: string, hasCanvas?: boolean }} options
+   * @param {{ heading: string, hint?: string, hasChart?: boolean }} options
    */
-  constructor(scene, id, { heading, hint = "", hasCanvas = true }) {
+  constructor(scene, id, { heading, hint = "", hasChart = true }) {
     this.scene = scene;
-    this.words = { heading, hint };
-    this.heading = element("h2", { id: `${id}-heading` });
-    this.hint = element("p", { class: "hint" });
+    this.id = id;
+    this.words = { heading };
+    this.hint = element("p", { class: "hint" }, hint);
     this.note = element("p", { class: "shaded" });
-    this.legend = element("ul", { class: "legend" });
-    this.table = element("table");
+    this.chart = element("div", { class: "chart", id: `${id}-chart`, hidden: !hasChart });
     this.section = element(
       "section",
       { id, class: "card", "aria-labelledby": `${id}-heading` },
-      this.heading,
+      element("h2", { id: `${id}-heading` }, heading),
       this.hint,
+      this.chart,
+      this.note,
     );
-    if (!hasCanvas) return;
-    const canvas = element("canvas", { role: "img" });
-    this.plot = new Plot(canvas);
-    this.summary = element("summary");
-    this.scroll = element("div", { class: "scroll", tabindex: "0", role: "region" }, this.table);
-    this.details = element("details", { class: "numbers" }, this.summary, this.scroll);
-    this.details.addEventListener("toggle", () => this.settle());
-    this.section.append(element("div", { class: "picture" }, canvas), this.legend, this.note, this.details);
   }
 
-  /** Make all words, and what depends on what is chosen. */
-  build() {
-    this.heading.textContent = this.words.heading;
-    this.hint.textContent = this.words.hint;
-    if (this.summary) this.summary.textContent = "Numbers";
-    this.plot?.canvas.setAttribute("aria-label", this.words.heading); // more when it is drawn
-    this.scroll?.setAttribute("aria-label", `Numbers: ${this.words.heading}`);
-    this.prepare();
-  }
-
-  /** Make what depends on the structure alone, such as a legend. */
+  /** Make what depends on the structure alone. */
   prepare() {}
 
   /** Compute and draw. */
   draw() {
     this.isDirty = false;
-    if (this.plot && !this.plot.measure()) return;
     this.paint();
   }
 
-  /** Compute and draw; each chart in its own way. */
+  /** Compute and draw; each part in its own way. */
   paint() {}
 
-  /** Write what needs no frame: the table, and the words for those who do not see the chart. */
-  settle() {
-    const numbers = this.numbers();
-    if (!numbers || !this.plot) return;
-    this.plot.canvas.setAttribute("aria-label", this.description());
-    if (this.details?.open) fillTable(this.table, numbers);
+  /**
+   * Draw a figure, with the operating point as a handle of the numbers along its axes.
+   *
+   * @param {Figure} figure
+   * @param {{ across?: string, up?: string, said?: string }} handle what is dragged; what is said to those who see no chart
+   */
+  show(figure, { across, up, said = "" } = {}) {
+    const curve = figure.marks.find((mark) => mark.kind === "curve" && mark.width);
+    const heightAt = (/** @type {number} */ x) =>
+      curve?.kind === "curve" ? (valueAt(curve.x, curve.y, x) ?? Number.NaN) : Number.NaN;
+    const move = (/** @type {[number, number]} */ at) => {
+      if (across) this.take(across, at[0]);
+      if (up) this.take(up, at[1]);
+      return true;
+    };
+    const drag = across && {
+      place: (/** @type {number} */ x, /** @type {number} */ y) =>
+        /** @type {[number, number]} */ ([x, up ? y : heightAt(x)]),
+      moved: move,
+      dropped: move,
+      left: () => {},
+    };
+    draw(`${this.id}-chart`, {
+      name: this.id.replaceAll("-", "_"),
+      caption: `Numbers: ${this.words.heading}`,
+      description: [this.words.heading, said].filter(Boolean).join(". "),
+      figure,
+      drag: drag || undefined,
+      save: this.scene.save,
+    });
   }
 
-  /** @returns {Numbers | undefined} */
-  numbers() {
-    return undefined;
-  }
-
-  description() {
-    return this.words.heading;
+  /** The operating point, and where the model does not hold. @param {Values} x @param {Columns} found @param {number} at @param {number | null} up */
+  marksOf(x, found, at, up) {
+    return [outside(x, holding(found.valid)), pointAt(at, up, "accent")];
   }
 
   /** @param {Record<string, ArrayLike<number>>} found */
@@ -146,42 +157,4 @@ export class View {
   take(name, shown) {
     this.scene.change(name, shown);
   }
-
-  /**
-   * Let the pointer set numbers by dragging in the chart.
-   *
-   * @param {string | undefined} across the field that the axis across is
-   * @param {string | undefined} up
-   */
-  follow(across, up = undefined) {
-    const { plot } = this;
-    if (!plot) return;
-    const { canvas } = plot;
-    canvas.classList.add("draggable");
-    const moved = (/** @type {PointerEvent} */ event) => {
-      const box = canvas.getBoundingClientRect();
-      if (across) this.take(across, plot.valueAcross(event.clientX - box.left));
-      if (up) this.take(up, plot.valueUp(event.clientY - box.top));
-    };
-    canvas.addEventListener("pointerdown", (event) => {
-      if (event.button !== 0) return;
-      canvas.setPointerCapture(event.pointerId);
-      moved(event);
-    });
-    canvas.addEventListener("pointermove", (event) => {
-      if (canvas.hasPointerCapture(event.pointerId)) moved(event);
-    });
-  }
-}
-
-/**
- * @param {HTMLTableElement} table
- * @param {Numbers} numbers
- */
-function fillTable(table, { caption, head, rows }) {
-  const stride = Math.max(1, Math.floor((rows.length - 1) / (ROWS - 1)));
-  const some = rows.filter((_, place) => place % stride === 0);
-  const top = element("tr", {}, ...head.map((text) => element("th", { scope: "col" }, text)));
-  const lines = some.map((row) => element("tr", {}, ...row.map((value) => element("td", {}, digitsOf(value)))));
-  table.replaceChildren(element("caption", {}, caption), element("thead", {}, top), element("tbody", {}, ...lines));
 }

@@ -1,5 +1,7 @@
 // Numbers as the visitor reads them, with units and symbols.
 
+import { element } from "../../web/page/dom.js";
+
 const GREEK = {
   alpha: "α",
   beta: "β",
@@ -131,7 +133,7 @@ export function signOf(unit) {
 /** The name of an axis with its unit. @param {string} words @param {string} unit */
 export function withUnit(words, unit) {
   const sign = signOf(unit);
-  return sign ? `${words} / ${sign}` : words;
+  return sign ? `${words} (${sign})` : words;
 }
 
 /**
@@ -150,33 +152,5 @@ export function symbolElement(symbol) {
     if (place % 2 === 0) found.append(part);
     else found.append(element("sub", {}, part));
   });
-  return found;
-}
-
-/**
- * An element with its attributes and what stands in it.
- *
- * @template {keyof HTMLElementTagNameMap} Tag
- * @param {Tag} tag
- * @param {Record<string, string>} [attributes]
- * @param {(string | Node)[]} inside
- * @returns {HTMLElementTagNameMap[Tag]}
- */
-export function element(tag, attributes = {}, ...inside) {
-  const found = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) found.setAttribute(name, value);
-  found.append(...inside);
-  return found;
-}
-
-/**
- * The element of the document with this id.
- *
- * @param {string} id
- * @returns {HTMLElement}
- */
-export function byId(id) {
-  const found = document.getElementById(id);
-  if (!found) throw new Error(`the page has no #${id}`);
   return found;
 }

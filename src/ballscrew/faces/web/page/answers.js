@@ -1,6 +1,7 @@
 // Answers of the server: one request for all designs, whose lines are drawn as they come. Numbers come first.
 
 import * as bath from "./bath.js";
+import { isVisible, move, showFailure, showWords } from "./chart_place.js";
 import * as charts from "./charts.js";
 import * as checks from "./checks.js";
 import { showDesigns, showModels } from "./compare.js";
@@ -15,7 +16,6 @@ import * as moving from "./moving.js";
 import * as nutPicture from "./nut_picture.js";
 import * as nutUnrolled from "./nut_unrolled.js";
 import { dragged } from "./operating_point.js";
-import { isVisible, move, showFailure, showWords } from "./plot.js";
 import { askPatiently, goOn, isOutOfTime, sendPatiently } from "./long_work.js";
 import { powerFlow } from "./power_flow.js";
 import * as results from "./results.js";

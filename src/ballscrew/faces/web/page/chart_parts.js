@@ -1,14 +1,6 @@
-// Parts that several charts have: the operating point, axes, and the ranges where the model is not valid.
+// What charts show of answers: values in the units of the page, and titles.
 
-import { text } from "./texts.js";
 import * as units from "./units.js";
-
-/** @typedef {import("./figure.js").Mark} Mark */
-/** @typedef {import("./figure.js").Curve} Curve */
-/** @typedef {import("./figure.js").Outside} Outside */
-/** @typedef {import("./figure.js").Point} Point */
-
-export const OUTSIDE = text("chart.outside");
 
 /**
  * Values of a swept axis or output along one axis.
@@ -57,43 +49,4 @@ export function operationOf(answer) {
  */
 export function titled(name, words) {
   return `${words} (${units.symbol(units.unitOf(name))})`;
-}
-
-/**
- * The operating point: a diamond in front of the curves.
- *
- * @param {number | null | undefined} x
- * @param {number | null | undefined} y
- * @param {string} [colour]
- * @returns {Point}
- */
-export function pointAt(x, y, colour = "ink") {
-  return { kind: "point", name: text("chart.operating_point"), x, y, colour };
-}
-
-/** Where the model is not valid. @param {number[]} x @param {boolean[]} valid @returns {Outside} */
-export function outside(x, valid) {
-  return { kind: "outside", name: OUTSIDE, x, valid };
-}
-
-/**
- * A curve, solid where the model is valid and dotted where it is not; both meet.
- *
- * @param {number[]} x
- * @param {(number | null)[]} y
- * @param {boolean[]} valid
- * @param {string} name
- * @param {string} colour
- * @param {string} [style]
- * @returns {Curve[]}
- */
-export function linesByValidity(x, y, valid, name, colour, style = "line") {
-  const isBeside = (/** @type {number} */ place) => [place - 1, place, place + 1].some((one) => valid[one] === false);
-  const [inside, beyond] = [(/** @type {number} */ place) => valid[place], isBeside].map((isShown) =>
-    y.map((value, place) => (isShown(place) ? value : null)),
-  );
-  /** @type {Curve} */
-  const solid = { kind: "curve", name, x, y: inside, colour, style };
-  if (valid.every(Boolean)) return [solid];
-  return [solid, { kind: "curve", name: OUTSIDE, x, y: beyond, colour, style: "dotted", width: 1.2, isQuiet: true }];
 }

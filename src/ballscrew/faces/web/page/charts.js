@@ -1,9 +1,11 @@
 // Charts of an operating point over its speed and its load: the torque and its parts, efficiency, film, pressure, Stribeck.
 
 import * as parts from "./chart_parts.js";
+import { hide } from "./chart_place.js";
 import { element } from "./dom.js";
+import { OUTSIDE, linesByValidity, outside, pointAt } from "./figure_parts.js";
 import { yesOrNo } from "./figure_words.js";
-import { draw, hide } from "./plot.js";
+import { draw } from "./plot.js";
 import { data, greatestPressure, leastFilm } from "./results.js";
 import { extent } from "./scale.js";
 import { text } from "./texts.js";
@@ -152,11 +154,8 @@ export function torque(swept, answer, mechanisms, banded) {
           note,
           heading: title,
         },
-        parts.outside(speeds, parts.validAlong(swept)),
-        parts.pointAt(
-          units.inDisplayUnit("screw_speed", operation.screw_speed),
-          units.inDisplayUnit("screw_torque", sum),
-        ),
+        outside(speeds, parts.validAlong(swept)),
+        pointAt(units.inDisplayUnit("screw_speed", operation.screw_speed), units.inDisplayUnit("screw_torque", sum)),
       ],
     },
   });
@@ -216,8 +215,8 @@ export function map(swept, answer) {
           shades: { from, to, title: words, colours: SHADES },
         },
         ...(isDriven ? [/** @type {Mark} */ ({ kind: "level", name: text("map.driven"), colour: "soft" })] : []),
-        { kind: "outside", name: parts.OUTSIDE, x: [], valid: valid.flat() },
-        parts.pointAt(
+        { kind: "outside", name: OUTSIDE, x: [], valid: valid.flat() },
+        pointAt(
           units.inDisplayUnit("screw_speed", operation.screw_speed),
           units.inDisplayUnit("axial_load", operation.axial_load),
         ),
@@ -283,8 +282,8 @@ export function film(swept, answer) {
       marks: [
         ...zones,
         ...curves,
-        parts.outside(speeds, parts.validAlong(swept)),
-        parts.pointAt(units.inDisplayUnit("screw_speed", parts.operationOf(answer).screw_speed), now),
+        outside(speeds, parts.validAlong(swept)),
+        pointAt(units.inDisplayUnit("screw_speed", parts.operationOf(answer).screw_speed), now),
       ],
     },
   });
@@ -308,8 +307,8 @@ export function pressure(swept, answer) {
       y: { title: parts.titled("maximum_pressure", text("results.of_contact.maximum_pressure")), zero: true },
       marks: [
         ...sides(loads, swept, PRESSURES),
-        parts.outside(loads, parts.validAlong(swept)),
-        parts.pointAt(
+        outside(loads, parts.validAlong(swept)),
+        pointAt(
           units.inDisplayUnit("axial_load", parts.operationOf(answer).axial_load),
           units.inDisplayUnit("maximum_pressure", now),
         ),
@@ -389,7 +388,7 @@ export function stribeck(swept, answer) {
   const torqueNow = answer.results.screw_torque;
   const title = parts.titled("screw_torque", text("chart.torque"));
   const regime = (now && REGIMES.find(([, , to]) => now < to)?.[0]) || "";
-  const lines = parts.linesByValidity(
+  const lines = linesByValidity(
     films,
     points.map((one) => one.torque),
     points.map(({ valid }) => valid),
@@ -408,7 +407,7 @@ export function stribeck(swept, answer) {
     figure: {
       x: { title: x, log: true, from: low, to: high },
       y: { title, zero: true },
-      marks: [...zones, ...lines, parts.pointAt(now, units.inDisplayUnit("screw_torque", torqueNow))],
+      marks: [...zones, ...lines, pointAt(now, units.inDisplayUnit("screw_torque", torqueNow))],
     },
     numbers: () => [
       [x, title, parts.titled("screw_speed", text("chart.speed")), text("chart.valid")],

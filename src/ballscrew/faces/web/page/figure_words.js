@@ -1,9 +1,8 @@
 // What is read of a figure: its legend, its numbers as a table, and what stands below a pointer.
 
+import { digits } from "./digits.js";
 import { element } from "./dom.js";
 import { DOTS } from "./figure_marks.js";
-import { text } from "./texts.js";
-import { digits } from "./units.js";
 
 /** @typedef {import("./figure.js").Figure} Figure */
 /** @typedef {import("./figure.js").Frame} Frame */
@@ -26,6 +25,8 @@ const KEYS = {
   circles: "point",
   crosses: "point",
 };
+/** Headings of columns. */
+export const [VALUE, LOW_AND_HIGH] = ["value", ["lower end", "upper end"]];
 /** Pixels within which a dot is read. */
 const NEAR = 14;
 
@@ -94,7 +95,7 @@ function numbersOfCurves({ x, y, second, marks }) {
     return [[x.title, ...headings], places.map((at) => [at, ...cells.map((column) => column.get(at) ?? null)])];
   }
   const rows = columns.flatMap(({ heading, values, x: own }) => own.map((at, row) => [heading, at, values[row]]));
-  return [["", x.title, text("sheet.value")], rows];
+  return [["", x.title, VALUE], rows];
 }
 
 /** @param {Mark} mark @param {string} title @param {string} other @returns {{ heading: string, x: Values, values: (import("./dom.js").Cell)[], order: number }[]} */
@@ -114,13 +115,10 @@ function columnsOf(mark, title, other) {
     });
     // what is stacked is a part of a whole
     if (mark.solid) return [column(mark.name, partOf(mark), 2)];
-    const [low, high] =
-      mark.ends ??
-      ["sheet.low", "sheet.high"].map((key) => text(/** @type {"sheet.low"} */ (key), { name: mark.name }));
+    const [low, high] = mark.ends ?? LOW_AND_HIGH.map((end) => `${mark.name} ${end}`);
     return [column(low, mark.low, 1), column(high, mark.high, 1)];
   }
-  if (mark.kind === "outside")
-    return [{ heading: text("chart.valid"), x: mark.x, values: mark.valid.map(yesOrNo), order: 3 }];
+  if (mark.kind === "outside") return [{ heading: "valid", x: mark.x, values: mark.valid.map(yesOrNo), order: 3 }];
   return [];
 }
 
@@ -138,9 +136,14 @@ function partOf({ low, high }) {
   });
 }
 
+/** The ends of a band, as they are read. @param {string} low @param {string} high */
+export function between(low, high) {
+  return `${low} to ${high}`;
+}
+
 /** @param {boolean} valid */
 export function yesOrNo(valid) {
-  return text(valid ? "chart.yes" : "chart.no");
+  return valid ? "yes" : "no";
 }
 
 // -- below a pointer --------------------------------------------------------------------------------
@@ -240,7 +243,7 @@ function readCurves({ x: axis, y, second, marks }, { x }, across) {
   for (const mark of areas) {
     const [low, high] = [mark.low, mark.high].map((values) => valueAt(mark.x, values, at));
     if (low === null || high === null) continue;
-    const ends = text("sheet.band", { low: digits(low), high: digits(high) });
+    const ends = between(digits(low), digits(high));
     lines.push(line(mark.name, y.title, mark.solid ? digits(high - low) : ends, mark.colour));
   }
   return lines.length ? { across: x.pixel(at), title: `${axis.title}: ${digits(at)}`, lines } : undefined;
@@ -257,7 +260,7 @@ function nearest(values, at) {
 }
 
 /** The value of a curve at a place, between two of its points; nothing beyond its ends. @param {Values} xs @param {Values} ys @param {number} at @returns {number | null} */
-function valueAt(xs, ys, at) {
+export function valueAt(xs, ys, at) {
   for (const [place, value] of ys.entries()) {
     const x = xs[place];
     if (x === null || value === null) continue;

@@ -1,10 +1,12 @@
 // The friction torque over the speed, cold and hot: curves at the temperatures of the table, drawn once they are seen.
 
 import * as parts from "./chart_parts.js";
+import { hide, showFailure } from "./chart_place.js";
 import { byId } from "./dom.js";
+import { linesByValidity, pointAt } from "./figure_parts.js";
 import { yesOrNo } from "./figure_words.js";
 import { localEngine, pointsOf } from "./local_engine.js";
-import { draw, hide, showFailure } from "./plot.js";
+import { draw } from "./plot.js";
 import { Latest, linesOf, sendJson } from "./server.js";
 import { text } from "./texts.js";
 import * as units from "./units.js";
@@ -150,9 +152,9 @@ function drawCurves({ answer, temperatures, speeds }, curves) {
       y: { title: y, zero: true },
       marks: [
         ...curves.flatMap(({ valid }, place) =>
-          parts.linesByValidity(shown, torques[place], valid, names[place], colour(place)),
+          linesByValidity(shown, torques[place], valid, names[place], colour(place)),
         ),
-        parts.pointAt(units.inDisplayUnit("screw_speed", speed), units.inDisplayUnit("screw_torque", now)),
+        pointAt(units.inDisplayUnit("screw_speed", speed), units.inDisplayUnit("screw_torque", now)),
       ],
     },
     numbers: () => [

@@ -3,8 +3,9 @@
 import { COLOURS, nutOf, rangeOf } from "./ball_places.js";
 import { POSITION } from "./cards/quantities.js";
 import * as parts from "./chart_parts.js";
+import { hide } from "./chart_place.js";
 import { byId, element, scrolling, table, update } from "./dom.js";
-import { draw, hide } from "./plot.js";
+import { draw } from "./plot.js";
 import { text } from "./texts.js";
 import * as units from "./units.js";
 

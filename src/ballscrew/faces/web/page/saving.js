@@ -1,7 +1,7 @@
 // Files that the page saves. Their names begin with that of the design.
 
 import { current, fileName } from "./designs.js";
-import { element } from "./dom.js";
+import { saveFile } from "./dom.js";
 
 /**
  * Save a file.
@@ -10,10 +10,5 @@ import { element } from "./dom.js";
  * @param {Blob} content
  */
 export function save(name, content) {
-  const address = URL.createObjectURL(content);
-  const link = element("a", { href: address, download: `ballscrew-${fileName(current())}${name}` });
-  document.body.append(link);
-  link.click();
-  link.remove();
-  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+  saveFile(`ballscrew-${fileName(current())}${name}`, content);
 }

@@ -1,6 +1,6 @@
 // Scales of axes: where values lie on a chart, and the round numbers along them.
 
-import { digits, withPowers } from "./units.js";
+import { digits, withPowers } from "./digits.js";
 
 /** Steps between round numbers. */
 const STEPS = [1, 2, 5, 10];

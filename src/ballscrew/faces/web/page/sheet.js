@@ -4,6 +4,7 @@
 import { jump } from "./cards.js";
 import { button, opened } from "./controls.js";
 import { csv, element, scrollingTable } from "./dom.js";
+import { between } from "./figure_words.js";
 import { save } from "./saving.js";
 import { draw, slug } from "./sheet_charts.js";
 import { sentence, text } from "./texts.js";
@@ -171,7 +172,7 @@ function isBand(low, high) {
  * @param {(end: number, toward: number) => string} written
  */
 function inBand(low, high, written) {
-  return text("sheet.band", { low: written(Number(low), -1), high: written(high, 1) });
+  return between(written(Number(low), -1), written(high, 1));
 }
 
 /** A button that saves columns as a table, in the units of the page. @param {string} name @param {Column[]} columns */

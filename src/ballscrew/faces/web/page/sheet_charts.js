@@ -1,5 +1,6 @@
 // The charts of sheets: curves with bands and lines, bars of parts, and maps, as figures in the units of the page.
 
+import { LOW_AND_HIGH, VALUE } from "./figure_words.js";
 import * as plot from "./plot.js";
 import { extent } from "./scale.js";
 import { text } from "./texts.js";
@@ -192,8 +193,7 @@ function numbersOfBars(bars, quantity) {
       part ? "" : beside,
     ]),
   );
-  const ends = [text("sheet.low", { name: "" }), text("sheet.high", { name: "" })].map((one) => one.trim());
-  return [["", titled(text("sheet.value"), quantity), ...ends, ""], rows];
+  return [["", titled(VALUE, quantity), ...LOW_AND_HIGH, ""], rows];
 }
 
 // -- maps -------------------------------------------------------------------------------------------

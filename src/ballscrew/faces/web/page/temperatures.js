@@ -1,7 +1,8 @@
 // Cold and hot: the friction torque, and whether the load drives the screw, over the temperature of the oil.
 
-import { OUTSIDE, operationOf, valuesOf } from "./chart_parts.js";
+import { operationOf, valuesOf } from "./chart_parts.js";
 import { byId, element, scrolling, table } from "./dom.js";
+import { OUTSIDE } from "./figure_parts.js";
 import { data } from "./results.js";
 import { text } from "./texts.js";
 import * as units from "./units.js";

@@ -1,17 +1,16 @@
 // Units. Inputs are kept as text with a unit, as they were typed; only what is displayed is converted.
 
 import { currentLead } from "./designs.js";
+import { DIGITS, digits } from "./digits.js";
 import { store } from "./store.js";
 import { vocabulary } from "./vocabulary.js";
+
+export { DIGITS, digits, withPowers } from "./digits.js";
 
 const NUMBER = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(.*?)\s*$/i;
 const COMMA = /^(\s*[-+]?\d*),(\d+)/;
 /** Results that have the units of another one. @type {Record<string, string>} */
 const SAME_UNIT = { preload_drag: "screw_torque" };
-/** Significant digits of a number, with a band as without: those of the command line. */
-export const DIGITS = 4;
-/** Digits beyond which a number is that of its rounding errors. */
-const EXACT = 12;
 /** How far the full-width forms stand behind those of ASCII. */
 const FULL_WIDTH = 0xfee0;
 
@@ -174,37 +173,6 @@ export function digitsIn(text, unit, si) {
   return String(Number(fromSI(toSI(found.number, found.unit, si), unit, si).toPrecision(10)));
 }
 
-/**
- * A number to some significant digits, without trailing zeros: to the nearest, or down or up.
- *
- * @param {number | null | undefined} value
- * @param {number} [toward] -1 and 1 for the ends of a band, which are rounded outward
- */
-export function digits(value, count = DIGITS, toward = 0) {
-  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
-  const rounded = toward ? directed(value, count, toward) : Number(value.toPrecision(count));
-  return Math.abs(rounded) >= 1e6 || (rounded !== 0 && Math.abs(rounded) < 1e-4)
-    ? rounded.toExponential().replace("e+", "e")
-    : String(rounded);
-}
-
-/**
- * The next number of so many digits below or above.
- *
- * @param {number} value
- * @param {number} count
- * @param {number} toward
- */
-function directed(value, count, toward) {
-  const exact = Number(value.toPrecision(EXACT));
-  const nearest = Number(exact.toPrecision(count));
-  if ((exact - nearest) * toward <= 0) return nearest;
-  // of the exact number: the nearest one may be a power of ten above it
-  const exponent = Number(exact.toExponential().split("e")[1]);
-  const step = 10 ** (exponent - count + 1);
-  return Number((nearest + toward * step).toPrecision(count));
-}
-
 /** @param {string} name */
 function resultOf(name) {
   return vocabulary.results[SAME_UNIT[name] ?? name];
@@ -270,20 +238,6 @@ export function formattedIn(value, metric, si, count = DIGITS) {
   if (si === "1") return digits(value, count);
   const unit = inSystem(metric);
   return withUnit(value === null || value === undefined ? value : fromSI(value, unit, si), unit, count);
-}
-
-const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";
-
-/**
- * A number with the exponent of programs as people write it: 9.56 · 10⁶.
- *
- * @param {string} written
- */
-export function withPowers(written) {
-  return written.replace(
-    /e(\d+)/,
-    (_, power) => `\u00a0·\u00a010${[...power].map((one) => RAISED[Number(one)]).join("")}`,
-  );
 }
 
 /**

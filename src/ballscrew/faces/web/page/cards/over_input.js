@@ -1,13 +1,15 @@
 // A result over any input: one curve for each design, all at one load and speed or each at its own.
 
 import * as parts from "../chart_parts.js";
+import { showFailure } from "../chart_place.js";
 import * as designs from "../designs.js";
 import { menu, textField } from "../controls.js";
 import { element } from "../dom.js";
+import { linesByValidity, pointAt } from "../figure_parts.js";
 import { yesOrNo } from "../figure_words.js";
 import { inWords } from "../messages.js";
 import { labelIn } from "../fields.js";
-import { draw, showFailure } from "../plot.js";
+import { draw } from "../plot.js";
 import { numbersOf } from "../results.js";
 import { definition, fieldOf, SECTIONS } from "../schema.js";
 import { linesOf, Problem } from "../server.js";
@@ -374,8 +376,8 @@ function chart(all, { path, output }) {
       y: { title: y, zero: true },
       marks: curves.flatMap(({ name, place, at, ...one }) => {
         const colour = COLOURS[place % COLOURS.length];
-        const lines = parts.linesByValidity(one.x, one.y, one.valid, name, colour, STYLES[lineOf(place)]);
-        return [...lines, parts.pointAt(at[0], at[1], colour)];
+        const lines = linesByValidity(one.x, one.y, one.valid, name, colour, STYLES[lineOf(place)]);
+        return [...lines, pointAt(at[0], at[1], colour)];
       }),
     },
     numbers: () => [

@@ -5,11 +5,8 @@ import { drawFigure } from "./figure.js";
 import { vertical } from "./figure_marks.js";
 import { follow } from "./figure_pointer.js";
 import { legendOf, numbersOf, readingElement } from "./figure_words.js";
-import * as point from "./operating_point.js";
 import { forget, ofScreen, PAPER, shade } from "./palette.js";
 import { CanvasPen, corners, SvgPen, widthOf } from "./pen.js";
-import { save } from "./saving.js";
-import { text, textOr } from "./texts.js";
 
 /** @typedef {import("./figure.js").Figure} Figure */
 /** @typedef {import("./figure.js").Frame} Frame */
@@ -24,7 +21,18 @@ import { text, textOr } from "./texts.js";
  * @property {string} caption
  * @property {Figure} figure
  * @property {() => import("./figure_words.js").Numbers} [numbers] where they are not those of the figure
- * @property {import("./operating_point.js").Handle} [drag] its operating point, where that can be dragged
+ * @property {Drag} [drag] what moves its operating point, where that can be dragged
+ * @property {(name: string, content: Blob) => void} save a file of the chart, by what its name ends with
+ */
+/**
+ * What moves an operating point: where it is drawn for a place of the pointer, in the values of the axes; ``moved`` is true
+ * where somebody draws it there, else it alone is drawn.
+ *
+ * @typedef {object} Drag
+ * @property {(x: number, y: number) => [number, number]} place
+ * @property {(at: [number, number]) => boolean} moved
+ * @property {(at: [number, number]) => void} dropped
+ * @property {() => void} left where it was
  */
 
 /** Size of a chart on paper, in a file, and dots of a pixel on paper. */
@@ -206,7 +214,7 @@ class Place {
   }
 
   #saveSvg() {
-    const { name, description, figure } = /** @type {Chart} */ (this.#chart);
+    const { name, description, figure, save } = /** @type {Chart} */ (this.#chart);
     const height = Math.max(
       IN_FILE.height,
       Number.parseFloat(this.holder.style.getPropertyValue("--plot-height")) || 0,
@@ -228,8 +236,8 @@ class Place {
 
   /** @param {Chart} chart */
   #build({ name }) {
-    const words = textOr(`chart.name.${name}`, name.replaceAll("_", " ")); // many charts have the same buttons
-    const summary = element("summary", {}, text("chart.numbers"), element("span", { class: "hidden" }, `: ${words}`));
+    const words = name.replaceAll("_", " "); // many charts have the same buttons
+    const summary = element("summary", {}, "Numbers", element("span", { class: "hidden" }, `: ${words}`));
     const details = element("details", {}, summary);
     details.addEventListener("toggle", () => this.#showNumbers());
     /** @param {string} label @param {() => void} action @param {boolean} [hidden] */
@@ -239,7 +247,8 @@ class Place {
         { type: "button", class: hidden ? "whole" : "", hidden, onclick: action, "aria-label": `${label}: ${words}` },
         label,
       );
-    const saveCsv = () => save(`-${this.#chart?.name}.csv`, new Blob([csv(...this.#numbers())], { type: "text/csv" }));
+    const saveCsv = () =>
+      this.#chart?.save(`-${this.#chart.name}.csv`, new Blob([csv(...this.#numbers())], { type: "text/csv" }));
     const showWhole = () => {
       this.#enlarge({});
       summary.focus(); // the button is gone
@@ -253,7 +262,7 @@ class Place {
         "div",
         { class: "beside" },
         details,
-        button(text("chart.whole"), showWhole, true),
+        button("Whole chart", showWhole, true),
         button("CSV", saveCsv),
         button("SVG", () => this.#saveSvg()),
       ),
@@ -296,14 +305,14 @@ class Place {
         const handle = this.#chart?.drag;
         if (!handle) return;
         this.#dragged = handle.place(...at);
-        if (!point.isFollowed(handle, this.#dragged)) this.paint();
+        if (!handle.moved(this.#dragged)) this.paint();
       },
       drop: (isDropped) => {
         const [handle, at] = [this.#chart?.drag, this.#dragged];
         this.#dragged = undefined;
-        if (isDropped && handle && at) point.take(handle, at);
+        if (isDropped && handle && at) handle.dropped(at);
         else {
-          point.letGo();
+          handle?.left();
           this.paint();
         }
       },
@@ -355,17 +364,25 @@ function placeOf(holder) {
 }
 
 /** Draw all charts of the page again. @param {() => Palette} palette @param {Size} [size] */
-function redraw(palette, size) {
+function redrawAll(palette, size) {
   for (const holder of document.querySelectorAll(".chart")) places.get(holder)?.redraw(palette(), size);
 }
 
-for (const holder of document.querySelectorAll(".chart")) placeOf(holder);
-addEventListener("beforeprint", () => redraw(() => PAPER, ON_PAPER));
-addEventListener("afterprint", () => redraw(ofScreen));
-matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+/** Draw all charts on paper, those that nobody has seen as well. */
+export function drawOnPaper() {
+  redrawAll(() => PAPER, ON_PAPER);
+}
+
+/** Draw all charts on the screen, whose colours may be others now. */
+export function drawOnScreen() {
   forget();
-  redraw(ofScreen);
-});
+  redrawAll(ofScreen);
+}
+
+for (const holder of document.querySelectorAll(".chart")) placeOf(holder);
+addEventListener("beforeprint", drawOnPaper);
+addEventListener("afterprint", drawOnScreen);
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawOnScreen);
 
 /** Draw a chart in its place: at once where that is seen, else when it is. @param {string} id @param {Chart} chart */
 export function draw(id, chart) {
@@ -409,5 +426,5 @@ export function showWords(id, words) {
 
 /** The reason in place of a chart that could not be computed. @param {string} id @param {string} reason */
 export function showFailure(id, reason) {
-  showWords(id, text("chart.none", { reason }));
+  showWords(id, `This chart could not be computed: ${reason}`);
 }
