@@ -175,7 +175,7 @@ def walks() -> dict[str, tuple[Callable[[], None], Test]]:
 # -- one key on the page ----------------------------------------------------------------------------
 
 #: Modules of the page that write words, numbers and elements.
-LEAVES = ("dom.js", "messages.js", "plot.js", "schema.js", "symbols.js", "texts.js", "units.js")
+LEAVES = ("dom.js", "messages.js", "plot.js", "schema.js", "symbols.js", "units.js")
 #: The head of a function or a method up to its parameters, and what is put at the beginning of its body.
 FUNCTION = re.compile(r"^ *(?:(?:export )?(?:async )?function\*? \w+|(?:async )?#?\w+)\(", re.MULTILINE)
 MARK = 'globalThis.walk?.push("{}");'

@@ -63,7 +63,8 @@ ALLOWED = {
     "needs.js": {'place.split(".")': PATHS},
     "operating_point.js": {'path.replaceAll(".", "-")': PATHS},
     "sheet_charts.js": {'slug(block.title)': ADDRESSES, 'words.toLowerCase().replaceAll(': ADDRESSES},
-    "plot.js": {'name.replaceAll("_", " ")': NAMES},
+    "chart_place.js": {'name.replaceAll("_", " ")': NAMES},
+    "digits.js": {"toExponential()": NUMBERS, "written.replace(": NUMBERS, "/e(\\d+)/": NUMBERS},
     "results.js": {"replaceAll(/[._]/g": NAMES},
     "schema.js": {'$ref?.split("/")': PATHS, 'path.split(".")': PATHS},
     "server.js": {'.split("\\n")': "lines of JSON"},
@@ -71,14 +72,12 @@ ALLOWED = {
                  'path.split(".")': PATHS, ".test(text.trim())": TYPED},
     "stiffness.js": {'path.split(".")': PATHS, 'path.replace(".", "-")': PATHS},
     "symbols.js": {"tex.replace(": "TeX of a symbol", ".exec(text)": "TeX of a symbol"},
-    "texts.js": {"const PLACEHOLDER = ": "places of values in a template", "pattern.replace(PLACEHOLDER": "the same",
-                 "const isWord = ": "a capital for a word, none for a file", "/[.:]$/.test(line)": "a full stop"},
+    "sentence.js": {"const isWord = ": "a capital for a word, none for a file", "/[.:]$/.test(line)": "a full stop"},
     "views.js": {'address).split(".")': ADDRESSES, '"").split(" ")': ADDRESSES},
     "units.js": {"const NUMBER = ": TYPED, "const COMMA = ": TYPED,
                  "text.replace(COMMA": TYPED, "/[1-9]/.test(before)": TYPED,
                  '.replaceAll("\\u': TYPED, ".replace(/[\\uff01": TYPED,
-                 "NUMBER.exec(": TYPED, "toExponential()": NUMBERS,
-                 "written.replace(": NUMBERS, "/e(\\d+)/": NUMBERS},
+                 "NUMBER.exec(": TYPED},
 }  # fmt: skip
 
 

@@ -16,7 +16,6 @@ from starlette.responses import Response
 from starlette.staticfiles import NotModifiedResponse, StaticFiles
 from starlette.types import Scope
 
-from ballscrew.faces.web import page_texts
 from ballscrew.faces.web.endpoint_parts import takes_gzip
 
 #: Browsers keep files, and ask each time whether they have changed.
@@ -87,7 +86,7 @@ def add_to(app: FastAPI) -> None:
 def _page() -> tuple[bytes, bytes, str]:
     """The page as it is sent, plain and compressed, and its tag."""
     text = resources.files("ballscrew.faces.web").joinpath("page", "index.html").read_text(encoding="utf-8")
-    return _tagged(page_texts.filled(text))
+    return _tagged(text)
 
 
 def _tagged(text: str) -> tuple[bytes, bytes, str]:

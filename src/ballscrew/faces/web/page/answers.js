@@ -25,7 +25,6 @@ import { LETTERS } from "./state.js";
 import * as stiffness from "./stiffness.js";
 import { store } from "./store.js";
 import * as temperatures from "./temperatures.js";
-import { text } from "./texts.js";
 import { isSeen } from "./views.js";
 import { vocabulary } from "./vocabulary.js";
 
@@ -482,7 +481,7 @@ class Answers {
   async compareModels() {
     const { body } = this.#displayed;
     if (!body) return;
-    byId("models").textContent = text("models.pending");
+    byId("models").textContent = "computing …";
     try {
       const found = await sendPatiently("compare", body);
       if (body !== this.#displayed.body) {
@@ -676,7 +675,7 @@ class Answers {
    */
   async #drawn(id, line, { signal }, draw) {
     if ("problem" in line) {
-      if (isLate(line)) showWords(id, text("long.computing", { what: text("long.of.sweep") }));
+      if (isLate(line)) showWords(id, "Curve: goes on in the background …");
       else showFailure(id, new Problem(line.problem).lines.join("; "));
       return;
     }

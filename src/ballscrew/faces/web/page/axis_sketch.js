@@ -6,11 +6,25 @@ import { labelIn } from "./fields.js";
 import { fieldOf } from "./schema.js";
 import { line, polygon, shape } from "./shapes.js";
 import { valueAt } from "./state.js";
-import { text } from "./texts.js";
 import * as units from "./units.js";
 
+/** Parts of the axis in words. @type {Record<string, string>} */
+const PARTS_IN_WORDS = {
+  counterweight: "counterweight",
+  coupling: "coupling and inertia",
+  ends: "ends of the shaft",
+  fixed: "fixed bearing",
+  guides: "guides",
+  inclination: "inclination",
+  load: "axial load",
+  motor: "motor",
+  mount: "housing",
+  nut: "nut, preload",
+  shaft: "shaft, free length",
+  table: "table, moved mass",
+};
+
 /** @typedef {import("./state.js").Tables} Tables */
-/** @typedef {import("./texts.js").Key} Key */
 /**
  * A part of the axis: the fields that may say something of it, the first one that the case has before the others, and
  * where its picture is.
@@ -194,8 +208,8 @@ export function sketch(tables, inputs) {
     const group = shape("g", { class: isGiven ? "part" : "part absent", "data-part": part.name }, ...part.draw(found));
     group.addEventListener("click", () => jump(found.path));
     drawn.push(group);
-    const name = text(/** @type {Key} */ (`axis_sketch.${part.name}`));
-    const value = found.value ?? text("axis_sketch.not_given");
+    const name = PARTS_IN_WORDS[part.name];
+    const value = found.value ?? "not given";
     /** @param {boolean} isOn */
     const mark = (isOn) => group.classList.toggle("pointed", isOn);
     return element(
@@ -221,14 +235,19 @@ export function sketch(tables, inputs) {
   const below = PARTS.below.map(made);
   const picture = shape(
     "svg",
-    { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", "aria-label": text("axis_sketch.label") },
+    {
+      viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
+      role: "img",
+      "aria-label":
+        "Sketch of the axis from left to right: motor, coupling, fixed bearing, screw with nut and table on its guides, support bearing. The buttons above and below it are its parts.",
+    },
     // the shaft runs through the others
     ...drawn.toSorted((one, other) => Number(other.dataset.part === "shaft") - Number(one.dataset.part === "shaft")),
   );
   return element(
     "figure",
     { class: "axis-sketch" },
-    element("figcaption", {}, text("axis_sketch.caption")),
+    element("figcaption", {}, "the axis, not to scale: a part leads to its input; what the case lacks is dashed"),
     element("div", { class: "parts-of-axis" }, ...above),
     picture,
     element("div", { class: "parts-of-axis" }, ...below),

@@ -1,7 +1,6 @@
 // Balls of a nut for its pictures: each at its place on the helix, with its load by the answer. Geometry alone is worked
 // out here: loads and sizes are those of the answer, and what stands for a size that it has not is said.
 
-import { text } from "./texts.js";
 import { vocabulary } from "./vocabulary.js";
 
 /**
@@ -62,11 +61,13 @@ export function nutOf(answer) {
   const halves = vocabulary.nuts[nut.type ?? ""]?.halves ?? 1;
   if (![pitch, lead, ball, loaded].every((one) => typeof one === "number" && one > 0)) return undefined;
   if (loaded * halves > MOST_BALLS) return undefined;
-  const notes = [text("nut_picture.touching")];
-  /** @param {unknown} given @param {number} usual @param {import("./texts.js").Key} key */
-  const size = (given, usual, key) => {
+  const notes = [
+    "balls that touch along one helix, without returns, flange and seals: turns and length are those of the loaded balls",
+  ];
+  /** @param {unknown} given @param {number} usual @param {string} words */
+  const size = (given, usual, words) => {
     if (typeof given === "number") return given;
-    notes.push(text(key));
+    notes.push(words);
     return usual;
   };
   const slope = Math.atan(lead / (Math.PI * pitch));
@@ -76,7 +77,7 @@ export function nutOf(answer) {
   const all = placesOfHalf(loaded, carrying, { step, starts, lead, isSpaced });
   const last = all.filter((one) => !one.isSpacer).at(-1) ?? all[0];
   const between = nut.spacing || lead;
-  if (halves > 1 && !nut.spacing) notes.push(text("nut_picture.spacing"));
+  if (halves > 1 && !nut.spacing) notes.push("halves one lead apart: their distance is not given");
   const loads = loadsOf(answer, halves, carrying);
   const balls = Array.from({ length: halves }, (_, half) => {
     let place = 0;
@@ -103,9 +104,21 @@ export function nutOf(answer) {
     lead,
     starts,
     between,
-    root: size(screw.root_diameter ?? bodies.screw_diameter, pitch - ball, "nut_picture.root"),
-    outer: size(undefined, pitch - THREAD * ball, "nut_picture.outer"),
-    width: size(bodies.nut_outer_diameter, WIDTH * pitch, "nut_picture.width"),
+    root: size(
+      screw.root_diameter ?? bodies.screw_diameter,
+      pitch - ball,
+      "a root diameter of the pitch circle less a ball",
+    ),
+    outer: size(
+      undefined,
+      pitch - THREAD * ball,
+      "an outer diameter of the thread of the pitch circle less a third of a ball",
+    ),
+    width: size(
+      bodies.nut_outer_diameter,
+      WIDTH * pitch,
+      "an outer diameter of the nut of one and a half pitch circles",
+    ),
     notes,
   };
 }

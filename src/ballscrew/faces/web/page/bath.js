@@ -2,7 +2,6 @@
 
 import * as designs from "./designs.js";
 import { byId } from "./dom.js";
-import { text } from "./texts.js";
 import * as units from "./units.js";
 
 const PATH = "model.inlet.replenishment_constant";
@@ -21,7 +20,7 @@ export function isStarved(answer) {
 /** The torque of the full bath in words, for the headline of a result that is starved. @param {Run} answer */
 export function inHeadline(answer) {
   if (!isStarved(answer)) return "";
-  return ` ${text("bath.beside", { torque: units.formatted("screw_torque", floodedTorque(answer)) })}`;
+  return ` Starved of oil: in a full bath the friction torque is ${units.formatted("screw_torque", floodedTorque(answer))}.`;
 }
 
 /** True where the button has filled the bath of the current design. */
@@ -33,7 +32,7 @@ function isFull() {
 export function show(answer) {
   const button = byId("bath");
   button.hidden = !isFull() && !isStarved(answer);
-  button.textContent = text(isFull() ? "bath.undo" : "bath.fill");
+  button.textContent = isFull() ? "Compute without the full bath of oil" : "Compute with a full bath of oil";
 }
 
 /** Fill the bath of the current design, or leave that out again. */

@@ -8,7 +8,6 @@ import { yesOrNo } from "./figure_words.js";
 import { draw } from "./plot.js";
 import { data, greatestPressure, leastFilm } from "./results.js";
 import { extent } from "./scale.js";
-import { text } from "./texts.js";
 import * as units from "./units.js";
 
 /** @typedef {import("./figure.js").Mark} Mark */
@@ -18,21 +17,21 @@ import * as units from "./units.js";
 const SHADES = ["#8296b5", "#c3b98c", "#ffe945"];
 /** @type {Record<string, string>} */
 const FILMS = {
-  screw_film_parameter: text("contact.screw"),
-  nut_film_parameter: text("contact.nut"),
-  minimum_film_parameter: text("film.least"),
+  screw_film_parameter: "ball and screw",
+  nut_film_parameter: "ball and nut",
+  minimum_film_parameter: "least of all contacts",
 };
 /** @type {Record<string, string>} */
 const PRESSURES = {
-  screw_maximum_pressure: text("contact.screw"),
-  nut_maximum_pressure: text("contact.nut"),
-  maximum_pressure: text("pressure.greatest"),
+  screw_maximum_pressure: "ball and screw",
+  nut_maximum_pressure: "ball and nut",
+  maximum_pressure: "greatest of all balls",
 };
 /** Regimes of lubrication, and where the next one begins. @type {[string, number, number, string][]} */
 const REGIMES = [
-  [text("film.boundary"), 0, 1, "red"],
-  [text("film.mixed"), 1, 3, "orange"],
-  [text("contact.full"), 3, Number.POSITIVE_INFINITY, "green"],
+  ["boundary", 0, 1, "red"],
+  ["mixed", 1, 3, "orange"],
+  ["full film", 3, Number.POSITIVE_INFINITY, "green"],
 ];
 /** How far the axis of the Stribeck curve goes beyond it, as a factor. */
 const BEYOND = 1.15;
@@ -58,7 +57,7 @@ export function wordsOf(name, mechanisms) {
 function bandsOf(banded) {
   if (!banded) return [];
   if (typeof banded === "string") {
-    return [{ kind: "level", name: text("chart.no_band", { reason: banded }), colour: "soft" }];
+    return [{ kind: "level", name: `no band: ${banded}`, colour: "soft" }];
   }
   const x = parts.converted("screw_speed", banded.axes.screw_speed);
   const { low, high, inner } = banded.outputs.screw_torque;
@@ -67,14 +66,14 @@ function bandsOf(banded) {
     const share = units.digits(100 * (level ?? 0));
     const names =
       "isWidest" in ends
-        ? [text("chart.low"), text("chart.high")]
-        : [text("chart.low_of", { share }), text("chart.high_of", { share })];
+        ? ["lower end of the band", "upper end of the band"]
+        : [`lower end, ${share} % of the samples`, `upper end, ${share} % of the samples`];
     const [lows, highs] = [ends.low, ends.high].map((values) =>
       parts.converted("screw_torque", { values: values ?? [] }),
     );
     return {
       kind: "band",
-      name: text("chart.band", { share }),
+      name: `band: ${share} % of the samples of inputs and laws`,
       x,
       low: lows,
       high: highs,
@@ -132,21 +131,21 @@ export function torque(swept, answer, mechanisms, banded) {
     return total[place];
   };
   const note = element("span", { class: "value" }, data("screw_torque", sum));
-  const title = parts.titled("screw_torque", text("chart.torque"));
+  const title = parts.titled("screw_torque", "friction torque");
   draw("torque-chart", {
     name: "torque_over_speed",
     drag: { x: "screw_speed", place: (at) => [at, nearest(at)] },
-    caption: text("speed.caption", { load }),
-    description: text("speed.description", { load, total: units.formatted("screw_torque", sum) }),
+    caption: `friction torque and its parts at ${load}`,
+    description: `Friction torque against speed at ${load}, stacked by mechanism. At the operating point ${units.formatted("screw_torque", sum)}.`,
     figure: {
-      x: { title: parts.titled("screw_speed", text("chart.speed")) },
+      x: { title: parts.titled("screw_speed", "speed of the screw") },
       y: { title, zero: true },
       marks: [
         ...stacked,
         ...bandsOf(banded),
         {
           kind: "curve",
-          name: text("chart.sum"),
+          name: "sum",
           x: speeds,
           y: total,
           colour: "ink",
@@ -189,20 +188,20 @@ export function map(swept, answer) {
   const [from, to] = extent(values.flat()) ?? [0, 1];
   const operation = parts.operationOf(answer);
   const efficiency = units.digits(answer.results.efficiency ?? answer.results.back_driving_efficiency);
-  const words = text("chart.efficiency");
+  const words = "efficiency";
   const valid = byLoad(/** @type {boolean[][]} */ (swept.outputs.valid.values));
   draw("map-chart", {
     name: "efficiency_map",
     drag: { x: "screw_speed", y: "axial_load", place: (at, load) => [at, load] },
-    caption: text("map.caption"),
-    description: text("map.description", { efficiency }),
+    caption: "efficiency over axial load (down) and speed (across)",
+    description: `Efficiency over axial load and speed; at the operating point ${efficiency}.`,
     figure: {
       x: {
-        title: parts.titled("screw_speed", text("chart.speed")),
+        title: parts.titled("screw_speed", "speed of the screw"),
         from: Math.min(...speeds),
         to: Math.max(...speeds),
       },
-      y: { title: parts.titled("axial_load", text("chart.load")), from: Math.min(...loads), to: Math.max(...loads) },
+      y: { title: parts.titled("axial_load", "axial load"), from: Math.min(...loads), to: Math.max(...loads) },
       marks: [
         {
           kind: "grid",
@@ -214,7 +213,15 @@ export function map(swept, answer) {
           colour: "",
           shades: { from, to, title: words, colours: SHADES },
         },
-        ...(isDriven ? [/** @type {Mark} */ ({ kind: "level", name: text("map.driven"), colour: "soft" })] : []),
+        ...(isDriven
+          ? [
+              /** @type {Mark} */ ({
+                kind: "level",
+                name: "load and speed of opposite signs: the load drives the screw",
+                colour: "soft",
+              }),
+            ]
+          : []),
         { kind: "outside", name: OUTSIDE, x: [], valid: valid.flat() },
         pointAt(
           units.inDisplayUnit("screw_speed", operation.screw_speed),
@@ -274,11 +281,11 @@ export function film(swept, answer) {
   }));
   draw("film-chart", {
     name: "film_over_speed",
-    caption: text("film.caption"),
-    description: text("film.description", { film: units.digits(now) }),
+    caption: "film parameter over speed",
+    description: `Film parameter against speed; ${units.digits(now)} at the operating point.`,
     figure: {
-      x: { title: parts.titled("screw_speed", text("chart.speed")) },
-      y: { title: text("results.of_contact.film_parameter"), from: 0, to: highest },
+      x: { title: parts.titled("screw_speed", "speed of the screw") },
+      y: { title: "film parameter λ", from: 0, to: highest },
       marks: [
         ...zones,
         ...curves,
@@ -300,11 +307,11 @@ export function pressure(swept, answer) {
   const now = greatestPressure(answer);
   draw("pressure-chart", {
     name: "pressure_over_load",
-    caption: text("pressure.caption"),
-    description: text("pressure.description", { pressure: units.formatted("maximum_pressure", now) }),
+    caption: "greatest contact pressure over axial load",
+    description: `Greatest contact pressure against axial load; ${units.formatted("maximum_pressure", now)} at the operating point.`,
     figure: {
-      x: { title: parts.titled("axial_load", text("chart.load")) },
-      y: { title: parts.titled("maximum_pressure", text("results.of_contact.maximum_pressure")), zero: true },
+      x: { title: parts.titled("axial_load", "axial load") },
+      y: { title: parts.titled("maximum_pressure", "greatest pressure"), zero: true },
       marks: [
         ...sides(loads, swept, PRESSURES),
         outside(loads, parts.validAlong(swept)),
@@ -349,10 +356,10 @@ function pointsOf(swept, speed) {
     .sort((one, other) => one.film - other.film);
 }
 
-/** Which text names a regime by its ends. @param {number} from @param {number} to */
-function keyOf(from, to) {
-  if (!from) return "stribeck.below";
-  return Number.isFinite(to) ? "stribeck.between" : "stribeck.above";
+/** The film parameters of a regime. @param {number} from @param {number} to */
+function rangeOf(from, to) {
+  if (!from) return `λ below ${to}`;
+  return Number.isFinite(to) ? `λ from ${from} to ${to}` : `λ above ${from}`;
 }
 
 /**
@@ -377,7 +384,7 @@ export function stribeck(swept, answer) {
   const zones = REGIMES.filter(([, from, to]) => Math.max(from, low) < Math.min(to, high)).map(
     ([words, from, to, colour]) => ({
       kind: "zone",
-      name: text(keyOf(from, to), { name: words, from, to }),
+      name: `${words}: ${rangeOf(from, to)}`,
       words,
       along: "x",
       from: Math.max(from, low),
@@ -386,31 +393,27 @@ export function stribeck(swept, answer) {
     }),
   );
   const torqueNow = answer.results.screw_torque;
-  const title = parts.titled("screw_torque", text("chart.torque"));
+  const title = parts.titled("screw_torque", "friction torque");
   const regime = (now && REGIMES.find(([, , to]) => now < to)?.[0]) || "";
   const lines = linesByValidity(
     films,
     points.map((one) => one.torque),
     points.map(({ valid }) => valid),
-    text("chart.torque"),
+    "friction torque",
     "accent",
   );
-  const x = text("stribeck.film");
+  const x = "least film parameter λ";
   draw("stribeck-chart", {
     name: "stribeck_curve",
-    caption: text("stribeck.caption", { load: units.formatted("axial_load", load) }),
-    description: text("stribeck.description", {
-      film: units.digits(now),
-      torque: units.formatted("screw_torque", torqueNow),
-      regime,
-    }),
+    caption: `friction torque over the film parameter at ${units.formatted("axial_load", load)}`,
+    description: `Friction torque against the least film parameter as the speed varies. At the operating point λ is ${units.digits(now)}, the torque ${units.formatted("screw_torque", torqueNow)}: ${regime}.`,
     figure: {
       x: { title: x, log: true, from: low, to: high },
       y: { title, zero: true },
       marks: [...zones, ...lines, pointAt(now, units.inDisplayUnit("screw_torque", torqueNow))],
     },
     numbers: () => [
-      [x, title, parts.titled("screw_speed", text("chart.speed")), text("chart.valid")],
+      [x, title, parts.titled("screw_speed", "speed of the screw"), "valid"],
       points.map((one) => [one.film, one.torque, one.speed, yesOrNo(one.valid)]),
     ],
   });

@@ -2,17 +2,17 @@
 
 import { jump } from "./cards.js";
 import { byId, element, table, update } from "./dom.js";
-import { text, textOr } from "./texts.js";
+import { CHECKS } from "./names.js";
 import * as units from "./units.js";
 
 /** Display units, by SI unit. @type {Record<string, string>} */
 const SHOWN_IN = { N: "kN", Pa: "MPa", s: "h", "rad/s": "rpm", "m rad/s": "mm rpm" };
-/** The field to fill in, by the input that a check lacks. @type {Record<string, [string, import("./texts.js").Key]>} */
+/** The field to fill in, by the input that a check lacks. @type {Record<string, [string, string]>} */
 const FIELDS = {
-  installation: ["installation.unsupported_length", "checks.give.installation"],
-  "limits.running_time": ["limits.running_time", "checks.give.running_time"],
-  dynamic_load_rating: ["screw.dynamic_load_rating", "checks.give.dynamic_load_rating"],
-  static_load_rating: ["screw.static_load_rating", "checks.give.static_load_rating"],
+  installation: ["installation.unsupported_length", "give unsupported length and ends"],
+  "limits.running_time": ["limits.running_time", "give required running time"],
+  dynamic_load_rating: ["screw.dynamic_load_rating", "give dynamic load rating"],
+  static_load_rating: ["screw.static_load_rating", "give static load rating"],
 };
 /** Shares of a limit from which a bar is coloured as close to it. */
 const CLOSE = 0.8;
@@ -40,7 +40,7 @@ export function ofCycle({ checks: all }) {
  * @param {OneCheck} check
  */
 function nameOf({ name }) {
-  return textOr(`checks.name.${name}`, name.replaceAll("_", " "));
+  return CHECKS[name] ?? name.replaceAll("_", " ");
 }
 
 /**
@@ -50,17 +50,17 @@ function nameOf({ name }) {
  * @param {Judged} found
  */
 export function verdict(found) {
-  return found.isOfCycle ? text("checks.of_cycle", { verdict: inWords(found) }) : inWords(found);
+  return found.isOfCycle ? `Over the cycle: ${inWords(found)}` : inWords(found);
 }
 
 /** @param {Judged} found */
 function inWords({ checks, judged, holds }) {
   const all = checks.length;
   const failed = checks.filter((one) => one.holds === false).map(nameOf);
-  const rest = judged < all ? ` ${text("checks.judged", { judged, all })}` : "";
-  if (failed.length) return `${text("checks.fail", { names: failed.join(", ") })}${rest}`;
-  if (holds) return text("checks.all_hold", { all });
-  return `${text("checks.some_hold", { some: judged })}${rest}`;
+  const rest = judged < all ? ` ${judged} of ${all} checks judged.` : "";
+  if (failed.length) return `Fails: ${failed.join(", ")}.${rest}`;
+  if (holds) return `All ${all} checks hold.`;
+  return `${judged} checks hold.${rest}`;
 }
 
 /**
@@ -99,8 +99,8 @@ function limitOf(check, all) {
   const speed = all.find(({ name }) => name === "motor_speed");
   const words =
     check.name === "motor_peak_torque" && check.limit === 0 && speed
-      ? text("checks.no_torque", { largest: shown(speed, speed.limit), needed: shown(speed, speed.value) })
-      : text("checks.limit", { limit: shown(check, check.limit) });
+      ? `the motor has no torque above ${shown(speed, speed.limit)}, where its curve ends; ${shown(speed, speed.value)} are needed`
+      : `limit ${shown(check, check.limit)}`;
   return element("span", { class: "limit" }, check.limit === null ? "" : words);
 }
 
@@ -110,8 +110,8 @@ function limitOf(check, all) {
  * @param {number} share
  */
 function percentage(share) {
-  if (!Number.isFinite(share)) return text("checks.over");
-  if (share >= MULTIPLE) return text("checks.times", { times: units.digits(share, 2) });
+  if (!Number.isFinite(share)) return "over";
+  if (share >= MULTIPLE) return `${units.digits(share, 2)} times`;
   return `${units.digits(100 * share, share < 0.1 ? 2 : DIGITS_OF_SHARE)}\u00a0%`;
 }
 
@@ -133,10 +133,10 @@ function used(check) {
   const { utilisation, holds } = check;
   if (holds === null) {
     const [path, wanted] = FIELDS[check.missing] ?? [];
-    if (!path) return element("span", {}, `${text("checks.not_judged")} `, ...sourceOf(check));
-    const button = element("button", { type: "button", onclick: () => jump(path) }, text(wanted));
-    button.setAttribute("aria-label", `${nameOf(check)}: ${text(wanted)}`);
-    return element("span", {}, `${text("checks.not_judged")} `, button, " ", ...sourceOf(check));
+    if (!path) return element("span", {}, "not judged ", ...sourceOf(check));
+    const button = element("button", { type: "button", onclick: () => jump(path) }, wanted);
+    button.setAttribute("aria-label", `${nameOf(check)}: ${wanted}`);
+    return element("span", {}, "not judged ", button, " ", ...sourceOf(check));
   }
   const tone = toneOf(check);
   const fill = element("span");
@@ -147,7 +147,7 @@ function used(check) {
     { class: "used" },
     element("span", { class: `bar ${tone}`, "aria-hidden": "true" }, fill),
     element("data", { value: String(utilisation ?? "") }, percentage(share)),
-    element("strong", { class: tone }, text(holds ? "checks.holds" : "checks.fails")),
+    element("strong", { class: tone }, holds ? "holds" : "fails"),
     ...sourceOf(check),
   );
 }
@@ -159,16 +159,16 @@ function used(check) {
  */
 export function show(found) {
   if (!found) {
-    byId("checks").textContent = text("checks.none");
+    byId("checks").textContent = "The checks could not be computed.";
     return;
   }
   update(
     byId("checks"),
-    ...panel(found, text(found.isOfCycle ? "duty.checks_caption" : "checks.caption")),
+    ...panel(found, found.isOfCycle ? "checks of the whole cycle" : "life, strength and speed against their limits"),
     element(
       "p",
       { class: "small" },
-      `${text(found.isOfCycle ? "checks.note_of_cycle" : "checks.note")} `,
+      `${found.isOfCycle ? "Above 100 % a check fails. The life is the basic rating life L10, which 90 % of screws reach, with one cycle after the other: the operating point above is not judged as if it lasted for ever." : "Above 100 % a check fails. The life is the basic rating life L10, which 90 % of screws reach; the load is taken as constant."} `,
       ...notes(found),
     ),
   );
@@ -182,7 +182,7 @@ export function show(found) {
  */
 export function panel(found, caption) {
   const tone = found.checks.some((one) => one.holds === false) ? "careful" : found.holds ? "good" : "";
-  const headings = ["", text("checks.value"), text("checks.used")];
+  const headings = ["", "value and limit", "used"];
   const rows = found.checks.map((check) => [
     element("span", { title: check.text }, nameOf(check)),
     element("span", {}, numberOf(check), limitOf(check, found.checks)),
@@ -197,5 +197,5 @@ export function panel(found, caption) {
 /** What a limit rests on, where a check says it. @param {Judged} found */
 function notes({ checks }) {
   const source = checks.find((one) => one.name === "diameter_speed_product");
-  return source ? [text("checks.limit_source", { source: source.text })] : [];
+  return source ? [`d·n: ${source.text}.`] : [];
 }

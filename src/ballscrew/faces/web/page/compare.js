@@ -11,7 +11,7 @@ import { OF_CARDS, SECTIONS } from "./schema.js";
 import { draw } from "./sheet_charts.js";
 import { LETTERS } from "./state.js";
 import { store } from "./store.js";
-import { text } from "./texts.js";
+import { RESULTS } from "./names.js";
 import * as units from "./units.js";
 import { vocabulary } from "./vocabulary.js";
 
@@ -66,7 +66,7 @@ export function showDesigns(answers, starts, mechanisms) {
   const letters = Object.keys(answers);
   byId("compare-at").hidden = letters.length < 2;
   if (letters.length < 2) {
-    place.replaceChildren(element("p", {}, text("compare.one", { most: LETTERS.length })));
+    place.replaceChildren(element("p", {}, `Add a design above: up to ${LETTERS.length} are shown here side by side.`));
     byId("compare-chart").hidden = true;
     return;
   }
@@ -92,24 +92,22 @@ export function showDesigns(answers, starts, mechanisms) {
     return element("span", {}, data(name, value, rounded(name, value, known.band).text), change);
   };
   const rows = [
-    [text("compare.start"), ...starts],
-    [text("compare.changes"), ...letters.map((letter) => changesOf(LETTERS.indexOf(letter)))],
-    row(text("compare.case"), (run) => run.words.title),
-    ...ROWS.filter(isKnown).map((name) => row(text(`results.${name}`), cell(name))),
-    row(text("compare.band"), (run, { band }) => {
+    ["start", ...starts],
+    ["changed", ...letters.map((letter) => changesOf(LETTERS.indexOf(letter)))],
+    row("case", (run) => run.words.title),
+    ...ROWS.filter(isKnown).map((name) => row(RESULTS[name], cell(name))),
+    row("band of the friction torque, 95 %", (run, { band }) => {
       return rounded("screw_torque", run.results.screw_torque, band).interval ?? "–";
     }),
-    row(text("compare.film"), (run) => units.digits(leastFilm(run))),
-    row(text("results.of_contact.maximum_pressure"), (run) =>
-      units.formatted("maximum_pressure", greatestPressure(run)),
-    ),
-    row(text("compare.checks"), (_, { checks }) => (checks ? verdict(checks) : "–")),
-    row(text("compare.verdict"), (run) => joined(run.verdicts.map(nameOf))),
-    [text("compare.beware"), ...letters.map((letter) => answers[letter].reason ?? joined(beside(answers[letter].run)))],
+    row("least λ", (run) => units.digits(leastFilm(run))),
+    row("greatest pressure", (run) => units.formatted("maximum_pressure", greatestPressure(run))),
+    row("checks at this load and speed, held constant", (_, { checks }) => (checks ? verdict(checks) : "–")),
+    row("verdict", (run) => joined(run.verdicts.map(nameOf))),
+    ["beware", ...letters.map((letter) => answers[letter].reason ?? joined(beside(answers[letter].run)))],
   ];
-  const headings = ["", ...letters.map((letter) => text("compare.design", { letter }))];
-  const caption = text("compare.caption", { conditions: conditions(runs), first: letters[0] });
-  place.replaceChildren(scrolling(text("compare.table"), table(caption, headings, rows)));
+  const headings = ["", ...letters.map((letter) => `Design ${letter}`)];
+  const caption = `designs side by side ${conditions(runs)}; changes are against Design ${letters[0]}`;
+  place.replaceChildren(scrolling("table of the designs", table(caption, headings, rows)));
   byId("compare-chart").hidden = !runs.length;
   if (runs.length) draw("compare-chart", bars(answers, mechanisms));
 }
@@ -122,7 +120,7 @@ function bars(answers, mechanisms) {
   const names = new Set(all.flatMap(({ parts }) => Object.keys(parts).filter((name) => parts[name])));
   return {
     kind: "bars",
-    title: text("compare.chart"),
+    title: "friction torque of the designs by mechanism",
     quantity: vocabulary.results.screw_torque,
     origin: 0,
     marks: [],
@@ -150,9 +148,9 @@ function changesOf(place) {
   const { designs: all, own } = store.state;
   const { changes = {}, tables: sections = {} } = all[place] ?? {};
   const ofFields = Object.entries(changes).map(([path, value]) => {
-    const change = `${labelOf(path)}: ${value === "" ? text("form.not_given") : value}`;
+    const change = `${labelOf(path)}: ${value === "" ? "not given" : value}`;
     const counts = own || place === 0 || !path.startsWith("operation.");
-    return counts ? change : text("compare.not_counted", { change });
+    return counts ? change : `${change} (does not count here)`;
   });
   const ofTables = Object.keys(sections).map((name) => SECTIONS[name] ?? OF_CARDS[name] ?? words(name));
   return element("span", { class: "changes" }, [...ofFields, ...ofTables].join("; ") || "–");
@@ -169,12 +167,9 @@ function conditions(runs) {
   const { axial_load: load, screw_speed: speed } = /** @type {Record<string, number>} */ (
     first?.inputs.operation ?? {}
   );
-  if (own || load === undefined) return text("compare.own");
+  if (own || load === undefined) return "each at its own load and speed";
   const isSame = runs.every((run) => operationOf(run).screw_speed === speed);
-  return text("compare.at", {
-    load: units.formatted("axial_load", load),
-    speed: isSame ? units.formatted("screw_speed", speed) : units.formattedIn(alongOf(first), "m/min", "m/s"),
-  });
+  return `all at ${units.formatted("axial_load", load)} and ${isSame ? units.formatted("screw_speed", speed) : units.formattedIn(alongOf(first), "m/min", "m/s")}`;
 }
 
 /** The speed of the nut in m/s: one turn is one lead. @param {Run} run */
@@ -187,8 +182,8 @@ function alongOf(run) {
 
 /** @param {ComparedRow} row */
 function validity({ counts, valid, not_valid_because: reasons }) {
-  if (counts === false) return text("models.printed");
-  return valid ? text("chart.yes") : reasons.map((reason) => nameOf({ id: `validity.${reason}` })).join(", ");
+  if (counts === false) return "printed form, breaks a balance";
+  return valid ? "yes" : reasons.map((reason) => nameOf({ id: `validity.${reason}` })).join(", ");
 }
 
 /** @param {number | null} change */
@@ -211,13 +206,13 @@ export function showModels(found) {
     validity(row),
   ];
   const rows = [
-    line(found.case, text("models.this")),
+    line(found.case, "this case"),
     ...found.models.map((row) => line(row)),
     ...found.laws.map((row) => line(row)),
   ];
-  const caption = text("models.caption");
-  const [torque, change, efficiency] = [text("chart.torque"), text("models.change"), text("chart.efficiency")];
-  const headings = [text("models.name"), torque, change, efficiency, text("models.valid")];
+  const caption = "all models as they are, then this case with one law at a time in place of its own";
+  const [torque, change, efficiency] = ["friction torque", "change", "efficiency"];
+  const headings = ["model or law", torque, change, efficiency, "valid here"];
   /** @param {{ title: string, screw_torque: number | null, efficiency: number | null, drag_torque: number | null, change?: number | null, drag_change?: number | null, source?: string }} one */
   const rule = (one) => [
     one.title,
@@ -229,20 +224,12 @@ export function showModels(found) {
     one.source ?? "",
   ];
   const { screw_torque, efficiency: eta } = found.case;
-  const own = { title: text("models.this"), screw_torque, efficiency: eta, drag_torque: found.drag_torque };
-  const balls = found.of_balls ? [{ title: text("models.of_balls"), ...found.of_balls }] : [];
+  const own = { title: "this case", screw_torque, efficiency: eta, drag_torque: found.drag_torque };
+  const balls = found.of_balls ? [{ title: "without seals and other losses, as all below", ...found.of_balls }] : [];
   const rules = [own, ...balls, ...found.rules].map(rule);
-  const columns = [
-    text("models.rule"),
-    torque,
-    change,
-    efficiency,
-    text("models.unloaded"),
-    change,
-    text("models.source"),
-  ];
+  const columns = ["rule", torque, change, efficiency, "drag torque", change, "source"];
   byId("models").replaceChildren(
-    scrolling(text("models.table"), table(caption, headings, rows)),
-    scrolling(text("models.rules"), table(text("models.in_place"), columns, rules)),
+    scrolling("models and laws", table(caption, headings, rows)),
+    scrolling("rules of one line", table("rules of one line that people use in place of a model", columns, rules)),
   );
 }

@@ -1,7 +1,6 @@
 // Controls: buttons, menus, boxes and fields of text, each with its listener; and what stays hidden until it is opened.
 
 import { element } from "./dom.js";
-import { text } from "./texts.js";
 
 /** @typedef {import("./dom.js").Attributes} Attributes */
 /** @typedef {import("./dom.js").Child} Child */
@@ -21,22 +20,22 @@ export function button(words, onclick, more = {}) {
  * A button with an id, and words of the page.
  *
  * @param {string} id
- * @param {import("./texts.js").Key} key of its words
+ * @param {string} words
  * @param {() => void} onclick
  */
-export function namedButton(id, key, onclick) {
-  return button(text(key), onclick, { id });
+export function namedButton(id, words, onclick) {
+  return button(words, onclick, { id });
 }
 
 /**
  * The button that a view is about: one in each.
  *
  * @param {string} id
- * @param {import("./texts.js").Key} key of its words
+ * @param {string} words
  * @param {() => void} onclick
  */
-export function primaryButton(id, key, onclick) {
-  return button(text(key), onclick, { id, class: "primary" });
+export function primaryButton(id, words, onclick) {
+  return button(words, onclick, { id, class: "primary" });
 }
 
 /**

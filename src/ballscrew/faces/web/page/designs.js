@@ -4,7 +4,6 @@ import * as schema from "./schema.js";
 import { get } from "./server.js";
 import * as states from "./state.js";
 import { store } from "./store.js";
-import { text } from "./texts.js";
 import { vocabulary } from "./vocabulary.js";
 
 /** Sections that belong to the use of a screw, not to the screw. */
@@ -304,7 +303,7 @@ export function useTable(table) {
  */
 export function ownScrewOf({ name, file, start, tables }) {
   if (isRow(start)) return undefined;
-  return file ?? (tables?.screw ? name || text("form.own_screw") : undefined);
+  return file ?? (tables?.screw ? name || "a screw of your own" : undefined);
 }
 
 /**

@@ -6,18 +6,15 @@ import { byId, csv, element } from "./dom.js";
 import { runJob } from "./jobs.js";
 import { save } from "./saving.js";
 import { connection, linesOf, send } from "./server.js";
-import { text } from "./texts.js";
 
-/** @typedef {import("./texts.js").Key} Key */
-
-/** Kinds of files: what they are, and the address that makes them, if any. @type {Record<string, [Key, string?]>} */
+/** Kinds of files: what they are, and the address that makes them, if any. @type {Record<string, [string, string?]>} */
 const KINDS = {
-  TOML: ["download.toml", "toml"],
-  JSON: ["download.json"],
-  CSV: ["download.csv"],
-  SVG: ["download.svg", "drawing"],
-  PDF: ["download.pdf", "report?kind=pdf"],
-  HTML: ["download.html", "report?kind=html"],
+  TOML: ["case file for the command line", "toml"],
+  JSON: ["all results in SI"],
+  CSV: ["torque and its parts over speed"],
+  SVG: ["drawing of the ball", "drawing"],
+  PDF: ["report to file", "report?kind=pdf"],
+  HTML: ["report to read", "report?kind=html"],
 };
 
 /** Of what a kind of file is being made, and what cancels that. @typedef {{ key: string, request: AbortController }} Making */
@@ -26,8 +23,7 @@ const KINDS = {
 export function build() {
   /** @type {Map<string, Making>} */
   const making = new Map();
-  const buttons = Object.entries(KINDS).map(([kind, [key]]) => {
-    const words = text(key);
+  const buttons = Object.entries(KINDS).map(([kind, [words]]) => {
     const onclick = () => saveAs(kind, making);
     return element("button", { type: "button", title: words, "aria-label": `${kind}: ${words}`, onclick }, kind);
   });
@@ -46,7 +42,11 @@ function say(words) {
 async function saveAs(kind, making) {
   const { whole, answer, alongSpeed } = answers.current();
   if (!whole || !answer || byId("results").classList.contains("stale")) {
-    say(text(connection.isSilent ? "download.silent" : "download.fault"));
+    say(
+      connection.isSilent
+        ? "The server, which makes the files, does not answer. Try again once it runs."
+        : "The input is at fault: correct it first.",
+    );
     return;
   }
   const [, address] = KINDS[kind];
@@ -57,7 +57,7 @@ async function saveAs(kind, making) {
       const { words, display, ...document } = await (await send("run", whole)).json();
       save(".json", new Blob([JSON.stringify(document, null, 2)], { type: "application/json" }));
     } else if (alongSpeed) saveTorqueCsv(alongSpeed);
-    say(text("download.saved", { kind }));
+    say(`${kind} saved`);
   } catch (error) {
     say(linesOf(error).join("; "));
   }
@@ -75,7 +75,7 @@ async function saveAs(kind, making) {
 async function saveMade(kind, address, body, making) {
   const key = JSON.stringify(body);
   const before = making.get(kind);
-  say(text("download.making", { kind }));
+  say(`making the ${kind} …`);
   if (before?.key === key) return false;
   before?.request.abort();
   const request = new AbortController();

@@ -2,7 +2,6 @@
 
 import { element } from "./dom.js";
 import { symbol } from "./symbols.js";
-import { text, textOr } from "./texts.js";
 import * as units from "./units.js";
 
 /** @typedef {import("./schema.js").SchemaNode} SchemaNode */
@@ -25,6 +24,22 @@ import * as units from "./units.js";
 
 /** A number without a unit, and what is told of its spread: ± another one, or ± a share in per cent. */
 const BARE = /^(?=[^±]*\d)([\s\d.,'eE+-]+)((?:±[\s\d.,'eE+-]+%?)?)$/;
+/** Labels of fields whose names do not say what they are, by path or name. @type {Record<string, string>} */
+const LABELS = {
+  ball_to_ball_force: "force between balls",
+  density_15: "density at 15 °C",
+  diameter_speed_product: "largest d·n",
+  ends: "support of the ends",
+  full_film_friction_coefficient: "full-film friction coefficient",
+  kinematic_viscosity_100: "kinematic viscosity at 100 °C",
+  kinematic_viscosity_40: "kinematic viscosity at 40 °C",
+  oil: "oil of the library",
+  poisson_ratio: "Poisson's ratio",
+  pressure_viscosity_coefficient: "pressure–viscosity coefficient",
+  spacing: "distance of the halves",
+  starts: "thread starts",
+  young_modulus: "Young's modulus",
+};
 /** Units that are displayed only where inches are chosen. */
 const INCH_ONLY = ["in", "uin", "lbf", "lbf in", "psi", "degF", "in/min"];
 
@@ -40,7 +55,7 @@ export function words(name) {
  */
 export function labelIn(path) {
   const name = path.slice(path.lastIndexOf(".") + 1);
-  return textOr(`field.${path}.label`, textOr(`field.${name}.label`, words(name)));
+  return LABELS[path] ?? LABELS[name] ?? words(name);
 }
 
 /** @param {string} path */
@@ -81,11 +96,11 @@ function frame(path, { description, "x-symbol": tex }, isGiven, control, ...othe
  */
 export function choiceField(path, node, value, onChange, present) {
   const options = node.type === "boolean" ? ["true", "false"] : (node.enum ?? []);
-  const none = node.default ? text("form.usual", { value: String(node.default) }) : text("form.not_given");
+  const none = node.default ? `usual: ${String(node.default)}` : "not given";
   const select = element(
     "select",
     { onchange: () => onChange({ path, text: select.value, rebuild: true }) },
-    element("option", { value: "" }, present ? text("form.as_in_model", { value: present }) : none),
+    element("option", { value: "" }, present ? `as in the model: ${present}` : none),
     ...options.map((name) => element("option", { value: name, selected: String(value) === name }, name)),
   );
   return frame(path, node, value !== undefined, select);
@@ -144,8 +159,8 @@ function quantityField(path, node, input, value, state, onChange) {
   const known = [...new Set([unit, ...units.choicesOf(node)])];
   const select = element(
     "select",
-    { class: "unit", id: `u-${idOf(path)}`, "aria-label": text("form.unit_of", { field: labelIn(path) }) },
-    isOther ? element("option", { value: "", selected: true }, text("form.as_typed")) : null,
+    { class: "unit", id: `u-${idOf(path)}`, "aria-label": `unit of ${labelIn(path)}` },
+    isOther ? element("option", { value: "", selected: true }, "as typed") : null,
     ...known.map((name) => element("option", { value: name, selected: !isOther && name === unit }, units.symbol(name))),
   );
   select.addEventListener("change", () => onChange({ path, unit: select.value, rebuild: true }));

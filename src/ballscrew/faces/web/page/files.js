@@ -2,7 +2,7 @@
 
 import { byId, element, showNotice } from "./dom.js";
 import { keeping } from "./keeping.js";
-import { text } from "./texts.js";
+import { NOT_KEPT } from "./names.js";
 
 /** Deleting everything is asked for twice within this time, in milliseconds. */
 const SURE_WITHIN = 6000;
@@ -39,10 +39,12 @@ function setUpKeeping() {
     const count = keeping.kept().length;
     const why = keeping.whyNot();
     button.hidden = !count;
-    button.textContent = text(sure ? "keep.sure" : "keep.delete_all", { count });
-    byId("kept-words").textContent = text(why ? `keep.${why}` : "keep.short", { count });
+    button.textContent = sure
+      ? `Really delete all ${count}? It cannot be undone`
+      : `Delete everything kept here (${count})`;
+    byId("kept-words").textContent = why ? NOT_KEPT[why] : "Your designs stay in this browser until you delete them.";
     byId("not-kept").hidden = !why;
-    byId("not-kept").textContent = why ? text(`keep.${why}`) : "";
+    byId("not-kept").textContent = why ? NOT_KEPT[why] : "";
   };
   button.addEventListener("click", () => {
     if (sure) keeping.forget(keeping.kept().map(({ id }) => id));
@@ -64,7 +66,7 @@ function setUpKeeping() {
  */
 export function sayRestored({ saved }) {
   const when = new Intl.DateTimeFormat("en", { dateStyle: "medium", timeStyle: "short" }).format(saved);
-  const afresh = element("button", { type: "button", id: "afresh" }, text("keep.afresh"));
+  const afresh = element("button", { type: "button", id: "afresh" }, "Start afresh");
   afresh.addEventListener("click", () => keeping.show("#A=paper"));
-  showNotice(`${text("keep.restored", { when })} `, afresh);
+  showNotice(`Your work of ${when} is shown, as this browser kept it. `, afresh);
 }

@@ -8,7 +8,6 @@ import * as help from "./help.js";
 import { slidersOf } from "./operating_point.js";
 import { definition, fieldOf, fieldsOf, isLaw, LEFT_OUT, SECTIONS } from "./schema.js";
 import { valueAt } from "./state.js";
-import { text } from "./texts.js";
 import { vocabulary } from "./vocabulary.js";
 
 /** @typedef {import("./schema.js").SchemaNode} SchemaNode */
@@ -20,9 +19,10 @@ import { vocabulary } from "./vocabulary.js";
 const UNKNOWN = "unknown";
 /** @type {Record<string, string>} */
 const HINTS = {
-  bodies: text("form.hint.bodies"),
-  installation: text("form.hint.checks"),
-  limits: text("form.hint.checks"),
+  bodies:
+    "Screw and nut of a catalogue row are elastic; those of the paper are rigid, unless something is given here. Sizes left out are the usual ones.",
+  installation: "For the checks of the report.",
+  limits: "For the checks of the report.",
 };
 /** Fields that nearly everybody gives; the others of their sections are behind "more". @type {Record<string, string[]>} */
 const ESSENTIAL = {
@@ -85,12 +85,7 @@ function fieldsOfSection(name, title, open, source) {
   const others = all.filter(([field]) => !first.includes(field));
   if (!others.length) return made(essential);
   const id = `${name}-more`;
-  const more = section(
-    id,
-    text("form.more", { section: title }),
-    { class: "inner", open: open.has(id) },
-    ...made(others),
-  );
+  const more = section(id, `more: ${title}`, { class: "inner", open: open.has(id) }, ...made(others));
   return [...made(essential), more];
 }
 
@@ -115,7 +110,7 @@ function section(name, title, attributes, ...children) {
 function elasticBox() {
   const box = element("input", { type: "checkbox", id: "elastic" });
   box.addEventListener("change", () => setTables({ bodies: box.checked ? {} : null }));
-  return element("p", { class: "small" }, element("label", {}, box, " ", text("form.elastic")));
+  return element("p", { class: "small" }, element("label", {}, box, " ", "Screw and nut are elastic"));
 }
 
 function showElastic() {
@@ -134,7 +129,7 @@ export function mark(path, differs) {
   const field = fieldAt(path);
   if (!field) return;
   field.classList.toggle("changed", differs);
-  within(field, ".differs").textContent = differs ? ` ${text("form.changed")}` : "";
+  within(field, ".differs").textContent = differs ? " changed" : "";
 }
 
 /**
@@ -164,8 +159,8 @@ function startField({ onChange }) {
   const select = element(
     "select",
     { id: "start", onchange: () => onChange({ start: select.value }) },
-    element("optgroup", { label: text("form.papers") }, ...known.filter(([, { moves }]) => !moves).map(startOption)),
-    element("optgroup", { label: text("form.examples") }, ...known.filter(([, { moves }]) => moves).map(startOption)),
+    element("optgroup", { label: "Papers" }, ...known.filter(([, { moves }]) => !moves).map(startOption)),
+    element("optgroup", { label: "Examples of axes" }, ...known.filter(([, { moves }]) => moves).map(startOption)),
     ...[...groups].map(([source, members]) =>
       element("optgroup", { label: source }, ...members.map((row) => option(row.name, rowLabel(row)))),
     ),
@@ -176,14 +171,14 @@ function startField({ onChange }) {
       type: "button",
       id: "reset",
       onclick: () => onChange({ reset: true }),
-      title: text("form.reset.title"),
+      title: "Undo all changes of this design",
     },
-    text("form.reset"),
+    "Reset",
   );
   return element(
     "div",
     { class: "field start given" },
-    element("label", { for: "start" }, text("form.start")),
+    element("label", { for: "start" }, "Start from"),
     select,
     reset,
   );
@@ -209,7 +204,7 @@ function showStart(start, file) {
  */
 export function rowLabel({ name, nut }) {
   const end = `-${nut}`;
-  return text("form.row", { name: name.endsWith(end) ? name.slice(0, -end.length) : name, nut });
+  return `${name.endsWith(end) ? name.slice(0, -end.length) : name} (${nut} nut)`;
 }
 
 /**
@@ -304,7 +299,7 @@ export function showFaults(faults) {
   const links = [...wrong].map(([path, field]) =>
     element("button", { type: "button", onclick: () => jumpTo(field) }, labelOf(path)),
   );
-  const intro = `${text(links.length === 1 ? "form.correct_one" : "form.correct_some")} `;
+  const intro = `${links.length === 1 ? "Not computed. Correct this field:" : "Not computed. Correct these fields:"} `;
   const line = links.length ? [element("span", {}, intro, ...links)] : [];
   const said = faults.map((fault) => `${labelOf(fault.where)}: ${inWords(fault)}`).join(" ");
   return { lines: [...line, ...others], said };
@@ -318,9 +313,9 @@ export function showFaults(faults) {
 function ofNoField(fault) {
   const line = `${labelOf(fault.where)}: ${inWords(fault)}`;
   if (fault.id !== UNKNOWN || !isOfFile(fault.where)) return line;
-  const label = text("open.set_aside_of", { name: labelOf(fault.where) });
+  const label = `Keep ${labelOf(fault.where)} aside: it is not computed with`;
   const action = () => setAside(fault.where);
-  const button = element("button", { type: "button", "aria-label": label, onclick: action }, text("open.set_aside"));
+  const button = element("button", { type: "button", "aria-label": label, onclick: action }, "Keep it aside");
   return element("span", {}, `${line} `, button);
 }
 

@@ -4,8 +4,21 @@ import { element } from "./dom.js";
 import { labelIn } from "./fields.js";
 import { fieldOf } from "./schema.js";
 import { symbol } from "./symbols.js";
-import { text, textOr } from "./texts.js";
 import { vocabulary } from "./vocabulary.js";
+
+/** Headings of the pages of the theory. @type {Record<string, string>} */
+const PAGES_IN_WORDS = {
+  balance: "The balance of the ball, and the torques on screw and nut",
+  efficiency: "Efficiency, back-driving, self-locking",
+  film: "The film, and the film parameter",
+  friction: "Sliding friction: asperities and film share the load",
+  geometry: "Geometry and kinematics",
+  hertz: "Hertz contact",
+  life: "Ratings, life, and heat",
+  nut: "The nut: preload, and the load of each ball",
+  rolling: "Rolling resistance: oil and steel",
+  slip: "Slip in the contact",
+};
 
 /** Pages of the theory, by field, or else by section. @type {Record<string, string>} */
 const PAGES = {
@@ -51,7 +64,7 @@ const PAGES = {
 export function placeIn(form) {
   const before = form.querySelector("#help");
   if (before) return before;
-  const place = element("aside", { id: "help", "aria-label": text("help.label"), hidden: true });
+  const place = element("aside", { id: "help", "aria-label": "Help", hidden: true });
   form.addEventListener("focusin", ({ target }) => follow(place, target));
   return place;
 }
@@ -87,7 +100,7 @@ function theoryOf(path) {
   const [section, field] = path.split(".");
   const page = PAGES[`${section}.${field}`] ?? PAGES[section];
   if (!page) return "";
-  return documented(`theory/${page}`, text("help.theory", { page: textOr(`help.page.${page}`, page) }));
+  return documented(`theory/${page}`, `Theory: ${PAGES_IN_WORDS[page] ?? page}`);
 }
 
 /**

@@ -8,7 +8,6 @@ import { yesOrNo } from "./figure_words.js";
 import { localEngine, pointsOf } from "./local_engine.js";
 import { draw } from "./plot.js";
 import { Latest, linesOf, sendJson } from "./server.js";
-import { text } from "./texts.js";
 import * as units from "./units.js";
 
 /** @typedef {{ case: Record<string, unknown> }} Body */
@@ -134,19 +133,15 @@ function drawCurves({ answer, temperatures, speeds }, curves) {
   const names = temperatures.map((one) => units.formattedIn(one, "degC", "K"));
   const shown = parts.converted("screw_speed", { values: speeds });
   const torques = curves.map(({ torque }) => parts.converted("screw_torque", { values: torque }));
-  const x = parts.titled("screw_speed", text("chart.speed"));
-  const y = parts.titled("screw_torque", text("chart.torque"));
+  const x = parts.titled("screw_speed", "speed of the screw");
+  const y = parts.titled("screw_torque", "friction torque");
   const now = answer.results.screw_torque;
   /** The coldest, the hottest, and between them that of the case. @param {number} place */
   const colour = (place) => (place === 0 ? "accent" : place === temperatures.length - 1 ? "second" : "ink");
   draw(ID, {
     name: "torque_cold_and_hot",
-    caption: text("hot.caption", { load: units.formatted("axial_load", load) }),
-    description: text("hot.description", {
-      torque: units.formatted("screw_torque", now),
-      from: names[0],
-      to: names.at(-1) ?? "",
-    }),
+    caption: `friction torque over speed at ${units.formatted("axial_load", load)}, cold and hot`,
+    description: `Friction torque against speed with the oil from ${names[0]} to ${names.at(-1) ?? ""}. At the operating point ${units.formatted("screw_torque", now)}.`,
     figure: {
       x: { title: x },
       y: { title: y, zero: true },
@@ -158,11 +153,7 @@ function drawCurves({ answer, temperatures, speeds }, curves) {
       ],
     },
     numbers: () => [
-      [
-        x,
-        ...names.map((name) => parts.titled("screw_torque", name)),
-        ...names.map((name) => text("hot.valid", { temperature: name })),
-      ],
+      [x, ...names.map((name) => parts.titled("screw_torque", name)), ...names.map((name) => `valid at ${name}`)],
       shown.map((at, i) => [
         at,
         ...torques.map((values) => values[i]),

@@ -6,7 +6,6 @@ import { byId, element, keepFocus } from "./dom.js";
 import * as form from "./form.js";
 import { LETTERS, valueAt } from "./state.js";
 import { store } from "./store.js";
-import { text } from "./texts.js";
 import * as units from "./units.js";
 import { vocabulary } from "./vocabulary.js";
 
@@ -86,7 +85,7 @@ function showExample() {
   const place = byId("example");
   place.hidden = example === undefined;
   if (example === undefined) return;
-  place.textContent = text("have.shown", { name: vocabulary.starts[example].title });
+  place.textContent = `Example, until you choose something else: ${vocabulary.starts[example].title}.`;
 }
 
 /**
@@ -148,7 +147,7 @@ function showTabs() {
         "aria-pressed": String(place === shown),
         onclick: () => designs.show(place),
       },
-      element("span", { class: "long" }, text("designs.long")),
+      element("span", { class: "long" }, "Design "),
       LETTERS[place],
       " ", // a space within a block of its own is not seen
       one.name ? element("span", { class: "own-name" }, one.name) : null,
@@ -158,11 +157,7 @@ function showTabs() {
   const remove = () => designs.remove(store.state.show);
   byId("designs").replaceChildren(
     ...buttons,
-    element("button", { type: "button", id: "add", disabled: !designs.hasRoom(), onclick: add }, text("designs.add")),
-    element(
-      "button",
-      { type: "button", id: "remove", disabled: all.length === 1, onclick: remove },
-      text("designs.remove"),
-    ),
+    element("button", { type: "button", id: "add", disabled: !designs.hasRoom(), onclick: add }, "Add design"),
+    element("button", { type: "button", id: "remove", disabled: all.length === 1, onclick: remove }, "Remove"),
   );
 }

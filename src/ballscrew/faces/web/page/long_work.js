@@ -4,7 +4,17 @@
 import { element } from "./dom.js";
 import { digest, forget, keptJob, runJob } from "./jobs.js";
 import { ask, Problem, sendJson } from "./server.js";
-import { text, textOr } from "./texts.js";
+
+/** Work by its address. @type {Record<string, string>} */
+const WORK = {
+  band: "Band of the result",
+  check: "Checks",
+  compare: "Models side by side",
+  duty: "Duty cycle",
+  log: "Columns of the log",
+  open: "Opening the file",
+  run: "Result",
+};
 
 /** The id of the fault that says so. */
 const OUT_OF_TIME = "out_of_time";
@@ -16,7 +26,7 @@ const SOON = 5000;
 
 /** Addresses whose requests took too long: the next ones are jobs at once. @type {Set<string>} */
 const slow = new Set();
-const list = element("div", { id: "long-work", role: "region", "aria-label": text("long.heading"), hidden: true });
+const list = element("div", { id: "long-work", role: "region", "aria-label": "Work that takes long", hidden: true });
 document.body.append(list);
 
 /** Test whether the server ended a request for its time. @param {unknown} error */
@@ -89,7 +99,7 @@ async function asJob(address, body, place, signal) {
     return found;
   } catch (error) {
     signal.throwIfAborted();
-    if (own.signal.aborted) throw new Problem({ title: text("card.cancelled") });
+    if (own.signal.aborted) throw new Problem({ title: "Cancelled." });
     throw error;
   } finally {
     signal.removeEventListener("abort", leave);
@@ -106,17 +116,19 @@ async function asJob(address, body, place, signal) {
  * @param {() => void} cancel
  */
 function lineOf(address, cancel) {
-  const what = textOr(`long.of.${address}`, address);
-  const bar = element("progress", { "aria-label": text("long.computing", { what }) });
-  const words = element("span", {}, text("long.computing", { what }));
-  const button = element("button", { type: "button", onclick: cancel }, text("card.cancel"));
-  button.setAttribute("aria-label", `${text("card.cancel")}: ${what}`);
+  const what = WORK[address] ?? address;
+  const bar = element("progress", { "aria-label": `${what}: goes on in the background …` });
+  const words = element("span", {}, `${what}: goes on in the background …`);
+  const button = element("button", { type: "button", onclick: cancel }, "Cancel");
+  button.setAttribute("aria-label", `Cancel: ${what}`);
   const line = element("p", { "data-address": address }, bar, words, button);
   const start = performance.now();
   let isWaiting = false;
   const clock = setInterval(() => {
     const seconds = Math.round((performance.now() - start) / SECOND);
-    words.textContent = text(isWaiting ? "long.waiting_for" : "long.computing_for", { what, seconds });
+    words.textContent = isWaiting
+      ? `${what}: waits for other work … ${seconds} s`
+      : `${what}: goes on in the background … ${seconds} s`;
   }, SECOND);
   /** @param {JobDocument} job */
   const told = ({ state, finished, total }) => {

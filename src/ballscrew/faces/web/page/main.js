@@ -16,7 +16,6 @@ import * as screwSearch from "./screw_search.js";
 import { connection, get, linesOf } from "./server.js";
 import * as states from "./state.js";
 import { store } from "./store.js";
-import { text } from "./texts.js";
 import * as units from "./units.js";
 import * as views from "./views.js";
 import { fill, vocabulary } from "./vocabulary.js";
@@ -34,14 +33,16 @@ function readAddress() {
   found.designs = found.designs.map((one) => (designs.isKnown(one.start) ? one : states.design()));
   const lines = [];
   if (unknownStarts.length) {
-    lines.push(text("link.start", { names: unknownStarts.join(", ") }));
+    lines.push(
+      `The link starts from ${unknownStarts.join(", ")}, not known here: the paper's screw is shown in its place.`,
+    );
   }
   if (unknown.length) {
     const names = unknown.slice(0, 3).map(quoted).join(", ") + (unknown.length > 3 ? ", …" : "");
-    lines.push(text("link.keys", { names }));
+    lines.push(`The link has keys that are not known here and are left out: ${names}.`);
   }
   if (!views.viewAt(found.view)) {
-    lines.push(text("link.view", { name: quoted(found.view) }));
+    lines.push(`Unknown view in the link, ignored: ${quoted(found.view)}.`);
     found.view = states.USUAL_VIEW;
   }
   showNotice(lines.join(" "));
@@ -102,12 +103,12 @@ async function copyLink() {
   entries.write();
   try {
     await navigator.clipboard.writeText(location.href);
-    button.textContent = text("share.copied");
+    button.textContent = "Link copied";
   } catch {
-    button.textContent = text("share.by_hand");
+    button.textContent = "Copy it from the address bar";
   }
   setTimeout(() => {
-    button.textContent = text("share.copy");
+    button.textContent = "Copy link";
   }, 2500);
 }
 
@@ -188,7 +189,7 @@ async function begin() {
   const [words, document_, latest] = await Promise.all([get("vocabulary"), get("schema"), keeping.begin()]);
   fill(words);
   schema.fill(document_);
-  byId("version").textContent = text("page.version", { version: vocabulary.version });
+  byId("version").textContent = `Version ${vocabulary.version}.`;
   if (latest) history.replaceState(null, "", latest.fragment);
   const state = readAddress();
   if (latest) files.sayRestored(latest);

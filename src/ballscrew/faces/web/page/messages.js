@@ -2,7 +2,24 @@
 
 import { labelIn, words } from "./fields.js";
 import { OF_CARDS, SECTIONS } from "./schema.js";
-import { textOr } from "./texts.js";
+
+/** What to do, by the problem that the server has found, with its field where that matters. @type {Record<string, string>} */
+const FAULTS = {
+  "installation.ends: missing": "Choose how the ends of the shaft are held.",
+  "installation.unsupported_length: missing": "Give the unsupported length.",
+  "installation: missing section": "Give the unsupported length of the shaft, and choose how its ends are held.",
+  "is a share of a dynamic load rating that is not known":
+    "A share needs the dynamic load rating of the screw: give that, or the preload as a force.",
+  "lubricant.kinematic_viscosity_100: missing": "Give both kinematic viscosities, at 40 °C and at 100 °C.",
+  "lubricant.kinematic_viscosity_40: missing": "Give both kinematic viscosities, at 40 °C and at 100 °C.",
+  "lubricant.temperature: needs a grade or a data sheet": "A temperature needs an oil that follows it: choose a grade.",
+  "lubricant.viscosity: missing": "Give a viscosity; or choose a grade, or give two kinematic viscosities.",
+  missing: "Give a value: nothing stands for it.",
+  "nut.preload: missing": "Give the preload of this kind of nut: a force, or a share of the load rating such as 7 %.",
+  "nut.type: missing": "Choose the kind of nut.",
+  "unknown key": "There is no such field.",
+  "unknown section": "There is no such field.",
+};
 
 /**
  * The name of a field as the form labels it.
@@ -23,7 +40,7 @@ export function labelOf(path) {
  * @param {FaultLine} fault
  */
 export function inWords({ where, problem, given, remedy }) {
-  const own = textOr(`fault.${where}: ${problem}`, textOr(`fault.${problem}`, ""));
+  const own = FAULTS[`${where}: ${problem}`] ?? FAULTS[problem];
   return own || `${problem}${given ? ` (${given})` : ""}${remedy ? `: ${remedy}` : ""}`;
 }
 

@@ -5,7 +5,6 @@ import { byId, element, update } from "./dom.js";
 import { NARROW } from "./drawing.js";
 import { colourAt } from "./palette.js";
 import { arrow, line, polygon, shape } from "./shapes.js";
-import { text } from "./texts.js";
 import * as units from "./units.js";
 
 /** @typedef {import("./ball_places.js").Nut} Nut */
@@ -39,7 +38,12 @@ export function show(answer) {
  */
 export function picture(answer, isNarrow) {
   const nut = nutOf(answer);
-  if (!nut) return element("p", { class: "small" }, text("nut_picture.none"));
+  if (!nut)
+    return element(
+      "p",
+      { class: "small" },
+      "The nut is not drawn: it has more balls than can be told apart, or a size is missing.",
+    );
   const range = rangeOf(nut.balls);
   const load = Number(/** @type {Record<string, any>} */ (answer.inputs).operation?.axial_load ?? 0);
   const size = isNarrow ? SIZES.narrow : SIZES.wide;
@@ -47,14 +51,18 @@ export function picture(answer, isNarrow) {
   return element(
     "figure",
     { class: "nut-picture" },
-    element("figcaption", {}, text("nut_picture.caption")),
+    element(
+      "figcaption",
+      {},
+      "screw and nut from the side, to scale, the nut cut open; balls behind the shaft are hidden",
+    ),
     drawing(nut, range, load, size),
     scale(range, size.width),
     element(
       "p",
       { class: "small" },
-      nut.isAlike ? `${text("nut_picture.alike")} ` : null,
-      text("nut_picture.assumed", { notes }),
+      nut.isAlike ? "All balls of a half carry the same: bodies are rigid and balls are alike. " : null,
+      `Drawn with: ${notes}.`,
     ),
   );
 }
@@ -91,14 +99,7 @@ function drawing(nut, range, load, { width, height: tallest }) {
   const at = (along, up) => [left + factor * along, middle - factor * up];
   const carrying = nut.balls.filter((one) => !one.isSpacer);
   const [least, greatest] = range.map(loadText);
-  const label = text("nut_picture.label", {
-    balls: carrying.length,
-    turns: units.digits(nut.turns, 3),
-    halves: nut.halves,
-    least,
-    greatest,
-    load: units.formatted("axial_load", load),
-  });
+  const label = `Side view of screw and nut, to scale: ${carrying.length} balls carry, ${units.digits(nut.turns, 3)} turns in each of ${nut.halves} bodies or halves; loads of a ball from ${least} to ${greatest}, axial load ${units.formatted("axial_load", load)}.`;
   const behind = nut.balls.filter((one) => Math.sin(one.angle) < 0);
   const before = nut.balls.filter((one) => Math.sin(one.angle) >= 0);
   /** @param {Ball} one */
@@ -130,10 +131,10 @@ function drawnBall(one, nut, range, at, factor) {
   const r = (factor * nut.ball) / 2;
   const place = nut.balls.indexOf(one) + 1;
   if (one.isSpacer) {
-    const words = shape("title", {}, text("nut_picture.spacer", { place }));
+    const words = shape("title", {}, `spacer ball ${place}`);
     return shape("circle", { cx, cy, r, class: "spacer-ball", "data-place": place }, words);
   }
-  const words = shape("title", {}, text("nut_picture.ball", { place, load: loadText(one.load) }));
+  const words = shape("title", {}, `ball ${place}: ${loadText(one.load)}`);
   const marks = { class: "ball", fill: colourAt(share(one.load, range), COLOURS), "data-place": place };
   const found = shape("circle", { cx, cy, r, ...marks }, words);
   found.dataset.load = String(one.load);
@@ -215,7 +216,7 @@ function loadArrow(load, first, last, y, width) {
   const middle = (first + last) / 2;
   // as on the sketch of the axis: a positive speed moves the nut to the right, against a positive load
   const [from, to] = load < 0 ? [middle - long / 2, middle + long / 2] : [middle + long / 2, middle - long / 2];
-  const words = text("nut_picture.load", { load: units.formatted("axial_load", Math.abs(load)) });
+  const words = `axial load on the nut ${units.formatted("axial_load", Math.abs(load))}`;
   return [arrow(from, to, y + 6, "load"), shape("text", { x: middle, y: y - 6, "text-anchor": "middle" }, words)];
 }
 
@@ -249,7 +250,7 @@ function scale([least, greatest], width) {
   const isOne = greatest - least <= ROUNDING * greatest;
   const values = isOne ? [least] : [least, (least + greatest) / 2, greatest];
   const unit = units.symbol(units.unitOf("contact_load"));
-  const title = text("nut_picture.scale", { unit });
+  const title = `normal load of a ball, the greater of its flanks (${unit})`;
   const [height, top] = [54, 20];
   const steps = isOne ? 1 : SHADES;
   const shades = Array.from({ length: steps }, (_, place) =>
@@ -266,7 +267,7 @@ function scale([least, greatest], width) {
     const words = units.digits(units.inDisplayUnit("contact_load", value), 3);
     return shape("text", { x, y: top + 28, "text-anchor": "middle" }, words);
   });
-  const ends = text("nut_picture.scale_label", { least: loadText(least), greatest: loadText(greatest) });
+  const ends = `Scale of colours: loads of a ball from ${loadText(least)}, light, to ${loadText(greatest)}, dark.`;
   return shape(
     "svg",
     { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": ends, class: "scale-of-loads" },

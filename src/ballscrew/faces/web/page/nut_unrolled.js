@@ -6,8 +6,16 @@ import * as parts from "./chart_parts.js";
 import { hide } from "./chart_place.js";
 import { byId, element, scrolling, table, update } from "./dom.js";
 import { draw } from "./plot.js";
-import { text } from "./texts.js";
 import * as units from "./units.js";
+
+/** What is said of the loads. @type {Record<string, string>} */
+const NUMBERS = {
+  count: "balls that carry",
+  greatest: "greatest",
+  least: "least",
+  mean: "mean",
+  ratio: "greatest / least",
+};
 
 /** @typedef {import("./ball_places.js").Nut} Nut */
 /** @typedef {import("./ball_places.js").Ball} Ball */
@@ -42,9 +50,9 @@ function angleOf({ angle }) {
  * @returns {import("./plot.js").Chart}
  */
 function chart(nut) {
-  const x = text("nut_unrolled.angle");
-  const y = POSITION.titled(text("nut_unrolled.along"));
-  const z = parts.titled("contact_load", text("stiffness.load"));
+  const x = "angle about the screw (°)";
+  const y = POSITION.titled("place along the screw");
+  const z = parts.titled("contact_load", "load of a ball");
   const balls = nut.balls.filter((one) => !one.isSpacer);
   const spacers = nut.balls.filter((one) => one.isSpacer);
   const [least, greatest] = rangeOf(nut.balls);
@@ -62,15 +70,11 @@ function chart(nut) {
     size,
     ...others,
   });
-  const words = text("nut_unrolled.ball");
+  const words = "ball";
   return {
     name: "nut_unrolled",
-    caption: text("nut_unrolled.caption"),
-    description: text("nut_unrolled.description", {
-      balls: balls.length,
-      least: units.formatted("contact_load", least),
-      greatest: units.formatted("contact_load", greatest),
-    }),
+    caption: "the nut unrolled: place and load of each ball",
+    description: `Places of ${balls.length} balls over the angle about the screw, with loads from ${units.formatted("contact_load", least)} to ${units.formatted("contact_load", greatest)} as colours.`,
     figure: {
       x: { title: x, from: -8, to: 368, step: 90 },
       y: { title: y, from: ends[0], to: ends[1] },
@@ -78,15 +82,13 @@ function chart(nut) {
         {
           kind: "curve",
           ...helix(nut),
-          name: text("nut_unrolled.helix"),
+          name: "line of the groove",
           colour: "ink",
           style: "line",
           width: 0.6,
           isQuiet: true,
         },
-        ...(spacers.length
-          ? [dots(spacers, { name: text("nut_unrolled.spacer"), style: "circles", isQuiet: true })]
-          : []),
+        ...(spacers.length ? [dots(spacers, { name: "spacer ball", style: "circles", isQuiet: true })] : []),
         dots(balls, {
           name: "",
           style: "dots",
@@ -105,13 +107,13 @@ function chart(nut) {
     },
     numbers: () => [
       [
-        text("chart.ball"),
-        text("nut_unrolled.half"),
+        "ball",
+        "half",
         x,
         y,
-        parts.titled("contact_load", text("stiffness.carrying")),
-        parts.titled("contact_load", text("stiffness.other")),
-        text("nut_unrolled.kind"),
+        parts.titled("contact_load", "flank that carries the load"),
+        parts.titled("contact_load", "other flank"),
+        "kind of ball",
       ],
       nut.balls.map((one, place) => [
         place + 1,
@@ -120,7 +122,7 @@ function chart(nut) {
         POSITION.convert(one.along),
         one.isSpacer ? null : shown(one.forward),
         one.isSpacer ? null : shown(one.backward),
-        one.isSpacer ? text("nut_unrolled.spacer") : words,
+        one.isSpacer ? "spacer ball" : words,
       ]),
     ],
   };
@@ -171,7 +173,7 @@ function extremes({ balls, halves }) {
       );
     const ratio = least > 0 ? units.digits(greatest / least, 4) : "–";
     return [
-      halves > 1 ? text("nut_unrolled.of_half", { half: half + 1 }) : text("nut_unrolled.all"),
+      halves > 1 ? `half ${half + 1}` : "nut",
       String(loads.length),
       cell("least", least),
       cell("greatest", greatest),
@@ -179,12 +181,12 @@ function extremes({ balls, halves }) {
       ratio,
     ];
   });
-  const caption = text("nut_unrolled.extremes");
+  const caption = "loads of the balls: the greater of both flanks";
   const headings = ["", "count", "least", "greatest", "mean", "ratio"].map((name) => (name ? heading(name) : ""));
   return scrolling(caption, table(caption, headings, rows));
 }
 
 /** @param {string} name */
 function heading(name) {
-  return text(/** @type {import("./texts.js").Key} */ (`nut_unrolled.${name}`));
+  return NUMBERS[name];
 }

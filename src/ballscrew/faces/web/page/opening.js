@@ -7,7 +7,6 @@ import { sendPatiently } from "./long_work.js";
 import { linesOf } from "./server.js";
 import { LETTERS, OF_SCREW } from "./state.js";
 import { store } from "./store.js";
-import { text } from "./texts.js";
 
 /** Bytes of a file that the server takes, with its third more for the request. */
 const MOST_BYTES = 700_000;
@@ -31,7 +30,7 @@ export function isSmall(file) {
 
 /** That a file is too large. @param {File} file */
 export function tooLarge(file) {
-  return text("open.large", { file: file.name, size: Math.round(MOST_BYTES / 1000) });
+  return `${file.name} is too large: ${Math.round(MOST_BYTES / 1000)} kB at most. The command line takes it.`;
 }
 
 /** A file as a request has it. @param {File} file */
@@ -72,11 +71,17 @@ export async function open(files) {
 async function take(file, opened) {
   const { kind, designs: found, comments, notes } = opened;
   const lines = notes.map((note) => `${file.name}: ${note}`);
-  if (comments) lines.push(text("open.comments", { file: file.name, count: comments }));
+  if (comments)
+    lines.push(`${file.name} has ${comments} comments; they stay in that file and are not in those saved here.`);
   if (kind === "table" || kind === "need") {
     if (kind === "table") designs.useTable({ file, opened });
     else designs.setNeed(readNeed(found[0].case));
-    return [text(kind === "table" ? "open.table" : "open.need", { file: file.name, count: found.length }), ...lines];
+    return [
+      kind === "table"
+        ? `${file.name}: ${found.length} screws. Under “Files and designs” each can be taken as a design.`
+        : `${file.name} is a need: it stands under “Choose a screw for a need”.`,
+      ...lines,
+    ];
   }
   const more = await Promise.all(
     found.map(({ name, case: sections, aside }) =>
@@ -91,13 +96,16 @@ async function take(file, opened) {
   const left = designs.add(more);
   if (left) {
     const none = found.slice(found.length - left).map(({ name }) => name);
-    lines.push(text("open.no_room", { names: listed(none), most: LETTERS.length }));
+    lines.push(`The page holds ${LETTERS.length} designs. There was no place for ${listed(none)}.`);
   }
   const { designs: now } = store.state;
   const letters = LETTERS.slice(now.length > before || left ? now.length - (found.length - left) : 0, now.length);
-  if (letters.length) lines.unshift(text("open.done", { file: file.name, letters: letters.join(", ") }));
+  if (letters.length) lines.unshift(`${file.name} is open: design ${letters.join(", ")}.`);
   const asides = [...new Set(found.flatMap(({ aside }) => Object.keys(aside)))];
-  if (asides.length) lines.push(text("open.aside", { names: listed(asides) }));
+  if (asides.length)
+    lines.push(
+      `No case has these tables; they are not computed with, and are kept for the next file: ${listed(asides)}.`,
+    );
   return lines;
 }
 

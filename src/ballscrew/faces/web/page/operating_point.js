@@ -2,7 +2,6 @@
 
 import { byId, element } from "./dom.js";
 import { entries } from "./history.js";
-import { text } from "./texts.js";
 import * as units from "./units.js";
 
 /** Fields with a slider, and the least and the greatest value where they are known in SI. @type {Record<string, [number, number] | null>} */
@@ -34,7 +33,7 @@ export function slidersOf(path, field, name, si) {
     step: "any",
     class: "slider",
     id: `s-${path.replaceAll(".", "-")}`,
-    "aria-label": text("form.slider", { field: name }),
+    "aria-label": `${name}, slider`,
   });
   const say = () => slider.setAttribute("aria-valuetext", `${input.value} ${units.symbol(unit.value)}`);
   let isMoving = false; // its ends stay as they are then

@@ -5,10 +5,16 @@ import { lines } from "./cards/records.js";
 import { element, scrolling, table } from "./dom.js";
 import { labelOf } from "./messages.js";
 import { Latest, linesOf, Problem, sendJson } from "./server.js";
-import { text } from "./texts.js";
 import { currentSystem, formattedIn, inSystem, symbol, withPoint, withPowers } from "./units.js";
 
-/** @typedef {import("./texts.js").Key} Key */
+/** Kinds of nut in words. @type {Record<string, string>} */
+const KINDS_IN_WORDS = {
+  double: "double nut",
+  "offset-lead": "single nut, offset lead",
+  "oversize-balls": "single nut, oversize balls",
+  single: "single nut without preload",
+  unknown: "not known",
+};
 
 /** Milliseconds after the last key. */
 const REST = 300;
@@ -17,18 +23,18 @@ const KINDS = /** @type {const} */ (["", "single", "double", "oversize-balls", "
 /**
  * Fields by the names of the API, with their units; those that are needed come first.
  *
- * @type {[string, Key, string, string][]}
+ * @type {[string, string, string, string][]}
  */
 const FIELDS = [
-  ["nominal_diameter", "own_nut.nominal_diameter", "mm", "40"],
-  ["lead", "own_nut.lead_of_screw", "mm", "10"],
-  ["turns", "own_nut.turns", "", "2x2.5"],
-  ["dynamic_load_rating", "own_nut.dynamic", "kN", ""],
-  ["ball_diameter", "own_nut.ball", "mm", ""],
-  ["pitch_circle_diameter", "own_nut.circle", "mm", ""],
-  ["root_diameter", "own_nut.root", "mm", ""],
-  ["starts", "own_nut.starts", "", ""],
-  ["preload", "own_nut.preload", "", "5 %"],
+  ["nominal_diameter", "Nominal diameter d0", "mm", "40"],
+  ["lead", "Lead", "mm", "10"],
+  ["turns", "Turns of one nut body", "", "2x2.5"],
+  ["dynamic_load_rating", "Dynamic load rating Ca", "kN", ""],
+  ["ball_diameter", "Ball diameter", "mm", ""],
+  ["pitch_circle_diameter", "Pitch circle diameter", "mm", ""],
+  ["root_diameter", "Root diameter", "mm", ""],
+  ["starts", "Thread starts", "", ""],
+  ["preload", "Preload, with its unit", "", "5 %"],
 ];
 /** Labels of estimates that the form has under other names. @type {Record<string, string>} */
 const PLACES = { ball_circle: "pitch_circle_diameter", conformity: "screw_conformity" };
@@ -51,7 +57,7 @@ export function ownNut(holder, onCase) {
   const kind = element(
     "select",
     { id: "own-nut-nut" },
-    ...KINDS.map((one) => element("option", { value: one }, text(`own_nut.kind.${one || "unknown"}`))),
+    ...KINDS.map((one) => element("option", { value: one }, KINDS_IN_WORDS[one || "unknown"])),
   );
   const inputs = FIELDS.map(([field, , , hint]) =>
     element("input", {
@@ -66,17 +72,17 @@ export function ownNut(holder, onCase) {
   const use = element(
     "button",
     { type: "button", id: "own-nut-use", class: "primary", disabled: true },
-    text("own_nut.use"),
+    "Use this nut",
   );
   use.addEventListener("click", async () => {
     if (answer) await onCase(answer.case, answer.name);
   });
   const marks = FIELDS.map(() => element("span", { class: "unit" }));
-  const labelled = FIELDS.map(([field, key], place) =>
+  const labelled = FIELDS.map(([field, words], place) =>
     element(
       "p",
       { class: "own-nut-field" },
-      element("label", { for: `own-nut-${field}` }, text(key)),
+      element("label", { for: `own-nut-${field}` }, words),
       inputs[place],
       marks[place],
     ),
@@ -85,14 +91,14 @@ export function ownNut(holder, onCase) {
     element(
       "p",
       { class: "own-nut-field" },
-      element("label", { for: "own-nut-nut" }, text("own_nut.kind")),
+      element("label", { for: "own-nut-nut" }, "Nut"),
       kind,
       element("span", { class: "unit" }),
     ),
     element(
       "p",
       { class: "own-nut-field" },
-      element("label", { for: "own-nut-name" }, text("own_nut.name")),
+      element("label", { for: "own-nut-name" }, "Name"),
       name,
       element("span", { class: "unit" }),
     ),
@@ -100,8 +106,8 @@ export function ownNut(holder, onCase) {
   const form = element(
     "form",
     { class: "own-nut" },
-    element("fieldset", {}, element("legend", {}, text("own_nut.needed")), ...labelled.slice(0, NEEDED)),
-    element("fieldset", {}, element("legend", {}, text("own_nut.better")), ...labelled.slice(NEEDED), ...rest),
+    element("fieldset", {}, element("legend", {}, "Needed"), ...labelled.slice(0, NEEDED)),
+    element("fieldset", {}, element("legend", {}, "Each of these makes it better"), ...labelled.slice(NEEDED), ...rest),
   );
   form.addEventListener("submit", (event) => event.preventDefault());
   form.addEventListener("input", () => {
@@ -113,7 +119,11 @@ export function ownNut(holder, onCase) {
   });
   showUnits();
   holder.replaceChildren(
-    element("p", { class: "small" }, text("own_nut.about")),
+    element(
+      "p",
+      { class: "small" },
+      "The numbers of one nut body as its catalogue prints them. A plain number has the unit beside it; another unit may be typed behind it.",
+    ),
     form,
     result,
     element("p", { class: "card-start" }, use),
@@ -177,24 +187,14 @@ export function ownNut(holder, onCase) {
 
 /** What was estimated, and what does not go together. @param {OwnNutAnswer} found */
 function shown({ estimates, warnings }) {
-  const headings = /** @type {Key[]} */ ([
-    "own_nut.number",
-    "own_nut.value",
-    "own_nut.low",
-    "own_nut.high",
-    "own_nut.source",
-  ]);
+  const headings = ["Number", "Value", "from", "to", "Where it is from"];
   const rows = estimates.map((one) => {
     const [value, low, high] = [one.value, one.low, one.high].map((number) =>
       withPowers(formattedIn(number, one.shown_in, one.unit, DIGITS)),
     );
     return [labelOf(`screw.${PLACES[one.name] ?? one.name}`), value, low, high, one.source];
   });
-  const caption = text("own_nut.estimated");
-  const content = table(
-    caption,
-    headings.map((key) => text(key)),
-    rows,
-  );
+  const caption = "Estimated: the catalogue does not say";
+  const content = table(caption, headings, rows);
   return [...lines([], warnings), scrolling(caption, content)];
 }

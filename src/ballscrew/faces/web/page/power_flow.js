@@ -6,7 +6,6 @@ import { opened } from "./controls.js";
 import { element, scrolling, table } from "./dom.js";
 import { NARROW } from "./drawing.js";
 import { shape } from "./shapes.js";
-import { text } from "./texts.js";
 import * as units from "./units.js";
 
 /** One flow of power, W: a loss has the name of its part of the torque. @typedef {{ name: string, power: number, isLoss: boolean }} Flow */
@@ -56,7 +55,8 @@ export function balanceOf(answer) {
 export function powerFlow(answer, mechanisms) {
   const found = balanceOf(answer);
   const { screw_speed: speed } = operationOf(answer);
-  if (!found?.sum) return element("p", {}, text(speed ? "power.nothing" : "power.at_rest"));
+  if (!found?.sum)
+    return element("p", {}, speed ? "Power has no number at this operating point." : "At rest no power flows.");
   const { sources, sinks, sum } = found;
   /** @param {Flow} flow */
   const words = ({ name, isLoss }) => (isLoss ? wordsOf(name, mechanisms) : textOf(name));
@@ -64,21 +64,28 @@ export function powerFlow(answer, mechanisms) {
   const colour = ({ name, isLoss }) => (isLoss ? mechanisms[name]?.colour : undefined);
   const isDriven = sources.some(({ name }) => name === "load");
   const isDrivenAlone = isDriven && !sources.some(({ name }) => name === "shaft");
-  const direction = text(isDrivenAlone ? "power.back" : isDriven ? "power.both" : "power.forward");
+  const direction = isDrivenAlone
+    ? "The load drives the screw; what is left of its power is taken up at the shaft."
+    : isDriven
+      ? "Shaft and load together drive the screw: the load alone does not overcome friction."
+      : "The shaft drives the nut against its load.";
   const total = units.formatted("friction_power", sum);
   const lost = sinks.reduce((all, { power, isLoss }) => all + (isLoss ? power : 0), 0);
-  const label = text("power.description", { direction, total, lost: units.formatted("friction_power", lost) });
+  const label = `${direction} In all ${total}, of which ${units.formatted("friction_power", lost)} are losses.`;
   /** @param {string} side @param {Flow[]} flows */
   const rows = (side, flows) =>
     flows.map((flow) => [
       key(words(flow), colour(flow)),
-      text(side === "in" ? "power.in" : "power.out"),
+      side === "in" ? "in" : "out",
       number(side, flow),
       shareOf(flow.power, sum),
     ]);
-  const headings = [text("power.part"), text("power.direction"), text("power.power"), text("power.share")];
-  const numbers = table(text("power.caption"), headings, [...rows("in", sources), ...rows("out", sinks)]);
-  const below = opened(text("chart.numbers"), scrolling(text("power.caption"), numbers));
+  const headings = ["part", "direction", "power", "share of what comes in"];
+  const numbers = table("power in and out at the operating point", headings, [
+    ...rows("in", sources),
+    ...rows("out", sinks),
+  ]);
+  const below = opened("Numbers", scrolling("power in and out at the operating point", numbers));
   if (NARROW.matches) below.setAttribute("open", ""); // the picture has no room for the names there
   const heat = answer.results.friction_power;
   const given = sources.reduce((all, { power, isLoss }) => all + (isLoss ? power : 0), 0);
@@ -90,16 +97,20 @@ export function powerFlow(answer, mechanisms) {
     picture(found, words, colour, label),
     below,
     isApart
-      ? element("p", { class: "small" }, text("power.heat", { heat: units.formatted("friction_power", heat) }))
+      ? element(
+          "p",
+          { class: "small" },
+          `Power here is torque times speed. From local forces and speeds in the contacts the heat is ${units.formatted("friction_power", heat)}.`,
+        )
       : null,
   );
 }
 
 /** An end of the flow in words. @param {string} name */
 function textOf(name) {
-  if (name === "shaft") return text("power.shaft");
-  if (name === "load") return text("power.load");
-  return text(name === "useful" ? "power.useful" : "power.brake");
+  if (name === "shaft") return "shaft of the screw";
+  if (name === "load") return "load";
+  return name === "useful" ? "useful, at the nut" : "taken up at the shaft";
 }
 
 /** @param {number} power @param {number} sum */

@@ -3,8 +3,18 @@
 import { inHeadline, isStarved } from "./bath.js";
 import { verdict } from "./checks.js";
 import { byId, element, table, update, write } from "./dom.js";
-import { text } from "./texts.js";
+import { RESULTS } from "./names.js";
 import * as units from "./units.js";
+
+/** Results of a contact in words. @type {Record<string, string>} */
+const OF_CONTACTS = {
+  friction_coefficient: "friction coefficient",
+  minimum_film_thickness: "film thickness",
+  pure_rolling_offset: "pure-rolling offset Y",
+  semi_major_axis: "semi-axis across",
+  semi_minor_axis: "semi-axis along",
+  spin_parameter: "spin parameter",
+};
 
 /** Results of the first table. */
 const FIRST = /** @type {const} */ ([
@@ -60,8 +70,8 @@ export function data(name, value, shown = units.formatted(name, value)) {
  * @param {number} film
  */
 function regime(film) {
-  if (film < 1) return text("contact.boundary");
-  return text(film < 3 ? "contact.mixed" : "contact.full");
+  if (film < 1) return "boundary: the asperities carry much of the load";
+  return film < 3 ? "mixed: film and asperities share the load" : "full film";
 }
 
 /** True where a record stands beside the contacts. @param {VerdictRecord} record */
@@ -107,20 +117,22 @@ export function rounded(name, value, band) {
   const [low, high] = units.ends(ends.low, ends.high);
   const unit = units.unitOf(name);
   const end = unit ? `\u00a0${units.symbol(unit)}` : "";
-  return { text: written, interval: `${text("answer.interval", { low, high })}${end}` };
+  return { text: written, interval: `${low} to ${high}${end}` };
 }
 
 /** The ends of a band with what they are of. @param {string} interval @param {BandAnswer} known */
 function ofCauses(interval, { band }) {
-  return text(Object.keys(band.laws).length ? "answer.of_inputs_and_laws" : "answer.of_inputs", { interval });
+  return Object.keys(band.laws).length ? `inputs and laws: ${interval}` : `inputs alone: ${interval}`;
 }
 
 /** Why a torque lies outside its band, for the headline. @param {number | null} torque @param {BandAnswer | undefined} band */
 function outsideBand(torque, band) {
   const { low, high } = band?.band.screw_torque ?? {};
   if (torque === null) return "";
-  if (typeof low === "number" && torque < low) return ` ${text("answer.below_band")}`;
-  return typeof high === "number" && torque > high ? ` ${text("answer.above_band")}` : "";
+  if (typeof low === "number" && torque < low) return " It lies below its band: most other inputs and laws give more.";
+  return typeof high === "number" && torque > high
+    ? " It lies above its band: most other inputs and laws give less."
+    : "";
 }
 
 /** What screen readers are told of the answer. */
@@ -162,11 +174,7 @@ export function show(answer, { band, checks }, isWanted = () => true) {
   const isDriven = results.efficiency === null && results.back_driving_efficiency !== null;
   const efficiency = isDriven ? "back_driving_efficiency" : "efficiency";
   const shown = rounded(efficiency, results[efficiency], known).text;
-  const numbersInWords = text("answer.summary", {
-    friction: `${torque.text}${torque.interval && known ? ` (${ofCauses(torque.interval, known)})` : ""}`,
-    drive: rounded("drive_torque", results.drive_torque, known).text,
-    efficiency: isDriven ? text("answer.load_drives", { efficiency: shown }) : shown,
-  });
+  const numbersInWords = `Friction torque ${torque.text}${torque.interval && known ? ` (${ofCauses(torque.interval, known)})` : ""}, drive torque ${rounded("drive_torque", results.drive_torque, known).text}, efficiency ${isDriven ? `${shown} (the load drives)` : shown}.`;
   const beside = `${outsideBand(results.screw_torque, known)}${inHeadline(answer)}`;
   const summary = `${numbersInWords}${beside}${checks ? ` ${verdict(checks)}` : ""}`;
   write("summary", summary);
@@ -204,7 +212,7 @@ function showResults(answer, known, isBanded) {
     return element(
       "div",
       {},
-      element("dt", {}, text(`results.${name}`)),
+      element("dt", {}, RESULTS[name]),
       element("dd", {}, data(name, numbers[name], shown), ends),
     );
   });
@@ -223,9 +231,12 @@ function showVendorRows({ vendor_rows: near }) {
   const ratio = units.digits(near.mean_ratio, 2);
   const spread = units.digits(near.std_ratio, 1);
   const { calibration, maker, set } = near;
-  const how = calibration ? text("vendor.calibrated", { calibration }) : text("vendor.plain");
-  write("vendor-rows", text("vendor.rows", { ratio, spread, how, set, maker, rows: near.rows.join(", ") }));
-  write("calibrate", calibration ? text("vendor.undo") : text("vendor.calibrate", { maker }));
+  const how = calibration ? `with the calibration ${calibration}` : "without calibration";
+  write(
+    "vendor-rows",
+    `Drag torque without seals, model / ${maker}: ${ratio} ± ${spread} ${how}, for the rows of ${maker} (${set}) most like this nut: ${near.rows.join(", ")}.`,
+  );
+  write("calibrate", calibration ? "Remove the calibration" : `Calibrate to ${maker}`);
 }
 
 /** @param {Run} answer */
@@ -242,9 +253,9 @@ function showVerdicts(answer) {
       element(
         "p",
         { class: "warning" },
-        element("strong", {}, `${text("answer.outside")}: `),
+        element("strong", {}, "Outside the model's validity: "),
         `${names}. `,
-        element("button", { type: "button", onclick }, text("answer.why")),
+        element("button", { type: "button", onclick }, "Why"),
       ),
     );
   }
@@ -255,7 +266,7 @@ function showVerdicts(answer) {
 
 /** @param {VerdictRecord} record */
 function warning(record) {
-  const subject = element("strong", {}, `${text("answer.beware", { subject: nameOf(record) })} `);
+  const subject = element("strong", {}, `Beware, ${nameOf(record)}: `);
   return element("p", { class: "warning" }, subject, element("span", {}, record.text));
 }
 
@@ -265,7 +276,7 @@ function showAssumptions({ words, provenance }) {
   update(
     byId("assumed"),
     element("ul", {}, ...words.assumed.map((one) => element("li", {}, one))),
-    element("p", { class: "small" }, text("assumed.sources", { model, version, references: references.join(", ") })),
+    element("p", { class: "small" }, `Model ${model}, ballscrew ${version}; sources: ${references.join(", ")}.`),
   );
 }
 
@@ -280,25 +291,24 @@ function showContacts(answer, warnings) {
   /** @type {Numbers} */
   const ofNut = nut;
   const rows = OF_CONTACT.filter((name) => ofScrew[name] !== undefined && ofScrew[name] !== null).map((name) => [
-    text(`results.of_contact.${name}`),
+    OF_CONTACTS[name],
     data(name, ofScrew[name]),
     data(name, ofNut[name]),
   ]);
   const film = leastFilm(answer);
-  const caption = text(answer.loads ? "contact.most_loaded" : "contact.each");
+  const caption = answer.loads ? "contacts of the most loaded ball" : "contacts of each ball";
   update(
     byId("contacts"),
     element(
       "p",
       { class: "regime" },
       Number.isFinite(film)
-        ? text(isStarved(answer) ? "contact.film_of_full_inlet" : "contact.film", {
-            film: units.digits(film),
-            regime: regime(film),
-          })
-        : text("contact.no_film"),
+        ? isStarved(answer)
+          ? `λ = ${units.digits(film)} at the least, for an inlet full of oil, which starved ones are not: ${regime(film)} there`
+          : `λ = ${units.digits(film)} at the least: ${regime(film)}`
+        : "no film",
     ),
-    table(caption, ["", text("contact.screw"), text("contact.nut")], rows),
+    table(caption, ["", "ball and screw", "ball and nut"], rows),
     ...warnings.map(warning),
   );
 }
@@ -321,7 +331,7 @@ export function greatestPressure({ results }) {
 function showBand(answer, band) {
   const place = byId("band-words");
   if (!band) place.replaceChildren();
-  else if (band.state === "pending") place.replaceChildren(element("p", {}, text("band.pending")));
+  else if (band.state === "pending") place.replaceChildren(element("p", {}, "computing the band …"));
   else if (band.state === "failed") {
     place.replaceChildren(element("p", { class: "warning" }, band.lines.join("; ")));
   } else {
@@ -364,8 +374,8 @@ export function fail({ lines, said }) {
   byId("results").classList.remove("waiting");
   byId("results").classList.add("stale");
   byId("results").classList.toggle("empty", !before);
-  document.title = `${text("answer.none")} · ballscrew`;
-  const standing = text("answer.standing");
+  document.title = "not computed · ballscrew";
+  const standing = "The results below are those of the previous input.";
   const all = before ? [...lines, standing] : lines;
   byId("faults").replaceChildren(...all.map((line) => element("p", {}, line)));
   announcer.announce(before ? `${said} ${standing}` : said);

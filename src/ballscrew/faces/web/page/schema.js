@@ -1,7 +1,5 @@
 // The JSON Schema of the case file, and the fields of the form that it describes.
 
-import { text } from "./texts.js";
-
 /**
  * @typedef {object} SchemaNode
  * @property {string} [type]
@@ -22,25 +20,25 @@ import { text } from "./texts.js";
 
 /** Headings of the sections of the form, in their order. @type {Record<string, string>} */
 export const SECTIONS = {
-  operation: text("section.operation"),
-  screw: text("section.screw"),
-  nut: text("section.nut"),
-  lubricant: text("section.lubricant"),
-  model: text("section.model"),
-  losses: text("section.losses"),
-  installation: text("section.installation"),
-  limits: text("section.limits"),
-  bodies: text("section.bodies"),
-  deviations: text("section.deviations"),
+  operation: "Operating point",
+  screw: "Screw",
+  nut: "Nut",
+  lubricant: "Oil",
+  model: "Model",
+  losses: "Seals and other losses",
+  installation: "Installation",
+  limits: "Limits",
+  bodies: "Elastic bodies",
+  deviations: "Balls that differ",
 };
 /** Headings of the sections that cards have, not the form. @type {Record<string, string>} */
 export const OF_CARDS = {
-  axis: text("section.axis"),
-  motion: text("section.motion"),
-  motor: text("section.motor"),
-  surroundings: text("section.surroundings"),
-  bearings: text("section.bearings"),
-  guides: text("section.guides"),
+  axis: "Axis",
+  motion: "Motion",
+  motor: "Motor",
+  surroundings: "Surroundings",
+  bearings: "Bearings",
+  guides: "Guides",
 };
 /** One of these that the answer follows, too: a rigidity is that of the nut with its bearings. */
 const OF_ANSWER = "bearings";

@@ -5,7 +5,6 @@ import * as designs from "./designs.js";
 import { byId, element } from "./dom.js";
 import { rowLabel } from "./form.js";
 import { screwsFor } from "./part_search.js";
-import { text } from "./texts.js";
 import * as views from "./views.js";
 import { vocabulary } from "./vocabulary.js";
 
@@ -22,8 +21,8 @@ export function setUp() {
     type: "search",
     id: "search",
     autocomplete: "off",
-    placeholder: text("search.hint"),
-    "aria-label": text("search.label"),
+    placeholder: "Search: 40x10, rexroth double, BNF4010-5",
+    "aria-label": "Search all screws: a size, a part of a name, an order code",
     oninput: show,
   });
   input.addEventListener("keydown", (event) => {
@@ -58,15 +57,13 @@ export function setUp() {
     const { names, isCode } = matching();
     list.replaceChildren(...names.slice(0, MOST_ROWS).flatMap((name) => item(name) ?? []));
     if (!words) count.textContent = "";
-    else if (!names.length) count.textContent = text("search.none", { words });
+    else if (!names.length) count.textContent = `No screw of the catalogue is about ${words}.`;
     else
-      count.textContent = text(isCode ? "search.like" : "search.found", {
-        words,
-        count: names.length,
-        total: rows.size,
-      });
+      count.textContent = isCode
+        ? `${words} is not in the catalogue; ${names.length} of its size are:`
+        : `${names.length} of ${rows.size} screws`;
   }
 
-  const own = namedButton("search-own", "search.own", () => views.go("choose.own"));
+  const own = namedButton("search-own", "A nut that is not listed …", () => views.go("choose.own"));
   byId("screw-search").replaceChildren(input, count, list, own);
 }

@@ -1,7 +1,5 @@
 // Requests to the server. A refusal comes as a problem with its faults.
 
-import { text } from "./texts.js";
-
 /** Milliseconds between questions whether a server that fell silent is there again, and what is asked of it. */
 const AGAIN = 2000;
 const SMALL = "/icon.svg";
@@ -27,7 +25,7 @@ export class Problem extends Error {
 export function linesOf(error) {
   if (error instanceof Problem) return error.lines;
   const reason = error instanceof Error ? error.message : String(error);
-  return [text("server.silent", { reason })];
+  return [`The server does not answer (${reason}). Is it running? The page goes on by itself once it answers.`];
 }
 
 /** The connection to the server; those who listen to ``return`` are told when one that fell silent answers again. */
@@ -77,7 +75,7 @@ async function reached(address, options) {
 /** @param {Response} response */
 async function checked(response) {
   if (response.ok) return response;
-  let document = { title: text("server.status", { status: response.status }) };
+  let document = { title: `The server answered ${response.status}` };
   try {
     document = await response.json();
   } catch {

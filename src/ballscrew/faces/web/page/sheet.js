@@ -7,7 +7,7 @@ import { csv, element, scrollingTable } from "./dom.js";
 import { between } from "./figure_words.js";
 import { save } from "./saving.js";
 import { draw, slug } from "./sheet_charts.js";
-import { sentence, text } from "./texts.js";
+import { sentence } from "./sentence.js";
 import * as units from "./units.js";
 
 /** @typedef {import("./units.js").Quantity} Quantity */
@@ -77,7 +77,7 @@ function contentOf(block, beside) {
   switch (block.kind) {
     case "lines": {
       const lines = block.lines.map(lineOf);
-      return [block.detail ? opened(text("sheet.details"), ...lines) : element("div", {}, ...lines)];
+      return [block.detail ? opened("Details", ...lines) : element("div", {}, ...lines)];
     }
     case "table":
       return [tableOf(/** @type {any} */ (block), beside)];
@@ -90,12 +90,7 @@ function contentOf(block, beside) {
 function lineOf({ text: words, kind, name, is_bad: isBad }) {
   const shown = sentence(words);
   if (kind !== "warning") return element("p", { class: `${CLASSES[kind]}${isBad ? " careful" : ""}` }, shown);
-  return element(
-    "p",
-    { class: "warning", "data-record": name },
-    element("strong", {}, `${text("card.beware")} `),
-    shown,
-  );
+  return element("p", { class: "warning", "data-record": name }, element("strong", {}, "Beware: "), shown);
 }
 
 /** @param {Table} table @param {Beside} beside */
@@ -114,7 +109,7 @@ function tableOf({ name, title, columns, rows, notes, fields }, beside) {
   });
   const below = notes.map((one) => element("p", { class: "small" }, sentence(one)));
   const width = columns.length > NARROW ? "" : "half";
-  const headings = hasControls ? [...columns, text("files.actions")] : columns;
+  const headings = hasControls ? [...columns, "what to do"] : columns;
   const content = scrollingTable(title, headings, contents);
   const isText = columns.map((_, column) => rows.every((cells) => typeof cells[column] === "string" || !cells[column]));
   for (const row of content.querySelectorAll("tr")) {
@@ -129,9 +124,7 @@ function cellOf(cell) {
   if (typeof cell === "string") return cell;
   if ("share" in cell) return shareOf(cell);
   const { value, digits, band, toward = 0, infinite = false } = cell;
-  const number = infinite
-    ? text("sheet.infinite")
-    : units.withPowers(units.digits(units.converted(value, cell), digits, toward));
+  const number = infinite ? "infinite" : units.withPowers(units.digits(units.converted(value, cell), digits, toward));
   const words = value === null ? number : `${number}\u00a0${units.symbolOf(cell)}`.trim();
   const [low, high] = (band ?? []).map((end) => units.converted(end, cell));
   const ends = isBand(low, high) ? ` (${inBand(low, high, (end, to) => units.digits(end, digits, to))})` : "";
@@ -183,6 +176,6 @@ function columnsOf(name, columns) {
     const rows = (values[0] ?? []).map((_, row) => values.map((column) => column[row]));
     save(`-${slug(name)}.csv`, new Blob([csv(headings, rows)], { type: "text/csv" }));
   };
-  const words = text("sheet.columns", { name });
+  const words = `Save as CSV: ${name}`;
   return element("p", { class: "card-start" }, button(words, write, { "data-columns": name }));
 }

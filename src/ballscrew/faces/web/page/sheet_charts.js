@@ -3,7 +3,6 @@
 import { LOW_AND_HIGH, VALUE } from "./figure_words.js";
 import * as plot from "./plot.js";
 import { extent } from "./scale.js";
-import { text } from "./texts.js";
 import { converted, digits, symbolOf, titled } from "./units.js";
 
 /** @typedef {import("./units.js").Quantity} Quantity */
@@ -35,7 +34,7 @@ export function draw(id, block) {
   const height = Math.max(HEIGHT, FRAME + ROW * (chart.figure.y.names?.length ?? 0));
   document.getElementById(id)?.style.setProperty("--plot-height", `${height}px`);
   const name = slug(block.title).replaceAll("-", "_");
-  plot.draw(id, { name, caption: text("sheet.numbers", { title: block.title }), ...chart });
+  plot.draw(id, { name, caption: `${block.title}: numbers`, ...chart });
 }
 
 /** The name of a chart in addresses: letters, digits and hyphens. @param {string} words */
@@ -62,7 +61,7 @@ function chartOf(block) {
   const { title, x, y, second, marks } = /** @type {any} */ (block);
   const found = marks.flatMap((mark) => markOf(mark, x, mark.second && second ? second : y, marks));
   const figure = { x: axisOf(x), y: axisOf(y), ...(second && { second: axisOf(second) }), marks: found };
-  return { description: text("sheet.chart", { title, x: figure.x.title, y: figure.y.title }), figure };
+  return { description: `${title}: ${figure.y.title} over ${figure.x.title}.`, figure };
 }
 
 /** A mark in the units of the page; none where its place is not known. @param {any} mark @param {Axis} x @param {Axis} y @param {any[]} marks @returns {Drawn[]} */
@@ -115,7 +114,7 @@ function barsOf(block) {
   /** @type {Level[]} */
   const lines = [{ name: "", x: origin, colour: "grey" }, ...marks];
   return {
-    description: text("sheet.bars", { title, count: bars.length }),
+    description: `${title}: ${bars.length} bars.`,
     figure: {
       x: { title: titled("", quantity) },
       y: { title: "", names },
@@ -220,5 +219,5 @@ function mapOf(block) {
       ...others,
     ]),
   };
-  return { description: text("sheet.chart", { title, x: figure.x.title, y: figure.y.title }), figure };
+  return { description: `${title}: ${figure.y.title} over ${figure.x.title}.`, figure };
 }

@@ -4,20 +4,25 @@ import * as parts from "./chart_parts.js";
 import { hide } from "./chart_place.js";
 import { byId, element, table, update } from "./dom.js";
 import { draw } from "./plot.js";
-import { text } from "./texts.js";
 import * as units from "./units.js";
 import { vocabulary } from "./vocabulary.js";
 
-/** Rows of the table: the place in the answer, words, SI unit, display unit. @type {[string, import("./texts.js").Key, string, string][]} */
+/** Loads of the flanks in words. @type {Record<string, string>} */
+const FLANKS = {
+  loaded: "load of a ball, loaded flank",
+  relieved: "load of a ball, relieved flank",
+};
+
+/** Rows of the table: the place in the answer, words, SI unit, display unit. @type {[string, string, string, string][]} */
 const ROWS = [
-  ["rigidity", "stiffness.rigidity", "N/m", "N/um"],
-  ["deflection", "stiffness.deflection", "m", "um"],
-  ["remaining_preload", "stiffness.remaining_preload", "N", "N"],
-  ["lift_off_load", "stiffness.lift_off_load", "N", "N"],
-  ["axial_rigidity.nut", "stiffness.nut", "N/m", "N/um"],
-  ["axial_rigidity.shaft", "stiffness.shaft", "N/m", "N/um"],
-  ["axial_rigidity.drive", "stiffness.drive", "N/m", "N/um"],
-  ["axial_rigidity.deflection", "stiffness.all", "m", "um"],
+  ["rigidity", "rigidity of the nut, by its contacts", "N/m", "N/um"],
+  ["deflection", "deflection of the nut under the load", "m", "um"],
+  ["remaining_preload", "preload left under this load", "N", "N"],
+  ["lift_off_load", "load at which the preload is lost", "N", "N"],
+  ["axial_rigidity.nut", "rigidity of the nut by ISO 3408-4", "N/m", "N/um"],
+  ["axial_rigidity.shaft", "rigidity of the shaft, where it is softest", "N/m", "N/um"],
+  ["axial_rigidity.drive", "rigidity of nut, shaft and bearings, where the shaft is softest", "N/m", "N/um"],
+  ["axial_rigidity.deflection", "deflection of all of it", "m", "um"],
 ];
 
 /**
@@ -43,26 +48,33 @@ export function show(answer) {
   const place = byId("stiffness");
   if (!loads) {
     const load = units.formatted("contact_load", answer.results.contact_load);
-    update(place, element("p", {}, text("stiffness.no_nut", { load })));
+    update(
+      place,
+      element(
+        "p",
+        {},
+        `Each ball carries ${load}: no nut is given, and all balls carry alike. Choose a kind of nut to see its rigidity, its preload and the load of each ball.`,
+      ),
+    );
     return;
   }
-  const rows = ROWS.flatMap(([path, key, si, unit]) => {
+  const rows = ROWS.flatMap(([path, words, si, unit]) => {
     const value = at(loads, path);
     if (typeof value !== "number") return [];
     const name = path.replace(".", "-");
-    return [[text(key), element("data", { value: String(value), "data-name": name }, shown(value, si, unit))]];
+    return [[words, element("data", { value: String(value), "data-name": name }, shown(value, si, unit))]];
   });
   for (const flank of /** @type {const} */ (["loaded", "relieved"])) {
     const found = loads[`${flank}_flank`]?.load;
     if (!found) continue;
     const [least, mean, greatest] = ["least", "mean", "greatest"].map((one) => units.formattedIn(found[one], "N", "N"));
-    rows.push([text(`stiffness.${flank}`), text("stiffness.loads", { least, greatest, mean })]);
+    rows.push([FLANKS[flank], `${least} to ${greatest}, mean ${mean}`]);
   }
   const notes = answer.words.rigidity.join("; ");
   update(
     place,
-    table(text("stiffness.caption"), ["", ""], rows),
-    element("p", { class: "small" }, notes ? text("stiffness.assumed", { notes }) : ""),
+    table("stiffness and preload at this load", ["", ""], rows),
+    element("p", { class: "small" }, notes ? `Assumed: ${notes}.` : ""),
   );
 }
 
@@ -116,17 +128,17 @@ function drawBalls({ forward_load: forward, backward_load: backward, count }, ha
   /** @param {number[]} values */
   const converted = (values) => values.map((value) => units.inDisplayUnit("contact_load", value));
   const flanks = [
-    { name: text("stiffness.carrying"), values: converted(forward) },
-    { name: text("stiffness.other"), values: converted(backward) },
+    { name: "flank that carries the load", values: converted(forward) },
+    { name: "other flank", values: converted(backward) },
   ].filter(({ values }) => values.some((value) => value > 0));
-  const y = parts.titled("contact_load", text("stiffness.load"));
+  const y = parts.titled("contact_load", "load of a ball");
   // a bar for all balls of a half
   const alike = places.length <= halves && Array.isArray(count);
-  const x = text(alike ? (halves > 1 ? "nut_unrolled.half" : "stiffness.alike") : "stiffness.along");
+  const x = alike ? (halves > 1 ? "half" : "all balls alike") : "ball, along the nut";
   draw("balls-chart", {
     name: "load_of_each_ball",
-    caption: text("stiffness.balls"),
-    description: text("stiffness.description", { count: places.length }),
+    caption: "load of each ball, in the order of the nut",
+    description: `Load of each of ${places.length} balls on both flanks.`,
     figure: {
       x: { title: x, ...(alike && { step: 1 }) },
       y: { title: y, zero: true },
@@ -142,7 +154,7 @@ function drawBalls({ forward_load: forward, backward_load: backward, count }, ha
       })),
     },
     numbers: () => [
-      [text("chart.ball"), ...flanks.map(({ name }) => parts.titled("contact_load", name))],
+      ["ball", ...flanks.map(({ name }) => parts.titled("contact_load", name))],
       places.map((one, place) => [one, ...flanks.map(({ values }) => values[place])]),
     ],
   });

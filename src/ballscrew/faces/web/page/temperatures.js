@@ -4,7 +4,6 @@ import { operationOf, valuesOf } from "./chart_parts.js";
 import { byId, element, scrolling, table } from "./dom.js";
 import { OUTSIDE } from "./figure_parts.js";
 import { data } from "./results.js";
-import { text } from "./texts.js";
 import * as units from "./units.js";
 
 /** How slowly oil flows back into the track; none where it is always full. @param {Run} answer */
@@ -16,7 +15,10 @@ function replenishmentOf(answer) {
 /** Say why there is nothing to show. @param {Run} answer */
 export function leaveOut(answer) {
   const { axial_load: load, screw_speed: speed } = operationOf(answer);
-  const words = text(load && speed ? "temperatures.one" : "temperatures.nothing");
+  const words =
+    load && speed
+      ? "The oil is given by one viscosity, at one temperature. Choose a grade to see it cold and hot."
+      : "Without axial load, or at rest, there is nothing to compare.";
   byId("temperatures").replaceChildren(element("p", {}, words));
 }
 
@@ -28,8 +30,10 @@ export function leaveOut(answer) {
 function driven(held, atRest, load) {
   if (held === null) return "–";
   const torque = units.formatted("holding_torque", Math.abs(held));
-  if (held * load > 0) return text("temperatures.back_drives", { torque });
-  return text((atRest ?? 0) * load > 0 ? "temperatures.held" : "temperatures.locks", { torque });
+  if (held * load > 0) return `back-drives, ${torque} hold it`;
+  return (atRest ?? 0) * load > 0
+    ? `friction holds the load only while the screw turns, ${torque} lower it`
+    : `self-locking, ${torque} lower it`;
 }
 
 /**
@@ -60,13 +64,13 @@ export function show(swept, answer) {
     ];
   });
   const headings = [
-    text("temperatures.oil"),
-    text("chart.torque"),
-    ...(isSlow ? [text("temperatures.full_bath")] : []),
-    text("temperatures.moving"),
-    text("temperatures.at_rest"),
+    "oil",
+    "friction torque",
+    ...(isSlow ? ["friction torque in a full bath of oil"] : []),
+    "at this speed",
+    "at rest",
     "",
   ];
-  const content = table(text("temperatures.caption"), headings, rows);
-  byId("temperatures").replaceChildren(scrolling(text("temperatures.table"), content));
+  const content = table("friction and back-driving, cold and hot", headings, rows);
+  byId("temperatures").replaceChildren(scrolling("friction and back-driving", content));
 }

@@ -3,7 +3,18 @@
 
 import { byId, element, keepFocus } from "./dom.js";
 import { store } from "./store.js";
-import { text } from "./texts.js";
+
+/** Names of the views. @type {Record<string, string>} */
+const NAMES = {
+  axis: "Axis",
+  checks: "Checks",
+  choose: "Choose",
+  duty: "Duty",
+  heat: "Heat",
+  measure: "Measure",
+  nut: "Nut",
+  torque: "Torque",
+};
 
 /** The views, in the order of their tabs. */
 const VIEWS = /** @type {const} */ ([
@@ -118,5 +129,5 @@ export function show() {
 /** @param {typeof VIEWS[number]} name @param {boolean} isCurrent */
 function tab(name, isCurrent) {
   const marks = { id: `to-${name}`, "data-view": name, "aria-current": isCurrent ? "page" : undefined };
-  return element("button", { type: "button", ...marks, onclick: () => go(name) }, text(`view.${name}`));
+  return element("button", { type: "button", ...marks, onclick: () => go(name) }, NAMES[name]);
 }

@@ -5,11 +5,31 @@ import * as designs from "../designs.js";
 import { primaryButton } from "../controls.js";
 import { element } from "../dom.js";
 import { documented } from "../help.js";
-import { textOr } from "../texts.js";
 import { vocabulary } from "../vocabulary.js";
 import { caseFile, commandLine, faultLines } from "./log_parts.js";
 import { flags, optionFields } from "./option_fields.js";
 import { question } from "./question.js";
+
+/** What the documentation of each says. @type {Record<string, string>} */
+const HOW_TO = {
+  reversal: "What speaks for it, and where it fails",
+  ripple: "What decides, and what is left out",
+  sensitivity: "How to halve the band",
+};
+/** What their buttons say. @type {Record<string, string>} */
+const START = {
+  reversal: "Compute the reversal",
+  ripple: "Compute the ripple",
+  sensitivity: "Find the sources",
+};
+/** What to know of each. @type {Record<string, string>} */
+const ABOUT = {
+  reversal: "This is a hypothesis, but for the friction in steady motion: no published ball screw shows it by itself.",
+  ripple:
+    "This is a hypothesis: room and grooves of the circuits are assumed, and no measured torque over the angle was compared.",
+  sensitivity:
+    "Uncertain inputs are those that the design gives with an interval, such as 0.54 ± 0.01, and those that are rarely known, each with its usual interval.",
+};
 
 /** Pages of the documentation on the questions. */
 const PAGES = { reversal: "howto/reversal", ripple: "howto/ripple", sensitivity: "howto/halve_the_band" };
@@ -32,8 +52,7 @@ export function setUp(holder) {
       return undefined;
     },
   });
-  const key = /** @type {import("../texts.js").Key} */ (`study.start.${name}`);
-  const start = primaryButton(`${name}-start`, key, async () => {
+  const start = primaryButton(`${name}-start`, START[name], async () => {
     tables = await designs.currentCase();
     asked.follow(body(), 0);
   });
@@ -41,9 +60,9 @@ export function setUp(holder) {
   const options = vocabulary.options[name];
   /** @type {import("./option_fields.js").Given} */
   const chosen = {};
-  const page = documented(PAGES[name], textOr(`study.how_to.${name}`, name));
+  const page = documented(PAGES[name], HOW_TO[name] ?? name);
   holder.replaceChildren(
-    element("p", { class: "small" }, `${textOr(`study.about.${name}`, name)} `, page),
+    element("p", { class: "small" }, `${ABOUT[name] ?? name} `, page),
     optionFields(name, options, chosen, () => follow()),
     element("p", { class: "card-start" }, start),
     command,

@@ -7,7 +7,6 @@ import { documented } from "../help.js";
 import * as schema from "../schema.js";
 import * as states from "../state.js";
 import { store } from "../store.js";
-import { text } from "../texts.js";
 import * as units from "../units.js";
 import { fieldset, placeFaults, showValues } from "./case_fields.js";
 import { caseFile, commandLine, faultLines } from "./log_parts.js";
@@ -99,5 +98,9 @@ export function setUp(holder) {
 }
 
 function about() {
-  return element("p", { class: "small" }, documented("howto/axis", text("axis.how_to")));
+  return element(
+    "p",
+    { class: "small" },
+    documented("howto/axis", "How an axis with bearings and guides is written, and how rigid its parts are."),
+  );
 }

@@ -6,7 +6,6 @@ import { element, redraw } from "../dom.js";
 import { save } from "../saving.js";
 import { linesOf, Problem } from "../server.js";
 import { askPatiently, sendPatiently } from "../long_work.js";
-import { text } from "../texts.js";
 import { vocabulary } from "../vocabulary.js";
 import { choices, columns } from "./log_columns.js";
 import { caseFile, commandLine, dropZone, exampleButton, faultLines } from "./log_parts.js";
@@ -70,7 +69,7 @@ export function setUp(holder) {
     isLarge: () => true,
     about: () => ({ fitted: fittedCase }),
   });
-  const drop = dropZone("calibrate-log", text("calibrate.drop"), (file) => {
+  const drop = dropZone("calibrate-log", "Drop a log here, or choose one (CSV, XLSX, MAT)", (file) => {
     log = file;
     given = {};
     free = [];
@@ -122,7 +121,7 @@ export function setUp(holder) {
   function showColumns() {
     if (!seen || !log) return;
     const isReady = !seen.moving && !seen.faults.length;
-    const start = primaryButton("calibrate-fit", "calibrate.fit", () => {
+    const start = primaryButton("calibrate-fit", "Fit", () => {
       fittedCase = tables;
       fit.follow(body(), 0);
     });
@@ -160,20 +159,25 @@ export function setUp(holder) {
       element(
         "p",
         { class: "card-start" },
-        namedButton("calibrate-use", "calibrate.use", async () => {
+        namedButton("calibrate-use", "Use this calibration", async () => {
           const design = await designs.currentCase();
           if (ofFit(design) !== ofFit(fittedCase) && ofFit(design) !== ofFit(found.calibrated.case)) {
             isPast = (now) => ofFit(now) !== ofFit(design);
-            used.textContent = text("calibrate.other");
+            used.textContent = "The design has changed since the fit: fit again, then use the result.";
             return;
           }
           const before = await torqueOf(design);
           await use(found);
           const after = await designs.currentCase();
           isPast = (now) => JSON.stringify(now.calibration) !== JSON.stringify(after.calibration);
-          used.textContent = [text("calibrate.used"), await change(before, await torqueOf(after))].join(" ").trim();
+          used.textContent = [
+            "The design has these numbers now; Undo takes them back.",
+            await change(before, await torqueOf(after)),
+          ]
+            .join(" ")
+            .trim();
         }),
-        namedButton("calibrate-save", "calibrate.save", () =>
+        namedButton("calibrate-save", "Save as case file", () =>
           save("-calibrated.toml", new Blob([found.calibrated.toml], { type: "application/toml" })),
         ),
       ),
@@ -199,7 +203,7 @@ export function setUp(holder) {
   /** @param {number | null} before @param {number | null} after */
   function change(before, after) {
     if (before === null || after === null) return "";
-    return text("calibrate.change", { before: TORQUE.text(before), after: TORQUE.text(after) });
+    return `Friction torque at its operating point: ${TORQUE.text(before)} → ${TORQUE.text(after)}.`;
   }
 
   /** Put what was found into the design; the button Undo takes it back. @param {FitAnswer} found */

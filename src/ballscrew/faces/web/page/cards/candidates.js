@@ -6,8 +6,30 @@ import { element, redraw, scrolling } from "../dom.js";
 import { draw } from "../plot.js";
 import { LETTERS } from "../state.js";
 import { store } from "../store.js";
-import { text, textOr } from "../texts.js";
+import { CHECKS } from "../names.js";
 import * as units from "../units.js";
+
+/** Objectives in words. @type {Record<string, string>} */
+const IN_WORDS = {
+  brake: "brake holds",
+  drive_torque: "drive torque",
+  inertia: "inertia",
+  life: "life",
+  loss: "loss",
+  motor_peak: "motor, largest torque",
+  motor_rms: "motor, RMS torque",
+  preload_torque: "drag torque",
+  price_index: "price index",
+  reflected_mass: "mass of the inertia",
+  rigidity: "rigidity",
+};
+/** Fields by which candidates are chosen. @type {Record<string, string>} */
+const FIELDS_IN_WORDS = {
+  diameter: "diameter",
+  lead: "lead",
+  nut: "nut",
+  words: "words of maker, row or oil",
+};
 
 /** Candidates in the list before more are asked for. */
 const FIRST = 25;
@@ -50,7 +72,7 @@ const LARGER = ["life", "rigidity"];
 
 /** @param {string} name */
 export function objective(name) {
-  return textOr(`choose.objective.${name}`, name.replaceAll("_", " "));
+  return IN_WORDS[name] ?? name.replaceAll("_", " ");
 }
 
 /** @param {string} name */
@@ -102,7 +124,7 @@ export function asTheyCome(holder, rows) {
   const shown = rows.toSorted((one, other) => key(one) - key(other)).slice(0, FIRST);
   const lines = shown.map((row) => {
     const loss = units.formattedIn(row.objectives.loss, unitOf("loss"), OBJECTIVES.loss);
-    return element("li", {}, row.fits ? `${row.label}: ${loss}` : `${row.label}: ${text("choose.fail")}`);
+    return element("li", {}, row.fits ? `${row.label}: ${loss}` : `${row.label}: some check fails`);
   });
   holder.replaceChildren(element("ul", { id: "choose-coming" }, ...lines));
 }
@@ -128,7 +150,7 @@ export function candidates(holder, found) {
   function show() {
     const kept = sorted(all.filter(filter.holds), order);
     const shown = kept.slice(0, most);
-    const more = button(text("choose.all", { count: kept.length }), () => {
+    const more = button(`Show all ${kept.length}`, () => {
       most = kept.length;
       show();
     });
@@ -147,25 +169,29 @@ export function candidates(holder, found) {
     words.textContent = line;
   }
 
-  /** @param {string} id @param {"choose.across" | "choose.up"} key @param {string} chosen */
-  function axis(id, key, chosen) {
+  /** @param {string} id @param {string} label @param {string} chosen */
+  function axis(id, label, chosen) {
     return menu(
       known.map((name) => [name, objective(name)]),
       chosen,
       show,
-      { id, "aria-label": text(key) },
+      { id, "aria-label": label },
     );
   }
 
-  const x = axis("choose-x", "choose.across", "loss");
-  const y = axis("choose-y", "choose.up", known.includes("inertia") ? "inertia" : known[0]);
+  const x = axis("choose-x", "across", "loss");
+  const y = axis("choose-y", "up", known.includes("inertia") ? "inertia" : known[0]);
   holder.replaceChildren(
     element("p", { class: "small" }, [.../** @type {string[]} */ (found.need.assumed), ...found.notes].join("; ")),
     filter.fields,
     words,
-    element("p", { class: "small" }, text("choose.order", { first: names[0], names: names.join(", ") })),
+    element(
+      "p",
+      { class: "small" },
+      `The list begins with those of which no check fails: within the model's validity before outside, the front before others, then by ${names[0]}; those that fail follow by how much, and last those that their loads alone rule out. The front is what no other such candidate beats in ${names.join(", ")} taken together. A heading sorts by its column.`,
+    ),
     list,
-    element("p", { class: "filters" }, text("choose.across"), " ", x, " ", text("choose.up"), " ", y),
+    element("p", { class: "filters" }, "across", " ", x, " ", "up", " ", y),
     chart,
   );
   show();
@@ -187,12 +213,9 @@ function filters(all, follow) {
     const values = [...new Set(all.map(value))].sort(
       (one, other) => Number.parseFloat(one) - Number.parseFloat(other) || one.localeCompare(other),
     );
-    return menu(
-      [["", text("choose.any")], ...values.map((one) => /** @type {[string, string]} */ ([one, one]))],
-      "",
-      follow,
-      { id },
-    );
+    return menu([["", "any"], ...values.map((one) => /** @type {[string, string]} */ ([one, one]))], "", follow, {
+      id,
+    });
   };
   /** @param {number | null} length */
   const size = (length) => units.formattedIn(length, "mm", "m");
@@ -207,13 +230,13 @@ function filters(all, follow) {
     follow();
   };
   /** @param {string} key @param {Node} field */
-  const labelled = (key, field) => element("label", {}, `${textOr(`choose.${key}`, key)} `, field);
+  const labelled = (key, field) => element("label", {}, `${FIELDS_IN_WORDS[key] ?? key} `, field);
   const fields = element(
     "div",
     { class: "filters" },
     labelled("words", words),
     ...chosen.map(({ key, select }) => labelled(key, select)),
-    box(text("choose.holding"), mustHold, holding, { id: "choose-holding" }),
+    box("only those that hold", mustHold, holding, { id: "choose-holding" }),
   );
   /** @param {Candidate} one */
   const holds = (one) =>
@@ -258,9 +281,9 @@ function tableOf(shown, known, order, sortBy, say) {
   const columns = IN_LIST.filter((name) => known.includes(name));
   /** @type {[string, string][]} */
   const headings = [
-    ["rank", text("choose.rank")],
-    ["candidate", text("choose.candidate")],
-    ["verdict", text("choose.verdict")],
+    ["rank", "rank"],
+    ["candidate", "row, nut, preload, oil"],
+    ["verdict", "checks"],
     ...columns.map((name) => /** @type {[string, string]} */ ([name, heading(name)])),
   ];
   const direction = order.down ? "descending" : "ascending";
@@ -276,7 +299,7 @@ function tableOf(shown, known, order, sortBy, say) {
       "tr",
       { "data-rank": one.rank },
       element("th", { scope: "row" }, String(one.rank)),
-      element("td", { class: "words" }, one.label, one.pareto ? element("em", {}, ` ${text("choose.pareto")}`) : null),
+      element("td", { class: "words" }, one.label, one.pareto ? element("em", {}, " front") : null),
       element("td", { class: "words" }, verdictOf(one)),
       ...columns.map((name) =>
         element(
@@ -288,18 +311,18 @@ function tableOf(shown, known, order, sortBy, say) {
       element(
         "td",
         {},
-        button(text("files.take"), () => take(one, say), { "aria-label": text("files.take_row", { name: one.label }) }),
+        button("Take as design", () => take(one, say), { "aria-label": `Take ${one.label} as design` }),
       ),
     ),
   );
-  const label = text("choose.caption");
+  const label = "candidates, ranked";
   return scrolling(
     label,
     element(
       "table",
       {},
       element("caption", {}, label),
-      element("thead", {}, element("tr", {}, ...sorting, element("th", { scope: "col" }, text("files.actions")))),
+      element("thead", {}, element("tr", {}, ...sorting, element("th", { scope: "col" }, "what to do"))),
       element("tbody", {}, ...rows),
     ),
   );
@@ -307,14 +330,12 @@ function tableOf(shown, known, order, sortBy, say) {
 
 /** @param {{ name: string }} check */
 function nameOf({ name }) {
-  return textOr(`checks.name.${name}`, name.replaceAll("_", " "));
+  return CHECKS[name] ?? name.replaceAll("_", " ");
 }
 
 /** @param {number | null | undefined} share */
 function multiple(share) {
-  return share === null || share === undefined
-    ? ""
-    : ` ${text("choose.times", { times: units.digits(share, DIGITS_OF_SHARE) })}`;
+  return share === null || share === undefined ? "" : ` ${units.digits(share, DIGITS_OF_SHARE)} times the limit`;
 }
 
 /**
@@ -325,15 +346,20 @@ function multiple(share) {
 function verdictOf({ fails, checks, holds, valid, complete, starved, rigid_lift_off_load: limit }) {
   const open = checks.filter((check) => check.holds === null).length;
   const failing = fails.map((check) => `${nameOf(check)}${multiple(check.utilisation)}`).join(", ");
-  const fail = complete ? "checks.fail" : "choose.cannot";
-  const words = failing ? text(fail, { names: failing }) : text(holds ? "checks.holds" : "choose.rest_holds");
+  const words = failing
+    ? complete
+      ? `Fails: ${failing}.`
+      : `cannot hold: ${failing}`
+    : holds
+      ? "holds"
+      : "what was judged holds";
   const load = units.formattedIn(limit, "N", "N");
   const lost =
-    limit === null ? null : element("strong", { class: "fails" }, ` ${text("choose.preload_lost", { load })}`);
+    limit === null ? null : element("strong", { class: "fails" }, ` Preload lost (rigid bodies: above ${load}).`);
   const others = [
-    open ? text("choose.open", { open }) : "",
-    valid ? "" : text("choose.outside"),
-    starved ? text("choose.starved") : "",
+    open ? `${open} not judged.` : "",
+    valid ? "" : "Outside the model's validity.",
+    starved ? "Starved of oil: ranked by the larger torque, in a full bath." : "",
   ];
   const summary = element(
     "summary",
@@ -350,7 +376,7 @@ function verdictOf({ fails, checks, holds, valid, complete, starved, rigid_lift_
       /** @param {number | null} number */
       const shown = (number) => units.formattedIn(number, SHOWN_IN[unit] ?? unit, unit);
       const share = typeof utilisation === "number" ? ` (${units.digits(100 * utilisation, DIGITS_OF_SHARE)} %)` : "";
-      const numbers = check.holds === null ? text("checks.not_judged") : `${shown(value)} / ${shown(limit)}${share}`;
+      const numbers = check.holds === null ? "not judged" : `${shown(value)} / ${shown(limit)}${share}`;
       return element("li", {}, `${nameOf({ name })}: ${numbers}`);
     });
     details.append(element("ul", {}, ...lines));
@@ -364,11 +390,11 @@ function verdictOf({ fails, checks, holds, valid, complete, starved, rigid_lift_
  */
 async function take({ case: sections, label }, say) {
   if (!designs.hasRoom()) {
-    say(text("files.full", { most: LETTERS.length }));
+    say(`The page holds ${LETTERS.length} designs: delete one first.`);
     return;
   }
   designs.add([await designs.ofCase(sections, { name: label })]);
-  say(text("choose.taken", { name: label, letter: LETTERS[store.state.show] }));
+  say(`${label} is design ${LETTERS[store.state.show]}.`);
 }
 
 /**
@@ -382,22 +408,22 @@ async function take({ case: sections, label }, say) {
 function picture(kept, x, y, { objectives }) {
   const known = kept.filter((one) => [x, y].every((name) => Number.isFinite(numberOf(one, name))));
   const fits = (/** @type {Candidate} */ one) => !one.fails.length;
-  const groups = [
-    { key: "choose.fail", style: "crosses", colour: "soft", of: known.filter((one) => !fits(one)) },
-    { key: "choose.fit", style: "dots", colour: "accent", of: known.filter((one) => fits(one) && !one.pareto) },
-    { key: "choose.front", style: "circles", colour: "second", of: known.filter((one) => one.pareto) },
-  ];
   const names = objectives.map(({ name }) => objective(name)).join(", ");
+  const groups = [
+    { name: "some check fails", style: "crosses", colour: "soft", of: known.filter((one) => !fits(one)) },
+    { name: "no check fails", style: "dots", colour: "accent", of: known.filter((one) => fits(one) && !one.pareto) },
+    { name: `Pareto front of ${names}`, style: "circles", colour: "second", of: known.filter((one) => one.pareto) },
+  ];
   draw("choose-chart", {
     name: "candidates",
-    description: text("choose.picture", { x: objective(x), y: objective(y) }),
-    caption: text("choose.caption"),
+    description: `${objective(y)} over ${objective(x)} of all candidates in the list`,
+    caption: "candidates, ranked",
     figure: {
       x: { title: heading(x) },
       y: { title: heading(y) },
-      marks: groups.map(({ key, style, colour, of }) => ({
+      marks: groups.map(({ name, style, colour, of }) => ({
         kind: "curve",
-        name: textOr(key, key, { names }),
+        name,
         x: of.map((one) => numberOf(one, x)),
         y: of.map((one) => numberOf(one, y)),
         colour,
@@ -407,7 +433,7 @@ function picture(kept, x, y, { objectives }) {
       })),
     },
     numbers: () => [
-      [text("choose.candidate"), heading(x), heading(y), text("choose.front_column"), text("checks.holds")],
+      ["row, nut, preload, oil", heading(x), heading(y), "Pareto front", "holds"],
       known.map((one) => [one.label, numberOf(one, x), numberOf(one, y), one.pareto, one.holds]),
     ],
   });

@@ -11,10 +11,19 @@ import * as schema from "../schema.js";
 import { get, linesOf, Problem, sendJson } from "../server.js";
 import { valueAt } from "../state.js";
 import { store } from "../store.js";
-import { text, textOr } from "../texts.js";
+import { CHECKS } from "../names.js";
 import * as units from "../units.js";
 import { asTheyCome, candidates } from "./candidates.js";
 import { leftOut, tables } from "./need_tables.js";
+
+/** Hints in the fields of a need. @type {Record<string, string>} */
+const HINTS = {
+  accuracy: "e.g. 5 or T7",
+  inclination: "90° is upwards",
+  mass: "in place of a force",
+  preload: "e.g. 5 % or 2 kN",
+  unsupported_length: "stroke + nut + run-outs",
+};
 
 /** @type {Record<string, import("../schema.js").SchemaNode>} */
 const OF_NEEDS = { back_driving: { enum: ["allowed", "needed", "forbidden"], default: "allowed" }, accuracy: {} };
@@ -31,10 +40,19 @@ export function setUp(holder) {
   const faults = element("div", { class: "faults" });
   const progress = element("div", { class: "card-line" });
   const result = element("div", { id: "choose-result", "aria-live": "off" });
-  const start = primaryButton("choose-start", "choose.start", () => ask());
-  const fill = button(text("choose.from_design"), () => takeDesign());
+  const start = primaryButton("choose-start", "Find screws", () => ask());
+  const fill = button("Take load, length, life and oil of the design", () => takeDesign());
   holder.replaceChildren(
-    framed(text("choose.need"), element("p", { class: "small" }, text("choose.load_by")), fields, sources),
+    framed(
+      "What the screw has to do",
+      element(
+        "p",
+        { class: "small" },
+        "Give force and feed, or a mass with acceleration, feed and stroke: the screw is then judged by the cycle there and back, at its peak load and by its mean.",
+      ),
+      fields,
+      sources,
+    ),
     element("p", {}, start, " ", fill),
     faults,
     progress,
@@ -65,7 +83,7 @@ export function setUp(holder) {
       return numberField(place, LISTS.includes(name) ? {} : node, { state, given, lawOf: () => undefined, onChange });
     });
     for (const field of made) {
-      const hint = textOr(`choose.hint.${nameOf(field)}`, "");
+      const hint = HINTS[nameOf(field)] ?? "";
       if (!hint) continue;
       const input = within(field, "input, select");
       if (!field.querySelector("select.unit")) input.setAttribute("placeholder", hint);
@@ -101,8 +119,12 @@ export function setUp(holder) {
       withTable = isChecked;
     };
     sources.replaceChildren(
-      moves ? box(text("choose.duty"), need().duty, (duty) => write({ ...need(), duty })) : "",
-      table ? box(text("choose.table", { file: table.file.name }), withTable, ofTable) : "",
+      moves
+        ? box("by the duty of the design on the page, in place of force and feed", need().duty, (duty) =>
+            write({ ...need(), duty }),
+          )
+        : "",
+      table ? box(`from ${table.file.name}, in place of the catalogue`, withTable, ofTable) : "",
     );
   }
 
@@ -135,7 +157,7 @@ export function setUp(holder) {
     request = new AbortController();
     const { signal } = request;
     const table = withTable ? store.state.table?.file : undefined;
-    progress.replaceChildren(element("p", {}, text("card.computing")));
+    progress.replaceChildren(element("p", {}, "computing …"));
     await conclude(begun(table, signal), signal);
   }
 
@@ -162,17 +184,21 @@ export function setUp(holder) {
     /** @type {SelectPlan} */
     const plan = await sendJson("select/plan", body, signal);
     const inputs = plan.unasked.map(({ input }) => labelOf(input)).join(", ");
-    cost = text("choose.cost", { count: plan.candidates, seconds: units.digits(Math.max(1, plan.seconds), 2) });
+    cost = `Candidates: ${plan.candidates}, ${units.digits(Math.max(1, plan.seconds), 2)} s of a processor at most.`;
     if (!inputs || inputs === agreed) return true;
     const names = [...new Set(plan.unasked.flatMap(({ checks }) => checks))];
-    const checks = names.map((name) => textOr(`checks.name.${name}`, name.replaceAll("_", " "))).join(", ");
-    const anyway = namedButton("choose-anyway", "choose.anyway", () => {
+    const checks = names.map((name) => CHECKS[name] ?? name.replaceAll("_", " ")).join(", ");
+    const anyway = namedButton("choose-anyway", "Start without them", () => {
       agreed = inputs;
       ask();
     });
     place([]);
     progress.replaceChildren(
-      element("p", { class: "warning", role: "alert" }, text("choose.unasked", { inputs, checks })),
+      element(
+        "p",
+        { class: "warning", role: "alert" },
+        `Nothing is given for ${inputs}. Without it these checks are not judged: ${checks}; a screw passes only once all checks are judged. Fill it in, or start without.`,
+      ),
       element("p", {}, `${cost} `, anyway),
     );
     return false;
@@ -212,13 +238,13 @@ export function setUp(holder) {
     } catch (error) {
       if (signal !== request.signal) return; // another question stands there
       if (signal.aborted) {
-        progress.replaceChildren(element("p", {}, text("card.cancelled")));
+        progress.replaceChildren(element("p", {}, "Cancelled."));
         return;
       }
       const lines = error instanceof Problem ? error.faults : [];
       place(lines);
       progress.replaceChildren(
-        element("p", { class: "warning" }, lines.length ? text("card.not_computed") : linesOf(error).join("; ")),
+        element("p", { class: "warning" }, lines.length ? "Not computed." : linesOf(error).join("; ")),
       );
     }
   }
@@ -230,11 +256,11 @@ export function setUp(holder) {
    * @returns {(job: JobDocument) => void} gets news of it
    */
   function say(signal) {
-    const bar = element("progress", { "aria-label": text("card.computing") });
-    const words = element("span", {}, cost || text("card.computing"));
+    const bar = element("progress", { "aria-label": "computing …" });
+    const words = element("span", {}, cost || "computing …");
     /** @type {import("./candidates.js").Row[]} */
     const known = [];
-    const cancel = button(text("card.cancel"), () => request.abort());
+    const cancel = button("Cancel", () => request.abort());
     progress.replaceChildren(bar, words, cancel);
     return ({ finished, total, rows }) => {
       if (signal.aborted) return;
@@ -245,7 +271,7 @@ export function setUp(holder) {
       if (!total) return;
       bar.max = total;
       bar.value = finished;
-      words.textContent = text("choose.progress", { finished, total });
+      words.textContent = `${finished} of ${total} candidates`;
     };
   }
 
@@ -298,5 +324,5 @@ function nameOf(field) {
 
 /** @param {Select} found */
 function counts({ candidates: all, holding }) {
-  return text("choose.counts", { all: all.length, holding });
+  return `Candidates: ${all.length}, ${holding} of which hold all checks.`;
 }

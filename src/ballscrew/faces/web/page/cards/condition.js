@@ -4,7 +4,6 @@
 import * as designs from "../designs.js";
 import { primaryButton } from "../controls.js";
 import { element } from "../dom.js";
-import { text } from "../texts.js";
 import { vocabulary } from "../vocabulary.js";
 import { caseFile, commandLine, dropZone, exampleButton, faultLines } from "./log_parts.js";
 import { flags, optionFields } from "./option_fields.js";
@@ -43,12 +42,17 @@ export function setUp(holder) {
     isLarge: () => true,
   });
   const list = element("ol", { class: "rows", id: "condition-tests" });
-  const zone = dropZone("condition-log", text("condition.drop"), (file) => add([file]), { multiple: true });
+  const zone = dropZone(
+    "condition-log",
+    "Table with a row for each test, or a log of each test",
+    (file) => add([file]),
+    { multiple: true },
+  );
   const example = exampleButton("condition", (logs) => {
     tests = [];
     add(logs);
   });
-  const start = primaryButton("condition-start", "condition.start", async () => {
+  const start = primaryButton("condition-start", "Find the condition", async () => {
     tables = await designs.currentCase();
     asked.follow(body(), 0);
   });
@@ -81,7 +85,7 @@ export function setUp(holder) {
     const left = all.slice(MOST).map(({ name }) => name);
     if (left.length)
       problems.replaceChildren(
-        element("p", { class: "warning" }, text("condition.most", { most: MOST, names: left.join(", ") })),
+        element("p", { class: "warning" }, `${MOST} tests at most; left out: ${left.join(", ")}`),
       );
   }
 
@@ -94,9 +98,9 @@ export function setUp(holder) {
     };
     list.replaceChildren(
       ...tests.map(({ name }, place) => {
-        /** @param {import("../texts.js").Key} key @param {() => void} onclick @param {boolean} disabled */
-        const act = (key, onclick, disabled = false) =>
-          element("button", { type: "button", disabled, "aria-label": `${text(key)}: ${name}`, onclick }, text(key));
+        /** @param {string} words @param {() => void} onclick @param {boolean} disabled */
+        const act = (words, onclick, disabled = false) =>
+          element("button", { type: "button", disabled, "aria-label": `${words}: ${name}`, onclick }, words);
         const leave = () => {
           tests.splice(place, 1);
           showTests();
@@ -108,9 +112,9 @@ export function setUp(holder) {
           element(
             "span",
             { class: "actions" },
-            act("condition.earlier", () => move(place, -1), place === 0),
-            act("condition.later", () => move(place, 1), place === tests.length - 1),
-            act("condition.leave_out", leave),
+            act("Earlier", () => move(place, -1), place === 0),
+            act("Later", () => move(place, 1), place === tests.length - 1),
+            act("Leave out", leave),
           ),
         );
       }),

@@ -7,7 +7,6 @@ import { isSmall, sent, tooLarge } from "../opening.js";
 import * as schema from "../schema.js";
 import * as states from "../state.js";
 import { store } from "../store.js";
-import { text } from "../texts.js";
 import * as units from "../units.js";
 import { vocabulary } from "../vocabulary.js";
 import { placeFaults, showValues } from "./case_fields.js";
@@ -87,7 +86,9 @@ export function setUp(holder) {
     isExample = !found.motion || !found.axis;
     const example = vocabulary.starts[EXAMPLE].case;
     tables = isExample ? { ...found, axis: example.axis, motion: example.motion, motor: example.motor } : found;
-    note.textContent = isExample ? text("duty.example") : otherParts();
+    note.textContent = isExample
+      ? "This design has no motion yet: what stands here is an example, a vertical axis, with this screw. The first change makes it part of the design."
+      : otherParts();
     if (keyOf(tables) !== shown) {
       shown = keyOf(tables);
       const usual = /** @type {Tables} */ (example.motor);
@@ -120,16 +121,18 @@ export function setUp(holder) {
       accept: ".csv,.txt,.tsv,.xlsx,.ods",
     });
     input.addEventListener("change", () => take(input.files?.[0]));
-    const label = `${text("log.choose")}: ${text("duty.trace")}`;
-    const choose = button(text("log.choose"), () => input.click(), { id: "duty-trace-choose", "aria-label": label });
+    const label = "Choose a file: A recorded motion (time, position or speed):";
+    const choose = button("Choose a file", () => input.click(), { id: "duty-trace-choose", "aria-label": label });
     const remove = () => take(undefined).then(() => document.getElementById("duty-trace-choose")?.focus());
-    const words = trace ? text("duty.recorded", { file: trace.name }) : fault;
+    const words = trace
+      ? `${trace.name} counts in place of the motion below. It is no part of the link or of the case.`
+      : fault;
     recorded.replaceChildren(
-      element("span", {}, text("duty.trace")),
+      element("span", {}, "A recorded motion (time, position or speed):"),
       choose,
       input,
       element("span", { class: fault ? "fault" : "small", role: "status" }, words),
-      ...(trace ? [button(text("duty.no_trace"), remove, { id: "duty-trace-remove" })] : []),
+      ...(trace ? [button("Remove the recorded motion", remove, { id: "duty-trace-remove" })] : []),
     );
   }
 
@@ -141,7 +144,9 @@ export function setUp(holder) {
 
   /** That bearings and guides of the case count, which are not shown here. */
   function otherParts() {
-    return tables.bearings || tables.guides ? text("duty.elements") : "";
+    return tables.bearings || tables.guides
+      ? "The bearings and guides of the case count too; their tables are changed in its file."
+      : "";
   }
 
   /** @param {Vocabulary["starts"]} starts */
@@ -158,7 +163,7 @@ export function setUp(holder) {
       shown = "";
       designs.setTables(Object.fromEntries(OF_EXAMPLE.map((name) => [name, example[name] ?? null])));
     };
-    return labelled(select, text("duty.from_example"), button(text("duty.take"), take, { id: "duty-take" }));
+    return labelled(select, "Axis and motion of an example:", button("Use this example", take, { id: "duty-take" }));
   }
 
   return { follow };

@@ -9,7 +9,7 @@ import { save } from "../saving.js";
 import { linesOf, send } from "../server.js";
 import { LETTERS } from "../state.js";
 import { store } from "../store.js";
-import { text } from "../texts.js";
+import { NOT_KEPT } from "../names.js";
 
 /** Kinds of project files. */
 const KINDS = ["toml", "json"];
@@ -25,17 +25,19 @@ export function setUp(holder) {
   const say = (words) => {
     said.textContent = words;
   };
-  const projects = KINDS.map((kind) =>
-    button(text("files.project", { kind: kind.toUpperCase() }), () => saveProject(kind, say)),
-  );
+  const projects = KINDS.map((kind) => button(`Project as ${kind.toUpperCase()}`, () => saveProject(kind, say)));
   holder.replaceChildren(
-    element("p", { class: "small" }, text("files.about")),
-    button(text("open.button"), () => byId("open").click()),
+    element(
+      "p",
+      { class: "small" },
+      "A case (TOML, JSON), a project, or a table of your own screws (CSV, XLSX) can also be dropped anywhere on the page. Undo takes back all of it.",
+    ),
+    button("Open file …", () => byId("open").click()),
     list,
     element("p", { class: "actions" }, ...projects),
     said,
     rows,
-    element("h3", {}, text("keep.heading")),
+    element("h3", {}, "Kept in this browser"),
     works,
   );
   /** The letters and titles that the list was made of. */
@@ -68,13 +70,12 @@ function listOfDesigns() {
   const body = all.map((one, place) => {
     const letter = LETTERS[place];
     const asides = Object.keys(one.aside ?? {});
-    /** @param {"files.show" | "files.copy" | "files.delete"} key @param {() => void} action @param {boolean} disabled */
-    const act = (key, action, disabled) =>
-      button(text(key), action, { disabled, "aria-label": `${text(key)} ${letter}` });
+    /** @param {string} words @param {() => void} action @param {boolean} disabled */
+    const act = (words, action, disabled) => button(words, action, { disabled, "aria-label": `${words} ${letter}` });
     const field = textField(one.name ?? "", (typed) => designs.rename(place, typed.trim()), {
       id: `name-${letter}`,
       maxlength: 80,
-      "aria-label": text("files.name_of", { letter }),
+      "aria-label": `name of design ${letter}`,
     });
     return element(
       "tr",
@@ -85,38 +86,26 @@ function listOfDesigns() {
         "td",
         {},
         designs.titleOf({ ...one, name: "" }),
-        asides.length
-          ? element("span", { class: "small" }, ` ${text("files.aside", { names: asides.join(", ") })}`)
-          : null,
+        asides.length ? element("span", { class: "small" }, ` (kept aside: ${asides.join(", ")})`) : null,
       ),
       element(
         "td",
         { class: "actions" },
-        act("files.show", () => designs.show(place), place === show),
-        act("files.copy", () => designs.duplicate(place), !designs.hasRoom()),
-        act("files.delete", () => designs.remove(place), all.length === 1),
+        act("Show", () => designs.show(place), place === show),
+        act("Copy", () => designs.duplicate(place), !designs.hasRoom()),
+        act("Delete", () => designs.remove(place), all.length === 1),
       ),
     );
   });
-  const headings = ["files.design", "files.name", "files.from", "files.actions"];
+  const headings = ["design", "name", "starts from", "what to do"];
   return element(
     "div",
-    { class: "scroll", tabindex: "0", role: "region", "aria-label": text("files.designs") },
+    { class: "scroll", tabindex: "0", role: "region", "aria-label": "designs on this page" },
     element(
       "table",
       { class: "left" },
-      element("caption", {}, text("files.designs")),
-      element(
-        "thead",
-        {},
-        element(
-          "tr",
-          {},
-          ...headings.map((key) =>
-            element("th", { scope: "col" }, text(/** @type {import("../texts.js").Key} */ (key))),
-          ),
-        ),
-      ),
+      element("caption", {}, "designs on this page"),
+      element("thead", {}, element("tr", {}, ...headings.map((words) => element("th", { scope: "col" }, words)))),
       element("tbody", {}, ...body),
     ),
   );
@@ -130,7 +119,7 @@ async function saveProject(kind, say) {
   try {
     const response = await send(`project?kind=${kind}`, { designs: await designs.forProject() });
     save(`-project.${kind}`, await response.blob());
-    say(text("download.saved", { kind: text("files.project", { kind: kind.toUpperCase() }) }));
+    say(`Project as ${kind.toUpperCase()} saved`);
   } catch (error) {
     say(linesOf(error).join("; "));
   }
@@ -149,14 +138,12 @@ function showOwnRows(holder, say) {
     return;
   }
   const items = table.opened.designs.map((row) => {
-    const take = async () => say((await takeRow(row)) ? "" : text("files.full", { most: LETTERS.length }));
-    const label = text("files.take_row", { name: row.name });
-    return element("li", {}, `${row.name} `, button(text("files.take"), take, { "aria-label": label }));
+    const take = async () =>
+      say((await takeRow(row)) ? "" : `The page holds ${LETTERS.length} designs: delete one first.`);
+    const label = `Take ${row.name} as design`;
+    return element("li", {}, `${row.name} `, button("Take as design", take, { "aria-label": label }));
   });
-  holder.replaceChildren(
-    element("h3", {}, text("files.rows", { file: table.file.name })),
-    element("ul", { class: "rows" }, ...items),
-  );
+  holder.replaceChildren(element("h3", {}, `Screws of ${table.file.name}`), element("ul", { class: "rows" }, ...items));
 }
 
 /** @param {HTMLElement} holder */
@@ -166,23 +153,15 @@ function showKept(holder) {
   const items = works.map(({ id, fragment, title, saved }) => {
     const when = WHEN.format(saved);
     const mine = id === keeping.own();
-    const label = text("keep.open_of", { when });
-    const open = button(text("keep.open"), () => keeping.show(fragment), { disabled: mine, "aria-label": label });
-    const forget = button(text("files.delete"), () => keeping.forget([id]), {
-      "aria-label": text("keep.delete_of", { when }),
+    const label = `Open the work of ${when}`;
+    const open = button("Open", () => keeping.show(fragment), { disabled: mine, "aria-label": label });
+    const forget = button("Delete", () => keeping.forget([id]), {
+      "aria-label": `Delete the work of ${when}`,
     });
-    return element(
-      "li",
-      {},
-      `${when}: ${title} `,
-      mine ? element("em", {}, text("keep.mine")) : null,
-      " ",
-      open,
-      forget,
-    );
+    return element("li", {}, `${when}: ${title} `, mine ? element("em", {}, "on this page") : null, " ", open, forget);
   });
   holder.replaceChildren(
-    element("p", { class: "small" }, why ? text(`keep.${why}`) : text("keep.about")),
-    works.length ? element("ul", { class: "rows" }, ...items) : element("p", {}, text("keep.none")),
+    element("p", { class: "small" }, why ? NOT_KEPT[why] : "Each tab keeps its own work, until it is deleted here."),
+    works.length ? element("ul", { class: "rows" }, ...items) : element("p", {}, "Nothing is kept yet."),
   );
 }

@@ -5,7 +5,7 @@ import { framed, labelled, namedButton, primaryButton, opened } from "../control
 import { element, scrollingTable } from "../dom.js";
 import { save } from "../saving.js";
 import { get } from "../server.js";
-import { text, textOr } from "../texts.js";
+import { COLUMNS } from "../names.js";
 import * as units from "../units.js";
 import { caseFile, commandLine, faultLines } from "./log_parts.js";
 import { question } from "./question.js";
@@ -37,13 +37,13 @@ export function setUp(holder) {
       return undefined;
     },
   });
-  const make = primaryButton("hand-over-make", "hand_over.make", async () => {
+  const make = primaryButton("hand-over-make", "Make the files", async () => {
     tables = await designs.currentCase();
     asked.follow(body(), 0);
   });
   holder.replaceChildren(
-    labelled(select, text("hand_over.target")),
-    framed(text("hand_over.options"), options),
+    labelled(select, "for"),
+    framed("Options", options),
     element("p", { class: "card-start" }, make),
     command,
     asked.line,
@@ -83,12 +83,7 @@ export function setUp(holder) {
     };
     options.replaceChildren(
       ...Object.entries(RANGES).map(([name, example]) =>
-        field(
-          "range",
-          name,
-          text("hand_over.range", { name: textOr(`log.column.${name}`, name), example }),
-          text("hand_over.usual"),
-        ),
+        field("range", name, `range of: ${COLUMNS[name] ?? name}, such as ${example}`, "as wide as the target allows"),
       ),
       ...(target?.options ?? []).map((one) => field("option", one.name, one.meaning, one.default)),
     );
@@ -117,7 +112,7 @@ export function setUp(holder) {
   function show({ results, warnings, words: { ranges: inWords }, file }) {
     const worst = /** @type {Record<string, Record<string, any>>} */ (results.worst_error);
     const rows = Object.entries(worst).map(([name, one]) => [
-      textOr(`result.${name}`, name.replaceAll("_", " ")),
+      name.replaceAll("_", " "),
       element(
         "data",
         { value: String(one.value), "data-name": name },
@@ -125,21 +120,21 @@ export function setUp(holder) {
       ),
       one.of_largest === null || one.of_largest === undefined ? "–" : `${units.digits(100 * one.of_largest, 2)} %`,
     ]);
-    const caption = text("hand_over.caption");
-    const headings = [text("hand_over.output"), text("hand_over.error"), text("hand_over.share")];
+    const caption = "worst error against the model at random points of the range";
+    const headings = ["output", "worst error", "of its largest value"];
     const bytes = Uint8Array.from(atob(file.base64), (letter) => letter.charCodeAt(0));
     const names = /** @type {string[]} */ (results.files);
-    const download = namedButton("hand-over-download", "hand_over.download", () =>
+    const download = namedButton("hand-over-download", "Download", () =>
       save(`-${file.name}`, new Blob([bytes], { type: file.media_type })),
     );
     const told = inWords.map((line) => element("li", {}, line));
-    const ranges = opened(text("hand_over.ranges"), element("ul", {}, ...told));
+    const ranges = opened("Ranges and errors in words", element("ul", {}, ...told));
     ranges.open = true;
     result.replaceChildren(
       element(
         "div",
         {},
-        element("p", {}, text("hand_over.files", { files: names.join(", "), size: Math.ceil(bytes.length / 1000) })),
+        element("p", {}, `${names.join(", ")} (${Math.ceil(bytes.length / 1000)} kB)`),
         element("p", { class: "card-start" }, download),
         ...(rows.length ? [scrollingTable(caption, headings, rows)] : []),
         ...lines([], warnings),

@@ -3,8 +3,17 @@
 import { box, framed, labelled, menu, opened } from "../controls.js";
 import { element, scrollingTable } from "../dom.js";
 import { withPlace } from "../messages.js";
-import { text, textOr } from "../texts.js";
+import { COLUMNS } from "../names.js";
 import { quantity } from "./quantities.js";
+
+/** Numbers of a fit in words. @type {Record<string, string>} */
+const NUMBERS = {
+  boundary_friction_coefficient: "boundary friction coefficient",
+  constant_torque: "constant torque (seals, bearings)",
+  preload: "preload",
+  torque_drift: "drift of the torque sensor",
+  torque_offset: "zero error of the torque sensor",
+};
 
 /** Numbers to fit that are shown at once. */
 const FIRST = 2;
@@ -28,10 +37,10 @@ export function columns(found, given, change) {
   function meaning(one, place) {
     /** @type {[string, string][]} */
     const options = [
-      ["", text("log.not_used")],
+      ["", "not used, or as its heading says"],
       ...names.map((name) => /** @type {[string, string]} */ ([name, nameOf(name)])),
     ];
-    const label = text("log.taken_for_of", { heading: one.heading });
+    const label = `${one.heading}: taken for`;
     const take = (/** @type {string} */ name) => choose(one, name, one.unit);
     return menu(options, one.taken_for, take, { id: `log-column-${place}`, "aria-label": label });
   }
@@ -43,7 +52,7 @@ export function columns(found, given, change) {
       id: `log-unit-${place}`,
       value: one.unit,
       disabled: !one.taken_for,
-      "aria-label": text("log.unit_of", { heading: one.heading }),
+      "aria-label": `${one.heading}: unit`,
     });
     input.addEventListener("change", () => choose(one, one.taken_for, input.value));
     return input;
@@ -55,8 +64,8 @@ export function columns(found, given, change) {
     const written = `${one.bare_heading} [${unit || known?.shown_in}]`;
     change({ ...Object.fromEntries(others), ...(name && { [name]: written }) });
   }
-  const caption = text("log.columns_caption", { file: found.file });
-  const headings = [text("log.heading"), text("log.taken_for"), text("log.unit"), text("log.cells")];
+  const caption = `columns of ${found.file}`;
+  const headings = ["heading", "taken for", "unit", "first cells"];
   const content = scrollingTable(caption, headings, rows);
   content.firstElementChild?.classList.add("columns-of-log");
   const faults = found.faults.map((fault) => element("p", { class: "fault" }, withPlace(fault)));
@@ -79,19 +88,23 @@ export function columns(found, given, change) {
           const others = Object.fromEntries(Object.entries(given).filter(([other]) => other !== name));
           change(input.value.trim() ? { ...others, [name]: input.value.trim() } : others);
         });
-        return labelled(input, text("log.in_every_row", { name: nameOf(name) }));
+        return labelled(input, `${nameOf(name)}, the same in every row`);
       });
     return element("div", {}, ...fields);
   }
 }
 
 function movingNote() {
-  return element("p", { class: "warning" }, text("log.moving"));
+  return element(
+    "p",
+    { class: "warning" },
+    "This is a log of a moving axis (positions over time). Its fit is on the command line: ballscrew fit.",
+  );
 }
 
 /** @param {string} name */
 export function nameOf(name) {
-  return textOr(`log.column.${name}`, name.replaceAll("_", " "));
+  return COLUMNS[name] ?? name.replaceAll("_", " ");
 }
 
 /**
@@ -111,9 +124,9 @@ export function choices(free, chosen, change) {
     const words = `${meaningOf(one.name, free)}${value}`;
     return box(words, chosen.includes(one.name), take, { id: `free-${place}` });
   });
-  const more = opened(text("log.more_free"), ...lined(boxes.slice(FIRST)));
+  const more = opened("more numbers", ...lined(boxes.slice(FIRST)));
   more.open = free.slice(FIRST).some(({ name }) => chosen.includes(name));
-  return framed(text("log.free"), ...lined(boxes.slice(0, FIRST)), more);
+  return framed("What is fitted", ...lined(boxes.slice(0, FIRST)), more);
 }
 
 /** @param {HTMLElement[]} boxes */
@@ -130,5 +143,5 @@ function lined(boxes) {
 function meaningOf(name, free) {
   const last = name.split(".").at(-1) ?? name;
   const known = free.find((one) => one.name === name);
-  return textOr(`fit.number.${last}`, known?.meaning ?? last.replaceAll("_", " "));
+  return NUMBERS[last] ?? known?.meaning ?? last.replaceAll("_", " ");
 }

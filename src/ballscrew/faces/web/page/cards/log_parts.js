@@ -7,7 +7,6 @@ import { element } from "../dom.js";
 import { inWords, labelOf, withPlace } from "../messages.js";
 import * as schema from "../schema.js";
 import { get } from "../server.js";
-import { text } from "../texts.js";
 
 /** Bytes of a log that the server takes, with its third more for the request. */
 const MOST_BYTES = 3_000_000;
@@ -36,12 +35,12 @@ export function dropZone(id, label, take, { multiple = false } = {}) {
     multiple,
     accept: ".csv,.txt,.tsv,.xlsx,.xls,.ods,.mat",
   });
-  const choose = button(text("log.choose"), () => input.click(), { "aria-label": `${text("log.choose")}: ${label}` });
+  const choose = button("Choose a file", () => input.click(), { "aria-label": `Choose a file: ${label}` });
   /** @param {File | undefined} file */
   const read = async (file) => {
     if (!file) return;
     if (file.size > MOST_BYTES) {
-      said.textContent = text("log.large", { file: file.name, size: Math.round(MOST_BYTES / 1e6) });
+      said.textContent = `${file.name} is too large here, ${Math.round(MOST_BYTES / 1e6)} MB at most; the command line takes it.`;
       return;
     }
     use({ name: file.name, base64: inBase64(new Uint8Array(await file.arrayBuffer())) });
@@ -52,7 +51,7 @@ export function dropZone(id, label, take, { multiple = false } = {}) {
   };
   /** @param {SentFile} file */
   const use = (file) => {
-    said.textContent = text("log.taken", { file: file.name });
+    said.textContent = `${file.name}`;
     take(file);
   };
   input.addEventListener("change", () => {
@@ -94,12 +93,22 @@ export function exampleButton(name, take) {
     const examples = await get("examples");
     const { case: sections, file, logs, free } = examples[name];
     const left = designs.add([await designs.ofCase(sections, { file })]);
-    said.textContent = left ? text("log.no_room") : "";
+    said.textContent = left ? "There is no place for one more design: remove one first." : "";
     if (!left) take(logs, free);
   };
   const said = element("span", { role: "status" });
-  const example = namedButton(`${name}-example`, "log.example", onclick);
-  return element("p", { class: "card-start" }, example, said, element("span", { class: "small" }, text("log.private")));
+  const example = namedButton(`${name}-example`, "Try with an example log", onclick);
+  return element(
+    "p",
+    { class: "card-start" },
+    example,
+    said,
+    element(
+      "span",
+      { class: "small" },
+      "A log is read by the server, answered and removed; it is not part of the link.",
+    ),
+  );
 }
 
 /**
@@ -130,7 +139,7 @@ export function faultLines(faults) {
 function elasticLine(fault) {
   const line = element("p", { class: "fault" }, withPlace(fault), " ");
   line.append(
-    button(text("log.rigid"), () => {
+    button("Take rigid bodies and equal balls in this design", () => {
       line.remove();
       designs.setTables({ bodies: null, deviations: null });
     }),
@@ -145,7 +154,7 @@ function elasticLine(fault) {
  */
 export function commandLine(words) {
   const quoted = words.map((word) => (SPECIAL.test(word) ? JSON.stringify(word).replaceAll(OF_SHELLS, "\\$&") : word));
-  const intro = text("log.command", { pane: text("view.handover") });
+  const intro = "On the command line, with the case saved under “Hand over”:";
   return element("p", { class: "small" }, `${intro} `, element("code", {}, quoted.join(" ")));
 }
 

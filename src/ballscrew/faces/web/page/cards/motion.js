@@ -3,10 +3,17 @@
 import { button, menu, textField } from "../controls.js";
 import { element } from "../dom.js";
 import * as schema from "../schema.js";
-import { text, textOr } from "../texts.js";
 import * as units from "../units.js";
 import { fieldset } from "./case_fields.js";
 import { editor, idOf, kindOf } from "./segments.js";
+
+/** Kinds of motion. @type {Record<string, string>} */
+const KINDS_IN_WORDS = {
+  "s-curve": "stroke with limited jerk",
+  segments: "segments",
+  sine: "sine",
+  trapezoid: "stroke with constant acceleration",
+};
 
 /** @typedef {import("../state.js").FrozenState} State */
 /** @typedef {import("../state.js").Tables} Tables */
@@ -61,7 +68,7 @@ export function inputs(current, state, motions, usualMotor, { put, onChange }) {
   const source = { state, tables: current(), onChange };
   return [
     motionFields(() => current().motion, motions, source, put),
-    fieldset("axis", text("section.axis"), OF_AXIS, source),
+    fieldset("axis", "Axis", OF_AXIS, source),
     ...motorFields(() => current().motor, usualMotor, source, put),
   ];
 }
@@ -76,17 +83,17 @@ function motionFields(current, motions, source, put) {
   const kind = String(current().kind ?? SEGMENTS);
   const id = "motion-kind";
   const select = menu(
-    Object.keys(motions).map((name) => [name, textOr(`duty.kind.${name}`, name)]),
+    Object.keys(motions).map((name) => [name, KINDS_IN_WORDS[name] ?? name]),
     kind,
     (chosen) => put({ motion: asKind(current(), chosen, motions) }, { isAnew: true, id }),
     { id },
   );
   const names = (motions[kind] ?? []).filter((name) => name !== "segment" && name !== "kind");
-  const fields = fieldset("motion", text("section.motion"), names, source);
+  const fields = fieldset("motion", "Motion", names, source);
   const chosen = element(
     "div",
     { class: "field", "data-path": "motion.kind" },
-    element("label", { for: id }, text("duty.kind")),
+    element("label", { for: id }, "kind of motion"),
     element("div", { class: "entry" }, select),
     element("p", { class: "fault" }),
   );
@@ -149,9 +156,9 @@ function motorFields(current, usualMotor, source, put) {
   const motor = current();
   const id = "motor-toggle";
   const toggle = () => put({ motor: motor ? null : (usualMotor ?? {}) }, { isAnew: true, id });
-  const turn = button(text(motor ? "duty.no_motor" : "duty.add_motor"), toggle, { id });
-  if (!motor) return [element("p", {}, `${text("duty.without_motor")} `, turn)];
-  const fields = fieldset("motor", text("section.motor"), OF_MOTOR, source);
+  const turn = button(motor ? "Leave the motor out" : "Add a motor", toggle, { id });
+  if (!motor) return [element("p", {}, "No motor is given: its torque is computed, and not judged. ", turn)];
+  const fields = fieldset("motor", "Motor", OF_MOTOR, source);
   /** @type {string[][]} */
   const points = motor.curve ?? [];
   /** @param {string} typed */
@@ -169,9 +176,13 @@ function motorFields(current, usualMotor, source, put) {
     element(
       "div",
       { class: "field", "data-path": "motor.curve" },
-      element("label", { for: "f-motor-curve" }, text("duty.curve_input")),
+      element("label", { for: "f-motor-curve" }, "curve of the peak torque"),
       element("div", { class: "entry" }, input),
-      element("p", { class: "small", id: "f-motor-curve-about" }, text("duty.curve_form")),
+      element(
+        "p",
+        { class: "small", id: "f-motor-curve-about" },
+        "speed: torque; speed: torque, such as 0 rpm: 50 N m; 2500 rpm: 30 N m",
+      ),
       element("p", { class: "fault", id: "f-motor-curve-fault" }),
     ),
     turn,

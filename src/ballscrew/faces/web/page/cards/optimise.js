@@ -8,7 +8,6 @@ import { labelOf } from "../messages.js";
 import { FIELDS } from "../needs.js";
 import { LETTERS } from "../state.js";
 import { store } from "../store.js";
-import { text } from "../texts.js";
 import * as views from "../views.js";
 import { vocabulary } from "../vocabulary.js";
 import { objective } from "./candidates.js";
@@ -61,7 +60,7 @@ export function setUp(holder) {
     });
     return box;
   });
-  const start = primaryButton("optimise-start", "optimise.start", async () => {
+  const start = primaryButton("optimise-start", "Search the front", async () => {
     need = await tables(store.state.need);
     asked.follow(body(), 0);
   });
@@ -70,7 +69,7 @@ export function setUp(holder) {
     element(
       "fieldset",
       { class: "card-fields" },
-      element("legend", {}, text("optimise.objectives")),
+      element("legend", {}, "Objectives"),
       element(
         "div",
         { class: "filters" },
@@ -94,7 +93,7 @@ export function setUp(holder) {
 
   async function follow() {
     need = await tables(store.state.need);
-    asks.replaceChildren(element("p", {}, `${text("optimise.need")} ${summary()}`), element("p", {}, toNeed()));
+    asks.replaceChildren(element("p", {}, `The need: ${summary()}`), element("p", {}, toNeed()));
     const listed = need.optimise?.objectives;
     // those of the need, until others are chosen here
     if (!isOwn) for (const box of boxes) box.checked = (Array.isArray(listed) ? listed : USUAL).includes(box.value);
@@ -108,19 +107,19 @@ export function setUp(holder) {
 
   /** The button that takes a design of the front. @param {number} row */
   function takes(row) {
-    const name = text("optimise.name", { number: row + 1 });
+    const name = `Optimum ${row + 1}`;
     const onclick = () => answer && take(answer.candidates[row], name);
-    return button(text("files.take"), onclick, { "aria-label": text("files.take_row", { name }) });
+    return button("Take as design", onclick, { "aria-label": `Take ${name} as design` });
   }
 
   /** @param {Member} member @param {string} name */
   async function take(member, name) {
     if (!designs.hasRoom()) {
-      taken.textContent = text("files.full", { most: LETTERS.length });
+      taken.textContent = `The page holds ${LETTERS.length} designs: delete one first.`;
       return;
     }
     designs.add([await designs.ofCase(member.case, { name })]);
-    taken.textContent = text("choose.taken", { name, letter: LETTERS[store.state.show] });
+    taken.textContent = `${name} is design ${LETTERS[store.state.show]}.`;
   }
 
   return { follow };
@@ -132,10 +131,13 @@ function summary() {
   const given = Object.keys(FIELDS).flatMap((name) =>
     texts[name] ? [`${labelOf(FIELDS[name] || `need.${name}`)}: ${texts[name]}`] : [],
   );
-  return [...given, ...(duty ? [text("choose.duty")] : [])].join("; ") || text("optimise.empty");
+  return (
+    [...given, ...(duty ? ["by the duty of the design on the page, in place of force and feed"] : [])].join("; ") ||
+    "nothing is given yet"
+  );
 }
 
 /** A button to the card that has the fields of the need. */
 function toNeed() {
-  return button(text("optimise.to_need"), () => views.go("choose.rows"));
+  return button("Change the need", () => views.go("choose.rows"));
 }

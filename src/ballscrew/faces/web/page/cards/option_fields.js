@@ -3,7 +3,6 @@
 import { menu, opened, textField } from "../controls.js";
 import { element } from "../dom.js";
 import { words } from "../fields.js";
-import { text } from "../texts.js";
 import * as units from "../units.js";
 
 /** @typedef {Vocabulary["options"][string][number]} Option */
@@ -37,7 +36,7 @@ export function optionFields(question, options, given, change) {
       element("p", { id: `${control.id}-about`, class: "hidden" }, option.meaning),
     );
   });
-  const found = opened(text("card.options"), element("div", { class: "grid" }, ...fields));
+  const found = opened("More options", element("div", { class: "grid" }, ...fields));
   found.className = "card-fields";
   return found;
 }
@@ -55,7 +54,7 @@ function controlOf(option, take) {
   if (option.kind === "choice") {
     const names = ["", ...option.choices];
     return menu(
-      names.map((name) => [name, name || text("form.not_given")]),
+      names.map((name) => [name, name || "not given"]),
       "",
       (name) => take(name || undefined),
     );

@@ -16,7 +16,7 @@ import { linesOf, Problem } from "../server.js";
 import { askPatiently, sendPatiently } from "../long_work.js";
 import { LETTERS, valueAt } from "../state.js";
 import { store } from "../store.js";
-import { text } from "../texts.js";
+import { RESULTS } from "../names.js";
 import * as units from "../units.js";
 
 const CHART = "over-input-chart";
@@ -81,7 +81,7 @@ export function setUp(holder) {
   const again = { from: undefined, to: undefined };
   const input = menu([], "", (path) => change({ path, ...again }), { id: "over-input-of" });
   const output = menu(
-    OUTPUTS.map((name) => [name, text(`results.${name}`)]),
+    OUTPUTS.map((name) => [name, RESULTS[name]]),
     question.output,
     (name) => change({ output: /** @type {Question["output"]} */ (name) }),
     { id: "over-input-result" },
@@ -99,16 +99,16 @@ export function setUp(holder) {
   const [from, to] = [field("from"), field("to")];
   const unit = element("span");
   const reasons = element("div", { role: "status" });
-  /** @param {HTMLElement} control @param {import("../texts.js").Key} key */
-  const labelled = (control, key) => element("p", {}, element("label", { for: control.id }, text(key)), control);
+  /** @param {HTMLElement} control @param {string} words */
+  const labelled = (control, words) => element("p", {}, element("label", { for: control.id }, words), control);
   holder.prepend(
     element(
       "div",
       { class: "choices" },
-      labelled(output, "over_input.result"),
-      labelled(input, "over_input.over"),
-      labelled(from, "over_input.from"),
-      labelled(to, "over_input.to"),
+      labelled(output, "Result"),
+      labelled(input, "over"),
+      labelled(from, "from"),
+      labelled(to, "to"),
       unit,
     ),
   );
@@ -143,9 +143,7 @@ export function setUp(holder) {
       if (signal.aborted) return;
       const failed = curves.filter(({ reason }) => reason);
       reasons.replaceChildren(
-        ...failed.map(({ letter, reason }) =>
-          element("p", { class: "warning" }, `${text("compare.design", { letter })}: ${reason}`),
-        ),
+        ...failed.map(({ letter, reason }) => element("p", { class: "warning" }, `Design ${letter}: ${reason}`)),
       );
       if (failed.length < curves.length) chart(curves, question);
       else showFailure(CHART, failed[0].reason ?? "");
@@ -313,7 +311,7 @@ function numberOf(path) {
 async function curveOf({ letter, run, reason, body }, { path, output }, low, high, signal) {
   if (!run) return { letter, reason };
   const at = valueAt(run.inputs, path);
-  if (typeof at !== "number") return { letter, reason: text("over_input.absent", { input: labelIn(path) }) };
+  if (typeof at !== "number") return { letter, reason: `this design has no ${labelIn(path)}` };
   const count = run.loads ? POINTS_OF_NUT : POINTS;
   const name = path.slice(path.indexOf(".") + 1);
   const node = numberOf(path);
@@ -353,7 +351,7 @@ function chart(all, { path, output }) {
     const number = numbersOf(run)[output];
     return [
       {
-        name: text("compare.design", { letter }),
+        name: `Design ${letter}`,
         place: LETTERS.indexOf(letter),
         x: parts.valuesOf(axis).map((value) => shown(path, value)),
         y: parts.converted(output, swept.outputs[output]),
@@ -365,12 +363,12 @@ function chart(all, { path, output }) {
   const unit = unitOf(path);
   const words = labelIn(path);
   const x = unit ? `${words} (${units.symbol(unit)})` : words;
-  const y = units.heading(output, text(`results.${output}`));
-  const caption = text("over_input.caption", { result: text(`results.${output}`), input: words });
+  const y = units.heading(output, RESULTS[output]);
+  const caption = `${RESULTS[output]} over ${words}`;
   draw(CHART, {
     name: "over_input",
     caption,
-    description: text("over_input.description", { caption, count: curves.length }),
+    description: `${caption}, curves of ${curves.length} designs.`,
     figure: {
       x: { title: x },
       y: { title: y, zero: true },
@@ -381,7 +379,7 @@ function chart(all, { path, output }) {
       }),
     },
     numbers: () => [
-      [x, ...curves.flatMap(({ name }) => [`${y}, ${name}`, `${text("chart.valid")}, ${name}`])],
+      [x, ...curves.flatMap(({ name }) => [`${y}, ${name}`, `valid, ${name}`])],
       curves[0].x.map((at, place) => [at, ...curves.flatMap((one) => [one.y[place], yesOrNo(one.valid[place])])]),
     ],
   });

@@ -5,7 +5,6 @@ import { byId, element } from "../dom.js";
 import { ownNut } from "../own_nut.js";
 import { LETTERS } from "../state.js";
 import { store } from "../store.js";
-import { text } from "../texts.js";
 
 /** @param {HTMLElement} holder */
 export function setUp(holder) {
@@ -15,8 +14,8 @@ export function setUp(holder) {
   const { follow } = ownNut(place, async (tables, name) => {
     const left = designs.add([await designs.ofCase(tables, { name })]);
     words.textContent = left
-      ? text("open.no_room", { names: name, most: LETTERS.length })
-      : text("own_nut.done", { name, letter: LETTERS[store.state.show] });
+      ? `The page holds ${LETTERS.length} designs. There was no place for ${name}.`
+      : `Added as design ${LETTERS[store.state.show]}: ${name}.`;
     if (!left) byId("results").scrollIntoView();
   });
   return { follow };

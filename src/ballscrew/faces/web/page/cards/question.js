@@ -8,7 +8,6 @@ import { inWords, labelOf } from "../messages.js";
 import { answerOfKept, keptJob, runJob } from "../jobs.js";
 import { ask, linesOf, Problem } from "../server.js";
 import { sheetPlace } from "../sheet.js";
-import { text } from "../texts.js";
 import * as units from "../units.js";
 
 /** Milliseconds after the last key, and until it is said that something is computed. */
@@ -86,8 +85,8 @@ export function question({ address, result: own, beside, show, place, isLarge = 
 
   /** @param {object | undefined} body nothing of one that is not on the page any more @param {number} start */
   function sayProgress(body, start) {
-    const bar = element("progress", { "aria-label": text("card.computing") });
-    const seconds = element("span", {}, text("card.computing"));
+    const bar = element("progress", { "aria-label": "computing …" });
+    const seconds = element("span", {}, "computing …");
     let before = 0;
     told = (job) => {
       before = job.before + (job.state === "waiting" ? 1 : 0);
@@ -99,28 +98,23 @@ export function question({ address, result: own, beside, show, place, isLarge = 
     const cancel = () => {
       stop();
       mark(false, true);
-      line.replaceChildren(element("p", {}, `${text("card.cancelled")} `, earlier()));
+      line.replaceChildren(element("p", {}, "Cancelled. ", earlier()));
       if (!body) return;
       const again = () => follow(body, 0);
-      const retry = button(text("card.again"), again);
+      const retry = button("Compute", again);
       line.firstElementChild?.append(retry);
       retry.focus();
     };
-    line.replaceChildren(
-      bar,
-      seconds,
-      button(text("card.cancel"), cancel),
-      element("span", { class: "small" }, earlier()),
-    );
+    line.replaceChildren(bar, seconds, button("Cancel", cancel), element("span", { class: "small" }, earlier()));
     clock = setInterval(() => {
       const passed = Math.round((performance.now() - start) / SECOND);
-      seconds.textContent = text(before ? "card.waiting_for" : "card.computing_for", { seconds: passed });
+      seconds.textContent = before ? `waits for other work … ${passed} s` : `computing … ${passed} s`;
     }, SECOND);
   }
 
   /** That what stands below is not of the input as it is; nothing where nothing stands there. */
   function earlier() {
-    return answered && !result.hidden ? `${text("card.earlier")} ` : "";
+    return answered && !result.hidden ? "The results below are those of the previous input. " : "";
   }
 
   /** @param {FaultLine[]} faults @param {string[]} lines */
@@ -132,7 +126,7 @@ export function question({ address, result: own, beside, show, place, isLarge = 
     });
     mark(false, true);
     line.replaceChildren(
-      element("p", { class: "warning" }, `${text("card.not_computed")} ${lines.join("; ")} ${earlier()}`),
+      element("p", { class: "warning" }, `Not computed. ${lines.join("; ")} ${earlier()}`),
       ...buttons,
     );
   }
@@ -203,7 +197,7 @@ export function question({ address, result: own, beside, show, place, isLarge = 
       stop();
       const faults = error instanceof Problem ? error.faults : [];
       const others = place(faults);
-      const lines = others && others.length < faults.length ? [text("card.marked")] : [];
+      const lines = others && others.length < faults.length ? ["Correct the marked field above."] : [];
       sayFaults(others ?? [], faults.length ? lines : linesOf(error));
     }
   }
@@ -231,7 +225,8 @@ export function question({ address, result: own, beside, show, place, isLarge = 
       }
     }
     await conclude(key, coming, options.signal);
-    if (answered === key) line.replaceChildren(element("p", {}, text("card.resumed")));
+    if (answered === key)
+      line.replaceChildren(element("p", {}, "The answer to what was asked before the page was reloaded."));
   }
 
   /**

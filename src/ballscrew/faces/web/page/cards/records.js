@@ -1,7 +1,7 @@
 // Verdicts and warnings of a card.
 
 import { element } from "../dom.js";
-import { sentence, text } from "../texts.js";
+import { sentence } from "../sentence.js";
 
 /**
  * Verdicts, and below them what to beware of.
@@ -29,7 +29,7 @@ export function lines(verdicts, warnings) {
         element(
           "p",
           { class: "warning", "data-record": record.id },
-          element("strong", {}, `${text("card.beware")} `),
+          element("strong", {}, "Beware: "),
           element("span", {}, sentence(record.text)),
         ),
       ),

@@ -2,8 +2,26 @@
 
 import { button, menu, textField } from "../controls.js";
 import { element, scrolling } from "../dom.js";
-import { text, textOr } from "../texts.js";
 import * as units from "../units.js";
+
+/** Fields of a segment and what is done with it. @type {Record<string, string>} */
+const IN_WORDS = {
+  acceleration: "acceleration",
+  delete: "delete",
+  distance: "distance",
+  down: "move down",
+  duration: "time",
+  force: "force against it",
+  speed: "speed",
+  temperature: "oil",
+  up: "move up",
+};
+/** Kinds of segments. @type {Record<string, string>} */
+const KINDS_IN_WORDS = {
+  move: "move",
+  rest: "rest",
+  stretch: "constant speed",
+};
 
 /** @typedef {import("../schema.js").SchemaNode} SchemaNode */
 /** @typedef {Record<string, string>} Segment */
@@ -61,26 +79,20 @@ export function editor(current, nodes, onChange) {
   const add = () => {
     onChange([...current(), asKind({}, "rest")], { place: length, name: "name", isAnew: true });
   };
-  const headings = [
-    text("segments.number"),
-    text("segments.order"),
-    text("segments.name"),
-    text("segments.kind"),
-    ...COLUMNS.map((name) => heading(name, nodes[name])),
-  ];
+  const headings = ["no.", "order", "name", "kind", ...COLUMNS.map((name) => heading(name, nodes[name]))];
   const content = element(
     "table",
     { class: "segments" },
-    element("caption", {}, text("segments.caption")),
+    element("caption", {}, "segments of the motion, one after the other"),
     element("thead", {}, element("tr", {}, ...headings.map((words) => element("th", { scope: "col" }, words)))),
     element("tbody", {}, ...rows),
   );
   return element(
     "div",
     {},
-    scrolling(text("segments.caption"), content),
-    button(text("segments.add"), add, { id: "segment-add" }),
-    element("span", { class: "small" }, ` ${text("segments.keys")}`),
+    scrolling("segments of the motion, one after the other", content),
+    button("Add a segment", add, { id: "segment-add" }),
+    element("span", { class: "small" }, " Alt with an arrow key up or down moves the segment with the cursor."),
   );
 }
 
@@ -91,7 +103,7 @@ function unitOf(node) {
 
 /** @param {string} name @param {SchemaNode | undefined} node */
 function heading(name, node) {
-  return `${textOr(`segments.${name}`, name)} (${units.symbol(unitOf(node))})`;
+  return `${IN_WORDS[name] ?? name} (${units.symbol(unitOf(node))})`;
 }
 
 /**
@@ -109,7 +121,7 @@ function heading(name, node) {
  */
 function row(segment, place, { current, nodes, onChange, move }) {
   const kind = kindOf(segment);
-  const title = text("segments.title", { number: place + 1 });
+  const title = `segment ${place + 1}`;
   /** @param {Segment} found @param {string} name */
   const put = (found, name, isAnew = false) => onChange(current().with(place, found), { place, name, isAnew });
   /** @param {string} name @param {string} value */
@@ -120,11 +132,11 @@ function row(segment, place, { current, nodes, onChange, move }) {
   /** @param {string} name */
   const named = (name) => ({
     id: idOf(place, name),
-    "aria-label": `${title}: ${textOr(`segments.${name}`, name)}`,
+    "aria-label": `${title}: ${IN_WORDS[name] ?? name}`,
   });
   const names = textField(segment.name ?? "", (typed) => set("name", typed), named("name"));
   const kinds = menu(
-    Object.keys(FIELDS).map((one) => [one, textOr(`segments.is.${one}`, one)]),
+    Object.keys(FIELDS).map((one) => [one, KINDS_IN_WORDS[one] ?? one]),
     kind,
     (chosen) => put(asKind(current()[place], /** @type {Kind} */ (chosen)), "kind", true),
     named("kind"),

@@ -3,7 +3,6 @@
 import * as designs from "../designs.js";
 import { labelled, primaryButton, textField } from "../controls.js";
 import { element } from "../dom.js";
-import { text } from "../texts.js";
 import * as units from "../units.js";
 import { vocabulary } from "../vocabulary.js";
 import { caseFile, commandLine, dropZone, exampleButton, faultLines } from "./log_parts.js";
@@ -33,7 +32,7 @@ export function setUp(holder) {
     isLarge: () => true,
   });
   const zones = ["new", "worn"].map((name) =>
-    dropZone(`service-${name}`, text(name === "new" ? "service.new" : "service.worn"), (file) => {
+    dropZone(`service-${name}`, name === "new" ? "Log when new (may be missing)" : "Log of now", (file) => {
       logs[name] = file;
       follow();
     }),
@@ -42,7 +41,7 @@ export function setUp(holder) {
     for (const [place, file] of found.entries()) zones[place].use(file);
   });
   const tolerance = textField(TOLERANCE, () => follow(), { id: "service-tolerance", size: "5" });
-  const start = primaryButton("service-start", "service.start", async () => {
+  const start = primaryButton("service-start", "Find the preload", async () => {
     tables = await designs.currentCase();
     asked.follow(body(), 0);
   });
@@ -55,7 +54,7 @@ export function setUp(holder) {
   holder.replaceChildren(
     ...zones.map(({ zone }) => zone),
     example,
-    labelled(tolerance, text("service.tolerance"), "%", start),
+    labelled(tolerance, "share of the preload that may be lost", "%", start),
     more,
     command,
     asked.line,

@@ -6,10 +6,15 @@ import { element, redraw } from "../dom.js";
 import * as schema from "../schema.js";
 import * as states from "../state.js";
 import { store } from "../store.js";
-import { text, textOr } from "../texts.js";
 import * as units from "../units.js";
 import { fieldset, placeFaults, showValues } from "./case_fields.js";
 import { question } from "./question.js";
+
+/** Fields in words. @type {Record<string, string>} */
+const HOURS = {
+  hours: "hours of work",
+  rest: "hours of rest after it",
+};
 
 /** @typedef {import("../state.js").Tables} Tables */
 
@@ -74,7 +79,9 @@ export function setUp(holder) {
     tables = given;
     const { heat } = store.state;
     const moves = Boolean(tables.motion && tables.axis);
-    note.textContent = text(moves ? "warm_up.of_motion" : "warm_up.of_point");
+    note.textContent = moves
+      ? "The heat is that of the motion under Duty."
+      : "The heat is that of the operating point, with the nut moving to and fro over the stroke; where a motion is given, that of the motion.";
     if (keyOf() !== shown) {
       shown = keyOf();
       const isOpen = editor.querySelector("details")?.open ?? false;
@@ -92,8 +99,11 @@ export function setUp(holder) {
     const source = { state: store.state, tables, onChange };
     const names = Object.keys(schema.fieldsOf(SECTION));
     const others = names.filter((name) => !FIRST.includes(name));
-    const first = fieldset(SECTION, text("section.surroundings"), FIRST, source);
-    const more = opened(text("warm_up.more"), fieldset(SECTION, text("warm_up.more_title"), others, source));
+    const first = fieldset(SECTION, "Surroundings", FIRST, source);
+    const more = opened(
+      "More of the surroundings",
+      fieldset(SECTION, "Other numbers of the surroundings", others, source),
+    );
     more.open = isOpen;
     return [options(), first, more];
   }
@@ -128,14 +138,14 @@ export function setUp(holder) {
       return element(
         "div",
         { class: "field", "data-path": option },
-        element("label", { for: id }, textOr(`warm_up.${name}`, name)),
+        element("label", { for: id }, HOURS[name] ?? name),
         element("div", { class: "entry" }, input, element("span", { class: "unit" }, "h")),
         element("p", { class: "fault", id: `${id}-fault` }),
       );
     };
-    const words = text("warm_up.with_band", { samples: SAMPLES });
+    const words = `with bands, of ${SAMPLES} samples (takes some seconds)`;
     return framed(
-      text("warm_up.duration"),
+      "Hours",
       element("div", { class: "grid" }, hours("hours", "--hours"), hours("rest", "--cool-down")),
       element(
         "p",
