@@ -14,6 +14,7 @@ const WORK = {
   log: "Columns of the log",
   open: "Opening the file",
   run: "Result",
+  sweep: "Curve",
 };
 
 /** The id of the fault that says so. */

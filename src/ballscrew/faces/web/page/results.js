@@ -8,7 +8,9 @@ import * as units from "./units.js";
 
 /** Results of a contact in words. @type {Record<string, string>} */
 const OF_CONTACTS = {
+  film_parameter: "film parameter λ",
   friction_coefficient: "friction coefficient",
+  maximum_pressure: "greatest pressure",
   minimum_film_thickness: "film thickness",
   pure_rolling_offset: "pure-rolling offset Y",
   semi_major_axis: "semi-axis across",

@@ -10,6 +10,7 @@ const NAMES = {
   checks: "Checks",
   choose: "Choose",
   duty: "Duty",
+  handover: "Hand over",
   heat: "Heat",
   measure: "Measure",
   nut: "Nut",
