@@ -142,6 +142,16 @@ BUSY = "document.querySelector('#results').setAttribute('aria-busy', 'true')"
 _VIEW = re.compile(r"&view=[^&]*")
 
 
+#: The jobs of a page that is left end by themselves; nobody who comes after it asks for them.
+FORGET_JOBS = """() => {
+  try {
+    for (const key of Object.keys(sessionStorage)) {
+      if (key.startsWith("ballscrew.job.")) sessionStorage.removeItem(key);
+    }
+  } catch {} // a page of no address has none
+}"""
+
+
 class Visit:
     """Somebody at the page: what they see, and what went wrong behind it."""
 
@@ -159,7 +169,7 @@ class Visit:
     def leave(self) -> None:
         """The page is for somebody else: with what it asks for, as without this visitor."""
         self.page.unroute_all()
-        self.page.evaluate("() => { try { sessionStorage.clear() } catch {} }")  # its jobs end by themselves
+        self.page.evaluate(FORGET_JOBS)
         self.page.goto("about:blank")
         for event, listener in self._listeners.items():
             self.page.remove_listener(event, listener)

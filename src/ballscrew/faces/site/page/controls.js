@@ -2,8 +2,9 @@
 
 import { byId, element } from "../../web/page/dom.js";
 import { stepOf } from "../../web/page/scale.js";
+import { symbol as symbolOf } from "../../web/page/symbols.js";
 import { NO_NUMBER } from "./case.js";
-import { plainDigits, quantityIn, signOf, spaced, symbolElement } from "./words.js";
+import { plainDigits, quantityIn, signOf, spaced } from "./words.js";
 
 /** @typedef {import("./case.js").Case} Case */
 /** @typedef {{ min: number, max: number, step: number }} Range */
@@ -179,7 +180,7 @@ export class Controls {
     field.addEventListener("input", () => this.#take(name, typed(), field));
     field.addEventListener("change", () => this.show(name));
     this.#rows.set(name, { slider, field, fault, range });
-    const words = element("label", { for: id, title: meaning }, label, " ", symbolElement(symbol));
+    const words = element("label", { for: id, title: meaning }, label, " ", symbolOf(symbol));
     const entry = element("span", { class: "entry" }, field, element("span", { class: "unit" }, sign));
     return element("div", { class: "control" }, words, entry, slider, fault);
   }

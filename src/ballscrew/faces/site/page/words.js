@@ -1,20 +1,5 @@
-// Numbers as the visitor reads them, with units and symbols.
+// Numbers as the visitor reads them, with their units.
 
-import { element } from "../../web/page/dom.js";
-
-const GREEK = {
-  alpha: "α",
-  beta: "β",
-  eta: "η",
-  Lambda: "Λ",
-  lambda: "λ",
-  mu: "µ",
-  nu: "ν",
-  omega: "ω",
-  rho: "ρ",
-  sigma: "σ",
-  epsilon: "ε",
-};
 const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 /** From here on a number has a power of ten. */
 const LARGE = 1e5;
@@ -134,23 +119,4 @@ export function signOf(unit) {
 export function withUnit(words, unit) {
   const sign = signOf(unit);
   return sign ? `${words} (${sign})` : words;
-}
-
-/**
- * A symbol with its indices: ``d_m`` as d with m below it.
- *
- * @param {string} symbol
- */
-export function symbolElement(symbol) {
-  const found = document.createElement("span");
-  found.className = "symbol";
-  const plain = symbol.replace(
-    /\\(\w+?)(?=_|\b)/g,
-    (_, name) => GREEK[/** @type {keyof typeof GREEK} */ (name)] ?? name,
-  );
-  plain.split(/_(\w+)/).forEach((part, place) => {
-    if (place % 2 === 0) found.append(part);
-    else found.append(element("sub", {}, part));
-  });
-  return found;
 }
