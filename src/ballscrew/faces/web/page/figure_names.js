@@ -24,11 +24,18 @@ export function nameAreas(pen, areas, { x, y, box }, palette) {
   for (const area of /** @type {Band[]} */ (areas)) {
     const half = widthOf(area.name, SMALL) / 2 + 4;
     const across = area.x.map((value) => x.pixel(value));
+    const [bottoms, tops] = [area.low, area.high].map((values) => values.map((value) => y.pixel(value)));
     let best = { at: 0, middle: 0, room: ROOM };
-    for (const at of across.filter((place) => place - half > box.left && place + half < box.right)) {
-      const under = [...across.keys()].filter((place) => Math.abs(across[place] - at) <= half);
-      const bottom = Math.min(...under.map((place) => y.pixel(area.low[place])));
-      const top = Math.max(...under.map((place) => y.pixel(area.high[place])));
+    for (const [place, at] of across.entries()) {
+      const isInside = at - half > box.left && at + half < box.right;
+      if (!isInside || !(bottoms[place] - tops[place] > best.room)) continue;
+      let [bottom, top] = [bottoms[place], tops[place]];
+      for (const step of [-1, 1]) {
+        for (let next = place + step; Math.abs(across[next] - at) <= half; next += step) {
+          bottom = Math.min(bottom, bottoms[next]);
+          top = Math.max(top, tops[next]);
+        }
+      }
       if (bottom - top > best.room) best = { at, middle: (bottom + top) / 2, room: bottom - top };
     }
     const colour = shade(area.colour, palette);
