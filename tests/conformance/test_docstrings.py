@@ -5,29 +5,35 @@ import inspect
 import pytest
 
 from ballscrew.basis.references import bibliography
+from support.rules import for_each
 
 from .discovery import EQUATIONS, RECURRENCES
 from .formulas import formula_of
 
 
+@for_each(equation=EQUATIONS)
 def test_a_sentence_comes_first(equation):
     lines = (inspect.getdoc(equation.function) or "").split("\n\n")
     assert lines[0].endswith(".")
     assert lines[0][0].isupper()
 
 
+@for_each(equation=EQUATIONS)
 def test_there_is_a_formula(equation):
     assert (formula_of(equation.function) is None) == (equation.name in RECURRENCES)
 
 
+@for_each(equation=EQUATIONS)
 def test_every_parameter_has_a_unit(equation):
     assert [name for name, unit in equation.units.items() if unit is None] == []
 
 
+@for_each(equation=EQUATIONS)
 def test_every_result_has_a_unit(equation):
     assert None not in equation.return_units
 
 
+@for_each(equation=EQUATIONS)
 def test_parameters_have_no_defaults(equation):
     # Physics has no defaults; those belong to components and models.
     for parameter in inspect.signature(equation.function).parameters.values():
@@ -52,6 +58,7 @@ def test_units_are_coherent(registry):
                 assert registry.Quantity(1.0, unit).to_base_units().magnitude == pytest.approx(1.0)
 
 
+@for_each(equation=EQUATIONS)
 def test_sources_look_like_keys_of_the_bibliography(equation):
     # A word such as "HamrockDowson1977" names a source, and the source must be known.
     words = (inspect.getdoc(equation.function) or "").replace(",", " ").replace(".", " ").replace(";", " ").split()

@@ -10,10 +10,9 @@ import re
 from collections.abc import Callable, Iterator
 from typing import Any, get_type_hints
 
-import pytest
-
 import ballscrew
 from ballscrew.basis.quantities import info_of, unit_of
+from support.rules import for_each
 
 #: Source by which a function raises an ``InputError`` itself, or by its decorator.
 RAISES = re.compile(r"\braise InputError\(|\braise_if_any\(|@accepts_units\(")
@@ -123,19 +122,16 @@ def _methods(name: str, owner: type) -> Iterator[Callee]:
 PUBLIC = {callee.name: callee for callee in public()}
 
 
-@pytest.fixture(params=sorted(PUBLIC))
-def callee(request: pytest.FixtureRequest) -> Callee:
-    return PUBLIC[request.param]
-
-
 def test_something_is_public():
     assert {"band", "BallScrew", "FrictionModel.__call__", "FrictionResult.valid", "Bodies.of"} <= set(PUBLIC)
 
 
+@for_each(callee=PUBLIC)
 def test_every_parameter_is_named(callee: Callee):
     assert callee.silent == []
 
 
+@for_each(callee=PUBLIC)
 def test_what_is_returned_is_said(callee: Callee):
     assert callee.doc
     assert [word for word in callee.returned if word not in callee.doc] == []
@@ -143,6 +139,7 @@ def test_what_is_returned_is_said(callee: Callee):
         assert re.search(rf"(?<![\w/]){re.escape(callee.unit)}(?![\w/])", callee.doc)
 
 
+@for_each(callee=PUBLIC)
 def test_an_input_error_is_named(callee: Callee):
     if RAISES.search(callee.code):
         assert "InputError" in callee.doc

@@ -2,17 +2,19 @@
 
 import pytest
 
+from support.rules import for_each
+
 from .discovery import EQUATIONS, RECURRENCES
 from .formulas import differences, formula_of, lettered, letters_of, parsed, spelling
 
 FORMULAS = {name: equation for name, equation in EQUATIONS.items() if name not in RECURRENCES}
 
 
-@pytest.mark.parametrize("name", FORMULAS)
-def test_the_formula_is_the_code(name):
-    formula = formula_of(FORMULAS[name].function)
+@for_each(equation=FORMULAS)
+def test_the_formula_is_the_code(equation):
+    formula = formula_of(equation.function)
     assert formula is not None, "no formula"
-    assert differences(FORMULAS[name], formula) == []
+    assert differences(equation, formula) == []
 
 
 # -- the check itself: a wrong formula must be found out -------------------------------------------
@@ -53,9 +55,8 @@ def changed_numbers(numbers):
         yield {**numbers, name: f"{float(number) + 10**-decimals:.{decimals}f}"}
 
 
-@pytest.mark.parametrize("name", FORMULAS)
-def test_every_number_of_a_formula_counts(name):
-    equation = FORMULAS[name]
+@for_each(equation=FORMULAS)
+def test_every_number_of_a_formula_counts(equation):
     left, _, right = formula_of(equation.function).partition("=")
     with_letters, numbers = lettered(right)
     formula = f"{left} = {with_letters}"

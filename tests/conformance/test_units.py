@@ -8,9 +8,12 @@ import numpy as np
 import pint
 import pytest
 
+from support.rules import for_each
+
 from .discovery import DIMENSIONAL_FITS, EQUATIONS
 
-CONSISTENT = [name for name in EQUATIONS if name not in DIMENSIONAL_FITS]
+CONSISTENT = {name: equation for name, equation in EQUATIONS.items() if name not in DIMENSIONAL_FITS}
+FITS = {name: EQUATIONS[name] for name in DIMENSIONAL_FITS}
 RELATIVE = 1e-12
 
 #: For each SI unit one that people use, to mix units within a call.
@@ -46,28 +49,25 @@ def assert_same(registry, result, unit, expected):
 
 
 @pytest.mark.parametrize("kind", ["SI", "other"])
-@pytest.mark.parametrize("name", CONSISTENT)
-def test_the_result_has_the_unit_of_its_annotation(registry, name, kind):
-    equation = EQUATIONS[name]
+@for_each(equation=CONSISTENT)
+def test_the_result_has_the_unit_of_its_annotation(registry, equation, kind):
     columns = {parameter: float(column[0]) for parameter, column in equation.sample(1).items()}
     results = equation(*quantities(registry, equation, columns, other=kind == "other"))
     for result, unit, expected in zip(results, equation.return_units, equation(*columns.values()), strict=True):
         assert_same(registry, result, unit, expected)
 
 
-@pytest.mark.parametrize("name", CONSISTENT)
-def test_arrays_of_quantities(registry, name):
-    equation = EQUATIONS[name]
+@for_each(equation=CONSISTENT)
+def test_arrays_of_quantities(registry, equation):
     columns = equation.sample(4)
     results = equation(*quantities(registry, equation, columns, other=True))
     for result, unit, expected in zip(results, equation.return_units, equation(*columns.values()), strict=True):
         assert_same(registry, result, unit, expected)
 
 
-@pytest.mark.parametrize("name", DIMENSIONAL_FITS)
-def test_dimensional_fits_are_not_consistent(registry, name):
+@for_each(equation=FITS)
+def test_dimensional_fits_are_not_consistent(registry, equation):
     # If one of them were, it would not belong on the list.
-    equation = EQUATIONS[name]
     columns = {parameter: float(column[0]) for parameter, column in equation.sample(1).items()}
     (unit,) = equation.return_units
     try:
@@ -78,10 +78,9 @@ def test_dimensional_fits_are_not_consistent(registry, name):
     assert dimensionality != registry.Quantity(1.0, unit).dimensionality
 
 
-@pytest.mark.parametrize("name", CONSISTENT)
-def test_a_wrong_unit_does_not_pass(registry, name):
+@for_each(equation=CONSISTENT)
+def test_a_wrong_unit_does_not_pass(registry, equation):
     # With each parameter in turn a length too many, something must not fit.
-    equation = EQUATIONS[name]
     columns = {parameter: float(column[0]) for parameter, column in equation.sample(1).items()}
     given = list(quantities(registry, equation, columns))
     metre = registry.Quantity(1.0, "m")
