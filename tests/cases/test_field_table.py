@@ -3,13 +3,12 @@
 import importlib.util
 from pathlib import Path
 
-import pytest
-
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault
 from ballscrew.basis.quantities import within_bounds
 from ballscrew.cases.screw_tables.catalogue import COLUMNS
 from ballscrew.physics.components.screw import MATERIALS
+from support.rules import for_each
 
 ROOT = Path(__file__).parents[2]
 
@@ -25,8 +24,14 @@ FIELD_TABLE = _of_docs("field_table")
 EXAMPLES = list(FIELD_TABLE.examples())
 
 
-@pytest.mark.parametrize(("section", "quantity", "written"), EXAMPLES, ids=lambda value: getattr(value, "name", None))
-def test_examples_lie_within_the_bounds_of_their_field(section, quantity, written):
+@for_each(
+    example={
+        f"{section}.{quantity.name} = {written}": (section, quantity, written)
+        for section, quantity, written in EXAMPLES
+    }
+)
+def test_examples_lie_within_the_bounds_of_their_field(example):
+    section, quantity, written = example
     value = units.parse(f"{section}.{quantity.name}", written, quantity)
     assert not isinstance(value, Fault), value
     assert within_bounds(quantity.info, value)

@@ -9,6 +9,8 @@ import shutil
 import matplotlib as mpl
 import pytest
 
+from support.rules import for_each
+
 from .pages import ROOT, blocks, markers, name, pages
 
 
@@ -53,7 +55,7 @@ def test_the_recipe_for_a_simulator_has_the_friction_of_the_nut(capsys):
     assert (table["drive_torque"].values == -table["drive_torque"].values[::-1, ::-1]).all()
 
 
-@pytest.mark.parametrize("page", pages(), ids=name)
+@for_each(page={name(page): page for page in pages()})
 def test_what_does_not_run_says_why(page):
     marked = [block for block in blocks(page) if block.not_run]
     assert len(marked) == markers(page), "a marker stands before a Python block, and before nothing else"

@@ -18,6 +18,7 @@ from ballscrew.physics.friction.starvation import STARVED
 from ballscrew.physics.sizing.check_table import CHECKS
 from ballscrew.questions.select.need import SHORT_NAMES
 from ballscrew.questions.select.requirements import Requirements
+from support.rules import for_each
 
 from .pages import DOCS
 
@@ -99,6 +100,6 @@ def test_every_row_has_a_term_a_meaning_a_name_and_a_page():
         assert (DOCS / page).is_file(), page
 
 
-@pytest.mark.parametrize("name", NAMES)
+@for_each(name={name: name for name in NAMES})
 def test_every_name_exists(name, known):
     assert exists(name, known), name

@@ -10,6 +10,8 @@ from urllib.parse import unquote, urlsplit
 import pytest
 import snowballstemmer
 
+from support.rules import for_each
+
 from .pages import DOCS, ROOT, blocks, name, pages
 
 BUILT = ROOT / "out" / "docs"
@@ -39,7 +41,7 @@ def anchors(page):
     return {slug(match[1]) for match in re.finditer(r"^#+ (.+)$", page.read_text(encoding="utf-8"), re.MULTILINE)}
 
 
-@pytest.mark.parametrize("page", pages(), ids=name)
+@for_each(page={name(page): page for page in pages()})
 def test_relative_links_lead_somewhere(page):
     for target in LINK.findall(prose(page)):
         parts = urlsplit(target)

@@ -3,11 +3,10 @@
 import inspect
 import re
 
-import pytest
-
 import ballscrew
 import parameter_tables as tables
 from ballscrew.basis.quantities import fields_of
+from support.rules import for_each
 
 from .pages import DOCS
 
@@ -25,7 +24,7 @@ def test_methods_of_the_page_are_found():
     assert {"FrictionModel.__call__", "Lubricant.from_grade", "FrictionResult.shaft_torque"} <= set(tables.methods())
 
 
-@pytest.mark.parametrize("name", ALL)
+@for_each(name={name: name for name in ALL})
 def test_the_table_has_every_parameter_with_its_meaning(name):
     rows = tables.rows_of(name)
     taken = [] if tables.takes_nothing_of_its_own(ALL[name]) else list(inspect.signature(ALL[name]).parameters)

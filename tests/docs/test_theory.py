@@ -10,6 +10,7 @@ import sys
 import pytest
 
 from ballscrew.basis.quantities import unit_of
+from support.rules import for_each
 
 from .pages import DOCS, name, pages
 
@@ -43,10 +44,10 @@ def shown():
     """The functions whose formulas the pages show, by page."""
     for page in pages():
         for number, function in enumerate(MARK.findall(page.read_text(encoding="utf-8"))):
-            yield pytest.param(function, id=f"{name(page)}:{number}")
+            yield f"{name(page)}:{number}", function
 
 
-@pytest.mark.parametrize("function", [*shown()])
+@for_each(function=dict(shown()))
 def test_formulas_have_their_letters_and_units(equation, function):
     module, _, called = function.rpartition(".")
     found = getattr(importlib.import_module(module), called)

@@ -2,7 +2,7 @@
 
 import re
 
-import pytest
+from support.rules import for_each
 
 from .pages import DOCS, ROOT
 
@@ -17,7 +17,7 @@ def test_the_page_has_at_least_twenty_questions():
     assert len(ROWS) == sum(line.startswith("|") for line in lines) - 2 * headings  # each with the rule below it
 
 
-@pytest.mark.parametrize("row", ROWS, ids=[row["path"] for row in ROWS])
+@for_each(row={f"{place}: {row['path']}": row for place, row in enumerate(ROWS)})
 def test_the_answer_exists(row):
     path = ROOT / row["path"]
     assert path.is_dir() if row["path"].endswith("/") else path.is_file()

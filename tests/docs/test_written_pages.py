@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
+from support.rules import for_each
+
 from .pages import DOCS, name, pages
 
 #: A page of commands alone, and one of tables.
@@ -79,7 +81,7 @@ def test_a_number_that_nothing_makes_is_named(writer):
         writer.write.Written("start", PAGE).with_all(["one\ntwo\n"], {})
 
 
-@pytest.mark.parametrize("page", of_docs())
+@for_each(page={page: page for page in of_docs()})
 def test_formulas_and_files_are_as_in_the_source(writer, page):
     whole = writer.write.Written(page)
     for block in whole.blocks:
@@ -88,7 +90,7 @@ def test_formulas_and_files_are_as_in_the_source(writer, page):
             assert block["written"] == whole._written(block, iter(())), f"{block['what']}: make pages"
 
 
-@pytest.mark.parametrize("page", of_docs())
+@for_each(page={page: page for page in of_docs()})
 def test_nothing_is_left_to_a_build(page):
     text = (DOCS / f"{page}.md").read_text(encoding="utf-8")
     assert "--><!--/-->" not in text, "a number is missing: make pages"

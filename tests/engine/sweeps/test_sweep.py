@@ -11,6 +11,7 @@ import ballscrew as bs
 from ballscrew.engine.evaluation.outputs import DEFAULT_OUTPUTS, inputs_of, known_outputs
 from ballscrew.physics.friction.result import MECHANISMS
 from ballscrew.physics.solvers.pure_rolling import curvature_slip
+from support.rules import for_each
 
 RPM = math.pi / 30
 EVERYTHING = known_outputs()
@@ -96,13 +97,13 @@ def both(request, seed_screw, seed_oil):
     return model, ds, plain(model, seed_screw, seed_oil, values)
 
 
-@pytest.mark.parametrize("name", EVERYTHING)
+@for_each(name={name: name for name in EVERYTHING})
 def test_every_output_equals_the_model(both, name):
     _, ds, r = both
     assert_same(ds[name].to_numpy(), EVERYTHING[name].read(r), sizes_of(r).get(name))
 
 
-@pytest.mark.parametrize("name", EVERYTHING)
+@for_each(name={name: name for name in EVERYTHING})
 def test_no_output_is_nan_at_rest_or_without_load(both, name):
     """But for the efficiencies and what follows from them, which need a load, and coefficients of a preload."""
     _, ds, _ = both
@@ -381,7 +382,7 @@ def test_numbers_stay_numbers(model, seed_screw, seed_oil):
     assert ds["screw_speed"].ndim == 0
 
 
-@pytest.mark.parametrize("name", EVERYTHING)
+@for_each(name={name: name for name in EVERYTHING})
 def test_every_output_is_described(both, name):
     _, ds, _ = both
     attributes = ds[name].attrs

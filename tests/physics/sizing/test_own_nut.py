@@ -17,6 +17,7 @@ from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.physics.sizing.ratings import ratings_of
 from ballscrew.physics.solvers.rated_ball import ball_of_rating
 from ballscrew.questions.validate.compute import shipped_rows
+from support.rules import for_each
 
 ROWS = tuple(catalogue().values())
 #: Rows of HIWIN's stock list whose ratings do not go with their geometry, as the head of the file has it.
@@ -30,7 +31,7 @@ STOCK = tuple(
     for values in shipped_rows(SETS["hiwin-stock"])
 )
 ALL = (*ROWS, *(row for row in STOCK if row.name not in MISPRINTS))
-every_row = pytest.mark.parametrize("row", ALL, ids=[row.name for row in ALL])
+every_row = for_each(row={f"{place}: {row.name}": row for place, row in enumerate(ALL)})
 
 
 def without(row, *names):
@@ -138,7 +139,7 @@ def test_the_conformity_follows_from_the_root_and_not_from_the_rating(row):
     assert ratings_of(row, by_root).dynamic / row.dynamic_load_rating < 0.82
 
 
-@pytest.mark.parametrize("row", [row for row in ALL if row.pitch_circle_diameter], ids=lambda row: row.name)
+@for_each(row={f"{place}: {row.name}": row for place, row in enumerate(ALL) if row.pitch_circle_diameter})
 def test_pitch_circles_are_within_their_band(row):
     assert is_in_band(without(row, "pitch_circle_diameter"), "ball_circle", row.ball_circle)
 
