@@ -24,7 +24,6 @@ from ballscrew.axis.supports.element_laws import (
 from ballscrew.axis.supports.mounted_bearing import MountedBearing
 from ballscrew.basis.errors import MISSING, Fault, InputError, nearest, shown
 from ballscrew.basis.quantities import fields_of
-from ballscrew.basis.records import Message, Setting
 from ballscrew.cases.case_files.oil_library import named_oil
 from ballscrew.cases.schema.sections import Sections
 from ballscrew.cases.schema.support_schema import OIL
@@ -70,18 +69,18 @@ def _contradictions(sections: Sections, tables: Mapping[str, Any], mounted: Inst
         faults.append(Fault("bearings.floating", "is at the end of the second fixed bearing", "", remedy))
     own = [place for place, table in tables.items() if place != "floating" and "rigidity" in table]
     if mounted is not None and mounted.bearing_rigidity is not None and own:
-        remedy = Message("leave one out: the other is bearings.{own}.rigidity", {"own": own[0]})
+        remedy = f"leave one out: the other is bearings.{own[0]}.rigidity"
         given = shown(mounted.bearing_rigidity, "N/m")
         faults.append(Fault("installation.bearing_rigidity", "is given beside that of the bearing", given, remedy))
     far = {Ends.FIXED_FIXED: "second_fixed", Ends.FIXED_SUPPORTED: "floating"}
     given = next((place for place in far.values() if place in tables), None)
     if mounted is not None and given is not None and far.get(mounted.ends) != given:
         fitting = next(ends.words.replace("–", "-") for ends, place in far.items() if place == given)
-        remedy = Message('write {installation.ends}"{ends}"', {"ends": fitting})
+        remedy = f'write ends = "{fitting}"'
         faults.append(
             Fault(
                 "installation.ends",
-                Message("has no {given} bearing", {"given": given.replace("_", " ")}),
+                f"has no {given.replace('_', ' ')} bearing",
                 mounted.ends.words,
                 remedy,
             )
@@ -114,7 +113,7 @@ def _bearing(
                     f"{where}.preload",
                     "is not printed in the catalogue",
                     row,
-                    Message('add {field}"… N"', {"field": Setting(f"{where}.preload")}),
+                    'add preload = "… N"',
                 )
             )
     faults += missing(where, BEARING_LAWS[law], values)
@@ -124,7 +123,7 @@ def _bearing(
         faults.append(
             Fault(
                 f"{where}.{next(iter(oil))}",
-                Message('a bearing of law "{law}" has none', {"law": law}),
+                f'a bearing of law "{law}" has none',
                 "",
                 "leave it out",
             )
@@ -183,7 +182,7 @@ def guided(
         faults.append(
             Fault(
                 f"guides.{next(iter(oil))}",
-                Message('guides of law "{law}" have none', {"law": law}),
+                f'guides of law "{law}" have none',
                 "",
                 "leave it out",
             )
@@ -207,13 +206,10 @@ def _table(axis: Axis, where: Mapping[str, float], carriages: float, faults: lis
         return None
     for name in ("carriage_spacing", "rail_spacing"):
         if name not in where:
-            remedy = Message(
-                'add {field}"… mm", or leave {names} out',
-                {"field": Setting(f"guides.{name}"), "names": ", ".join(where)},
-            )
+            remedy = f'add {name} = "… mm", or leave {", ".join(where)} out'
             faults.append(Fault(f"guides.{name}", MISSING, "", remedy))
     if carriages != 4:
-        remedy = Message("leave {names} out: all carriages then bear alike", {"names": ", ".join(where)})
+        remedy = f"leave {', '.join(where)} out: all carriages then bear alike"
         faults.append(Fault("guides.carriages", "must be four for the loads of each", f"{carriages:g}", remedy))
     if faults:
         return None
@@ -237,7 +233,7 @@ def _lubricant(
                     f"{where}.grade",
                     MISSING,
                     "",
-                    Message('add {field}"ISO VG 68", or a [lubricant]', {"field": Setting(f"{where}.grade")}),
+                    'add grade = "ISO VG 68", or a [lubricant]',
                 )
             )
         return lubricant

@@ -12,7 +12,6 @@ import xarray as xr
 
 from ballscrew.basis.errors import MISSING, Fault, InputError, nearest, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.basis.records import Message
 from ballscrew.compiler.tracing.gradient import UnknownDerivativeError, partials
 from ballscrew.compiler.tracing.merging import merged_program
 from ballscrew.compiler.tracing.program import Program
@@ -69,7 +68,7 @@ def derivatives(
                 "derivatives.method",
                 "unknown method",
                 str(method),
-                Message("one of {names}", {"names": ", ".join(METHODS)}),
+                f"one of {', '.join(METHODS)}",
             )
         )
     raise_if_any(faults)
@@ -98,7 +97,7 @@ def slopes_of(subject: Configuration, outputs: Sequence[str], by: Sequence[str],
                 f"derivatives.{name}",
                 "has no value to differentiate by",
                 "",
-                Message("give it one: {name}=…", {"name": name}),
+                f"give it one: {name}=…",
             )
             for name, value in held.items()
             if value is None
@@ -160,15 +159,13 @@ class Slopes(Plan):
             raise InputError(
                 Fault(
                     "derivatives",
-                    Message("{unknown} has no derivative here", {"unknown": str(unknown)}),
+                    f"{unknown} has no derivative here",
                     "",
                     JAX_INSTEAD,
                 )
             ) from None
         except CannotRecordError as why:
-            raise InputError(
-                Fault("derivatives", Message("a law cannot be recorded: {why}", {"why": str(why)}), "", JAX_INSTEAD)
-            ) from None
+            raise InputError(Fault("derivatives", f"a law cannot be recorded: {why}", "", JAX_INSTEAD)) from None
         return merged_program(tape, found)
 
 

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import Literal
 
 from ballscrew.basis.errors import Fault
-from ballscrew.basis.records import Message
 from ballscrew.compiler.kernels import kernel as kernels
 from ballscrew.compiler.tracing.program import Program
 
@@ -38,7 +37,7 @@ def engine_faults(section: str, engine: str | None, engines: Sequence[str] = ENG
                 f"{section}.engine",
                 "unknown engine",
                 str(engine),
-                Message("one of {names}", {"names": ", ".join(engines)}),
+                f"one of {', '.join(engines)}",
             )
         ]
     if engine == "compiled" and not kernels.available():

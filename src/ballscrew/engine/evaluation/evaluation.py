@@ -18,7 +18,6 @@ from ballscrew.basis.errors import (
     InputError,
     raise_if_any,
 )
-from ballscrew.basis.records import Message
 from ballscrew.compiler.kernels import kernel as kernels
 from ballscrew.compiler.kernels.buffers import ALIGNMENT, aligned_array
 from ballscrew.compiler.kernels.chain import LANES
@@ -124,7 +123,7 @@ class Evaluation:
                 raise InputError(
                     Fault(
                         f"{section}.engine",
-                        Message("cannot be had: {ready}", {"ready": ready}),
+                        f"cannot be had: {ready}",
                         engine,
                         'take engine="numpy"',
                     )
@@ -151,9 +150,7 @@ class Evaluation:
         except UnknownOperationError as unknown:
             why = f"{unknown} is not known to kernels"
         if engine == "compiled":
-            raise InputError(
-                Fault(f"{section}.engine", Message("cannot be had: {why}", {"why": why}), engine, 'take engine="numpy"')
-            )
+            raise InputError(Fault(f"{section}.engine", f"cannot be had: {why}", engine, 'take engine="numpy"'))
         return _by_numpy(plan, program, why)
 
     @functools.cached_property

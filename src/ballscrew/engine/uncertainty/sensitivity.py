@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from ballscrew.basis.displayed import LINES_OF_REPR, Displayed, shortened
 from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any, renamed_keyword
 from ballscrew.basis.quantities import Quantity
-from ballscrew.basis.records import Message
 from ballscrew.engine.evaluation.derivatives import JAX_INSTEAD, derivatives
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
@@ -241,7 +240,7 @@ def _faults(
                 "sensitivity.method",
                 "unknown method",
                 str(method),
-                Message("one of {names}", {"names": ", ".join(METHODS)}),
+                f"one of {', '.join(METHODS)}",
             )
         )
     elif method == "local" and subject.nut.one_by_one:
@@ -263,7 +262,7 @@ def _faults_of_samples(samples: Any, method: Method) -> list[Fault]:
         return [
             Fault(
                 where,
-                Message("must be a whole number, {least} or more", {"least": str(MINIMUM_SAMPLES[method])}),
+                f"must be a whole number, {MINIMUM_SAMPLES[method]} or more",
                 str(samples),
             )
         ]
@@ -271,7 +270,7 @@ def _faults_of_samples(samples: Any, method: Method) -> list[Fault]:
         return [
             Fault(
                 where,
-                Message("must be at most {maximum_samples}", {"maximum_samples": str(MAXIMUM_SAMPLES)}),
+                f"must be at most {MAXIMUM_SAMPLES}",
                 str(samples),
                 "all are in memory",
             )
@@ -283,7 +282,7 @@ def _faults_of_samples(samples: Any, method: Method) -> list[Fault]:
                 where,
                 "must be a power of two",
                 str(samples),
-                Message("take {below} or {below_2}", {"below": str(below), "below_2": str(2 * below)}),
+                f"take {below} or {2 * below}",
             )
         ]
     return []

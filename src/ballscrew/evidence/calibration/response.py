@@ -15,7 +15,6 @@ from ballscrew.basis.errors import (
     InputError,
     nearest,
 )
-from ballscrew.basis.records import Message
 from ballscrew.engine.evaluation.derivatives import Slopes, slopes_of
 from ballscrew.engine.evaluation.engines import Engine
 from ballscrew.engine.evaluation.evaluation import Evaluation
@@ -45,7 +44,7 @@ def resolve_input(subject: Configuration, name: str, section: str = "fit", besid
                 f"{section}.free",
                 "could be several numbers",
                 name,
-                Message("one of {names}", {"names": ", ".join(found)}),
+                f"one of {', '.join(found)}",
             )
         )
     if not found:

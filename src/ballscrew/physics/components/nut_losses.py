@@ -18,7 +18,6 @@ from typing import Annotated, NamedTuple, Protocol
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, InputError, accepts_units, faults_of, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, Count, Density, Force, Info, Length, Ratio, Speed, Torque
-from ballscrew.basis.records import Message
 from ballscrew.physics.components.chain_force import WALL_FACTOR
 from ballscrew.physics.components.frame import helix_frame
 from ballscrew.physics.components.materials import GRAVITY, STEEL_DENSITY, Lubricant
@@ -188,7 +187,7 @@ class Seals(ByValue):
                     "losses.seals",
                     "not in the table of seal torques",
                     given,
-                    Message("nearest: {found}", {"found": str(found)}),
+                    f"nearest: {found}",
                 )
             )
         return cls(seal_torque=found.torque)

@@ -10,26 +10,27 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.basis.errors import shown_in_si
-from ballscrew.basis.records import Measured, Message, Record, in_file
+from ballscrew.basis import units
+from ballscrew.basis.records import Record
 from ballscrew.basis.usual_ranges import IMPLAUSIBLE as IMPLAUSIBLE
 from ballscrew.basis.usual_ranges import unusual
 from ballscrew.physics.components.data_sheet import SHEET_TEMPERATURE, DataSheet
 from ballscrew.physics.components.ratings import odd_preload
 from ballscrew.physics.components.screw import MATERIALS, BallScrew
 
-_BELOW_POUR_POINT = Message(
+#: What is said of a temperature, by the last part of the id.
+_BELOW_POUR_POINT = (
     "oil at {value}, below its pour point {limit}: it does not flow by itself, and its viscosity is a guess; "
     "at the start it is more"
 )
-_BELOW = Message("lubricant at {value}, below the {limit} that its maker states: its viscosity is a guess")
-_ABOVE = Message("lubricant at {value}, above the {limit} that its maker states: it does not last")
-_EXTRAPOLATED_COLD = Message(
+_BELOW = "lubricant at {value}, below the {limit} that its maker states: its viscosity is a guess"
+_ABOVE = "lubricant at {value}, above the {limit} that its maker states: it does not last"
+_EXTRAPOLATED_COLD = (
     "oil at {value}: its viscosity is extrapolated far from the two points of its data sheet; give its pour_point"
 )
-_EXTRAPOLATED_HOT = Message(
-    "oil at {value}: its viscosity is extrapolated far from the two points of its data sheet; "
-    "give its highest_temperature"
+_EXTRAPOLATED_HOT = (
+    "oil at {value}: its viscosity is extrapolated far from the two points of its data sheet; give its "
+    "highest_temperature"
 )
 #: Constant of replenishment of a track with grease (SKF2018).
 GREASE_REPLENISHMENT = 6e-8
@@ -113,34 +114,32 @@ def _grease_as_oil(lubricant: Any, inlet: Any) -> list[Record]:
     least = float(np.min(constant))
     if least >= GREASE_REPLENISHMENT * (1 - 1e-9):
         return []
-    message = Message(
-        "grease computed as oil of a bath: its constant of replenishment is 6e-8; write {constant} = 6e-8",
-        {"constant": in_file("model.inlet.replenishment_constant")},
+    message = (
+        "grease computed as oil of a bath: its constant of replenishment is 6e-8; write [model] "
+        "inlet.replenishment_constant = 6e-8"
     )
     return [
         Record(
             id="lubricant.grease_as_oil",
             subject="model.inlet.replenishment_constant",
-            text=message.filled(shown_in_si),
+            text=message,
             severity="warning",
             holds=False,
             value=least,
             limit=GREASE_REPLENISHMENT,
-            message=message,
         )
     ]
 
 
-def _of_sheet(name: str, template: Message, value: float, limit: float) -> Record:
-    message = template.of(value=Measured(value, SHEET_TEMPERATURE), limit=Measured(limit, SHEET_TEMPERATURE))
+def _of_sheet(name: str, template: str, value: float, limit: float) -> Record:
+    message = template.format(value=units.shown(value, SHEET_TEMPERATURE), limit=units.shown(limit, SHEET_TEMPERATURE))
     return Record(
         id=f"lubricant.{name}",
         subject="lubricant.temperature",
-        text=message.filled(shown_in_si),
+        text=message,
         severity="warning",
         holds=False,
         value=value,
         limit=limit,
         unit="K",
-        message=message,
     )

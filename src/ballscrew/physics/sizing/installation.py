@@ -10,7 +10,6 @@ from typing import Annotated, Any, cast
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, faults_of, raise_if_any
 from ballscrew.basis.quantities import Array, Density, DiameterSpeed, Info, Length, Pressure, Ratio, Stiffness, Unit
-from ballscrew.basis.records import Message
 from ballscrew.physics.components.materials import STEEL_DENSITY
 
 
@@ -104,7 +103,7 @@ class Installation(ByValue):
                     "installation.ends",
                     "must be one of Ends",
                     repr(self.ends),
-                    Message("known: {known}", {"known": known}),
+                    f"known: {known}",
                 )
             )
         raise_if_any(faults)
