@@ -162,22 +162,10 @@ class HandOver:
         except CannotRecordError as error:
             remedy = "take a table (--to table), or a nut without bodies, deviations and scatter"
             raise InputError(
-                Fault(
-                    "hand_over.to",
-                    f"needs a model that can be recorded: {error}",
-                    "",
-                    remedy,
-                )
+                Fault("hand_over.to", f"needs a model that can be recorded: {error}", "", remedy)
             ) from None
         except UnknownDerivativeError as unknown:
-            raise InputError(
-                Fault(
-                    "hand_over.derivatives",
-                    f"{unknown} has no derivative here",
-                    "",
-                    "",
-                )
-            ) from None
+            raise InputError(Fault("hand_over.derivatives", f"{unknown} has no derivative here", "", "")) from None
 
     def _is_nonnegative(self, name: str) -> bool:
         return self.has_effect[name] and self.subject.is_nonnegative(name)

@@ -82,14 +82,7 @@ def read_trajectory(path: Path) -> Trajectory:
                 parts.append({name: column[kept] for name, column in values.items()})
                 lines.append(piece.line[kept])
                 if sum(one.size for one in lines) > MOST_ROWS:
-                    raise InputError(
-                        Fault(
-                            path.name,
-                            f"has more than {MOST_ROWS} rows",
-                            "",
-                            "cut it to a few cycles",
-                        )
-                    )
+                    raise InputError(Fault(path.name, f"has more than {MOST_ROWS} rows", "", "cut it to a few cycles"))
     except (OSError, ValueError) as error:
         if isinstance(error, InputError):
             raise

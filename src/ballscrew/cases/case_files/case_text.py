@@ -100,14 +100,7 @@ def for_json(where: str, value: Any, notes: list[str], depth: int = 0) -> Any:
     Raises :class:`~ballscrew.basis.errors.InputError` where they are nested too deeply for an answer.
     """
     if depth > _DEEPEST_DESIGN:
-        raise InputError(
-            Fault(
-                where,
-                "is nested too deeply",
-                "",
-                f"{_DEEPEST_DESIGN} levels at most in a design",
-            )
-        )
+        raise InputError(Fault(where, "is nested too deeply", "", f"{_DEEPEST_DESIGN} levels at most in a design"))
     if isinstance(value, Mapping):
         return {
             name: for_json(f"{where}.{name}".removeprefix("."), inner, notes, depth + 1)
@@ -195,12 +188,7 @@ def _given_twice(where: str, error: str, text: str) -> Fault | None:
             of_table = f"the table of line {of_list}" if of_list != table else f"[{table}]" if table else "the file"
             words = f'"{name}" of {of_table}' if name else of_table
             remedy = "leave one of them out" if name else "put their keys into one"
-            return Fault(
-                where,
-                f"{words} {_TWICE}",
-                f"lines {first} and {number}",
-                remedy,
-            )
+            return Fault(where, f"{words} {_TWICE}", f"lines {first} and {number}", remedy)
     return None
 
 

@@ -129,12 +129,7 @@ def efficiency(sections: Sections, chosen: str | None, moves: bool, faults: list
         problem = "is a rule, which only ballscrew duty takes"
         faults.append(Fault("model.name", problem, CONSTANT_EFFICIENCY, remedy))
     faults += [
-        Fault(
-            f"model.{name}",
-            f'does not count with "{CONSTANT_EFFICIENCY}"',
-            reprlib.repr(value),
-            "leave it out",
-        )
+        Fault(f"model.{name}", f'does not count with "{CONSTANT_EFFICIENCY}"', reprlib.repr(value), "leave it out")
         for name, value in table.items()
         if name not in ("name", "efficiency")
     ]
@@ -190,14 +185,7 @@ def _misplaced(kind: str, table: Mapping[str, Any]) -> list[Fault]:
         if name != "kind" and name not in own:
             kinds = [other for other in (*MOTIONS, TRAJECTORY) if name in fields_of_motion(other)]
             remedy = f"leave it out, or write kind = {either(kinds)}"
-            found.append(
-                Fault(
-                    f"motion.{name}",
-                    f'a motion of kind "{kind}" has none',
-                    reprlib.repr(value),
-                    remedy,
-                )
-            )
+            found.append(Fault(f"motion.{name}", f'a motion of kind "{kind}" has none', reprlib.repr(value), remedy))
     return found
 
 

@@ -101,14 +101,7 @@ def _told_in_half(table: Mapping[str, Any]) -> list[Fault]:
         return faults
     if len(points) == 1:
         missing = next(name for name in _POINTS if name not in table)
-        faults.append(
-            Fault(
-                f"lubricant.{missing}",
-                MISSING,
-                "",
-                f'add {missing} = "… cSt"',
-            )
-        )
+        faults.append(Fault(f"lubricant.{missing}", MISSING, "", f'add {missing} = "… cSt"'))
     if others and not points:
         remedy = "add kinematic_viscosity_40 and kinematic_viscosity_100, or leave it out"
         faults.append(Fault(f"lubricant.{others[0]}", "is of a data sheet", str(table[others[0]]), remedy))

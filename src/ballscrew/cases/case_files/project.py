@@ -49,14 +49,7 @@ def designs_of(tables: Mapping[str, Any], where: str) -> list[Design]:
         faults.append(Fault("designs", "has no designs", "", "write [[designs]] with name, and [designs.case.screw] …"))
         listed = []
     if len(listed) > MOST_DESIGNS:
-        faults.append(
-            Fault(
-                "designs",
-                "too many",
-                str(len(listed)),
-                f"{MOST_DESIGNS} at most in a file",
-            )
-        )
+        faults.append(Fault("designs", "too many", str(len(listed)), f"{MOST_DESIGNS} at most in a file"))
         listed = []
     found = [_design(place, table, faults) for place, table in enumerate(listed, start=1)]
     names = [design.name for design in found]

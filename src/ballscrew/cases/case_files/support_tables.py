@@ -78,12 +78,7 @@ def _contradictions(sections: Sections, tables: Mapping[str, Any], mounted: Inst
         fitting = next(ends.words.replace("–", "-") for ends, place in far.items() if place == given)
         remedy = f'write ends = "{fitting}"'
         faults.append(
-            Fault(
-                "installation.ends",
-                f"has no {given.replace('_', ' ')} bearing",
-                mounted.ends.words,
-                remedy,
-            )
+            Fault("installation.ends", f"has no {given.replace('_', ' ')} bearing", mounted.ends.words, remedy)
         )
     return faults
 
@@ -108,26 +103,12 @@ def _bearing(
         values = {**{name: value for name, value in of_row.items() if value is not None}, **values}
         mounting = {"rigidity": unit.rigidity, **mounting}
         if "preload" in known and "preload" not in values:
-            faults.append(
-                Fault(
-                    f"{where}.preload",
-                    "is not printed in the catalogue",
-                    row,
-                    'add preload = "… N"',
-                )
-            )
+            faults.append(Fault(f"{where}.preload", "is not printed in the catalogue", row, 'add preload = "… N"'))
     faults += missing(where, BEARING_LAWS[law], values)
     if "lubricant" in BEARING_LAWS[law].__dataclass_fields__:
         values["lubricant"] = _lubricant(where, oil, folder, lubricant, faults)
     elif oil:
-        faults.append(
-            Fault(
-                f"{where}.{next(iter(oil))}",
-                f'a bearing of law "{law}" has none',
-                "",
-                "leave it out",
-            )
-        )
+        faults.append(Fault(f"{where}.{next(iter(oil))}", f'a bearing of law "{law}" has none', "", "leave it out"))
     if len(faults) > before:
         return None
     element = _made(where, lambda: BEARING_LAWS[law](**values), faults)
@@ -179,14 +160,7 @@ def guided(
     if "lubricant" in GUIDE_LAWS[law].__dataclass_fields__:
         values["lubricant"] = _lubricant("guides", oil, folder, lubricant, faults)
     elif oil:
-        faults.append(
-            Fault(
-                f"guides.{next(iter(oil))}",
-                f'guides of law "{law}" have none',
-                "",
-                "leave it out",
-            )
-        )
+        faults.append(Fault(f"guides.{next(iter(oil))}", f'guides of law "{law}" have none', "", "leave it out"))
     if len(faults) > before or axis is None:
         return None
     table = _table(axis, where, values.get("carriages", 4), faults)
@@ -228,14 +202,7 @@ def _lubricant(
         faults.append(Fault(f"{where}.oil_file", "needs the name of an oil", str(oil["oil_file"]), 'add oil = "…"'))
     if not oil:
         if lubricant is None:
-            faults.append(
-                Fault(
-                    f"{where}.grade",
-                    MISSING,
-                    "",
-                    'add grade = "ISO VG 68", or a [lubricant]',
-                )
-            )
+            faults.append(Fault(f"{where}.grade", MISSING, "", 'add grade = "ISO VG 68", or a [lubricant]'))
         return lubricant
     at = {} if lubricant is None or lubricant.temperature is None else {"temperature": lubricant.temperature}
     if "grade" in oil:

@@ -41,14 +41,7 @@ def law_from_outside(where: str, written: str, folder: Path | None) -> Any:
     for part in name.split("."):
         if not hasattr(found, part):
             laws = [n for n, law in vars(found).items() if callable(law) and law.__module__ == module_name]
-            raise InputError(
-                Fault(
-                    where,
-                    f"{module_name} has no {name}",
-                    written,
-                    nearest(name, laws),
-                )
-            )
+            raise InputError(Fault(where, f"{module_name} has no {name}", written, nearest(name, laws)))
         found = getattr(found, part)
     if isinstance(found, type):
         if not dataclasses.is_dataclass(found) or not callable(getattr(found, "__call__", None)):  # noqa: B004  (the class, not the instance)
@@ -98,14 +91,7 @@ def _module(where: str, written: str, name: str, folder: Path) -> Any:
             remedy = f"put {name.partition('.')[0]}.py beside the case or into the current folder"
             raise InputError(Fault(where, f"there is no module {error.name}", written, remedy)) from None
         remedy = "install it, or change the module"
-        raise InputError(
-            Fault(
-                where,
-                f"its module needs {error.name}, which is not there",
-                written,
-                remedy,
-            )
-        ) from None
+        raise InputError(Fault(where, f"its module needs {error.name}, which is not there", written, remedy)) from None
     except Exception as error:  # the code of a user may raise anything
         problem = f"its module cannot be imported: {type(error).__name__}: {error}"
         raise InputError(Fault(where, problem, written, f"try: python -c 'import {name}'")) from error

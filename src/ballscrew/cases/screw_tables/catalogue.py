@@ -130,14 +130,7 @@ def _made(row: Row, path: Path, taken: dict[str, int], logs: dict[str, Path], od
     values.setdefault("source", f"{file} row {row.line}")
     faults: list[Fault] = []
     if name in taken:
-        faults.append(
-            Fault(
-                "row.name",
-                "is given twice",
-                name,
-                f"row {taken[name]} has it, too: name both apart",
-            )
-        )
+        faults.append(Fault("row.name", "is given twice", name, f"row {taken[name]} has it, too: name both apart"))
     if isinstance(seals := values.get("seal_torque"), str):
         values["seal_torque"] = _seal_torque(seals, values, faults)
         if seals == column_names.STANDARD:

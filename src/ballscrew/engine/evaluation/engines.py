@@ -32,14 +32,7 @@ SHORT_SECONDS = 0.1
 def engine_faults(section: str, engine: str | None, engines: Sequence[str] = ENGINES) -> list[Fault]:
     """Faults of a requested engine."""
     if engine is not None and engine not in engines:
-        return [
-            Fault(
-                f"{section}.engine",
-                "unknown engine",
-                str(engine),
-                f"one of {', '.join(engines)}",
-            )
-        ]
+        return [Fault(f"{section}.engine", "unknown engine", str(engine), f"one of {', '.join(engines)}")]
     if engine == "compiled" and not kernels.available():
         remedy = 'pip install "ballscrew[fast]", or leave the engine out'
         return [Fault(f"{section}.engine", "needs a compiler that is not installed", engine, remedy)]

@@ -120,14 +120,7 @@ class Evaluation:
             if isinstance(ready, ByBall):
                 return _by_ball(plan, ready)
             if engine == "compiled":
-                raise InputError(
-                    Fault(
-                        f"{section}.engine",
-                        f"cannot be had: {ready}",
-                        engine,
-                        'take engine="numpy"',
-                    )
-                )
+                raise InputError(Fault(f"{section}.engine", f"cannot be had: {ready}", engine, 'take engine="numpy"'))
             return _by_numpy(plan, None, ready)
         if engine is None and shared:
             known = _of_structure(plan, times)

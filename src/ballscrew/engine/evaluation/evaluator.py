@@ -141,14 +141,7 @@ class Evaluator:
         except CannotRecordError as error:
             why = f"the model itself, on plain arrays: {error}"
         if by and made_of is None:
-            raise InputError(
-                Fault(
-                    "evaluator.by",
-                    f"has no derivatives: {why}",
-                    "",
-                    f"bs.derivatives: {JAX_INSTEAD}",
-                )
-            )
+            raise InputError(Fault("evaluator.by", f"has no derivatives: {why}", "", f"bs.derivatives: {JAX_INSTEAD}"))
         if engine == "compiled":
             raise InputError(Fault("evaluator.engine", f"cannot be had: {why}", engine, 'take engine="numpy"'))
         self._use("numpy", why, max(1, BLOCK_SIZE // plan.subject.balls))
@@ -168,14 +161,7 @@ class Evaluator:
             ready = by_ball(plan, "numpy", varying=self.inputs)
         if isinstance(ready, str):
             if engine == "compiled":
-                raise InputError(
-                    Fault(
-                        "evaluator.engine",
-                        f"cannot be had: {ready}",
-                        engine,
-                        'take engine="numpy"',
-                    )
-                )
+                raise InputError(Fault("evaluator.engine", f"cannot be had: {ready}", engine, 'take engine="numpy"'))
             self._use("numpy", ready, max(1, BLOCK_SIZE // plan.subject.balls))
             self._on_arrays = _called(plan, self._quantities, fixed)
         else:
@@ -223,14 +209,7 @@ class Evaluator:
         except KeyError:
             pass
         given = dict(zip(self.inputs, values, strict=False))
-        faults = [
-            Fault(
-                "evaluator",
-                "too many values",
-                str(len(values)),
-                f"inputs: {', '.join(self.inputs)}",
-            )
-        ]
+        faults = [Fault("evaluator", "too many values", str(len(values)), f"inputs: {', '.join(self.inputs)}")]
         faults = faults if len(values) > len(self.inputs) else []
         faults += [Fault(f"evaluator.{n}", "is given twice", "", "once is enough") for n in named if n in given]
         faults += [Fault(f"evaluator.{n}", "no input", "", nearest(n, self.inputs)) for n in named.keys() - self.inputs]

@@ -235,14 +235,7 @@ def _faults(
     elif wanted[output].dtype is bool:
         faults.append(Fault("sensitivity.output", "is true or false, and has no variance", output, "choose a number"))
     if method not in METHODS:
-        faults.append(
-            Fault(
-                "sensitivity.method",
-                "unknown method",
-                str(method),
-                f"one of {', '.join(METHODS)}",
-            )
-        )
+        faults.append(Fault("sensitivity.method", "unknown method", str(method), f"one of {', '.join(METHODS)}"))
     elif method == "local" and subject.nut.one_by_one:
         faults.append(Fault("sensitivity.method", "has no derivatives where balls differ", method, ANOTHER_METHOD))
     if not isinstance(seed, int | np.integer) or seed < 0:
@@ -259,32 +252,12 @@ def _faults_of_samples(samples: Any, method: Method) -> list[Fault]:
     if method == "local":
         return [Fault(where, "does not count with local, which takes no samples", str(samples), "leave it out")]
     if not isinstance(samples, int | np.integer) or samples < MINIMUM_SAMPLES[method]:
-        return [
-            Fault(
-                where,
-                f"must be a whole number, {MINIMUM_SAMPLES[method]} or more",
-                str(samples),
-            )
-        ]
+        return [Fault(where, f"must be a whole number, {MINIMUM_SAMPLES[method]} or more", str(samples))]
     if samples > MAXIMUM_SAMPLES:
-        return [
-            Fault(
-                where,
-                f"must be at most {MAXIMUM_SAMPLES}",
-                str(samples),
-                "all are in memory",
-            )
-        ]
+        return [Fault(where, f"must be at most {MAXIMUM_SAMPLES}", str(samples), "all are in memory")]
     if method == "sobol" and samples & (samples - 1):
         below = 2 ** (int(samples).bit_length() - 1)
-        return [
-            Fault(
-                where,
-                "must be a power of two",
-                str(samples),
-                f"take {below} or {2 * below}",
-            )
-        ]
+        return [Fault(where, "must be a power of two", str(samples), f"take {below} or {2 * below}")]
     return []
 
 

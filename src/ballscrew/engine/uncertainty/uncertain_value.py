@@ -76,12 +76,7 @@ def _parsed(raw: str, quantity: Quantity) -> UncertainValue | Fault | None:
         return fault or written
     if quantity.info.whole:
         central = units.to_significant(written.central, 6)
-        return Fault(
-            "",
-            "is a whole number, which has no distribution",
-            raw,
-            f'write "{central}"',
-        )
+        return Fault("", "is a whole number, which has no distribution", raw, f'write "{central}"')
     return dataclasses.replace(written, distribution=within(written.distribution, quantity.info))
 
 
@@ -147,12 +142,7 @@ def _plus_minus(raw: str, quantity: Quantity) -> UncertainValue | Fault:
     text, common = (bracketed["inside"], bracketed["unit"]) if bracketed else (raw, "")
     parts = [part.strip() for part in _PLUS_MINUS.split(text)]
     if len(parts) != 2:
-        return Fault(
-            "",
-            "has more than one ±",
-            raw,
-            f'write it like "{_EXAMPLE[quantity.unit == "1"]}"',
-        )
+        return Fault("", "has more than one ±", raw, f'write it like "{_EXAMPLE[quantity.unit == "1"]}"')
     middle, half = parts
     unit = common or units.unit_in(half).replace("%", "") or units.unit_in(middle)
     central = _value(middle, unit, quantity, raw)
@@ -179,12 +169,7 @@ def _by_name(raw: str, match: re.Match[str], quantity: Quantity) -> UncertainVal
     texts = [text.strip() for text in match["numbers"].split(",")]
     wanted = f"{name}({', '.join(names)})"
     if len(texts) != len(names) or not all(texts):
-        return Fault(
-            "",
-            f"must have {len(names)} numbers in its brackets",
-            raw,
-            f"write {wanted}",
-        )
+        return Fault("", f"must have {len(names)} numbers in its brackets", raw, f"write {wanted}")
     given = [units.unit_in(text) for text in texts]
     unit = match["unit"] or next((unit for unit in reversed(given) if unit and unit != "%"), "")
     numbers: list[float] = []
@@ -238,12 +223,7 @@ def _of_grade(
         return value
     grade = int(match["grade"])
     if grade not in known:
-        return Fault(
-            "",
-            f"unknown {what}",
-            raw,
-            f"known: {', '.join(map(str, known))}",
-        )
+        return Fault("", f"unknown {what}", raw, f"known: {', '.join(map(str, known))}")
     return _symmetric(value, half_width(value, known[grade]), raw)
 
 

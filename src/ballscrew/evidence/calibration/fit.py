@@ -381,14 +381,7 @@ def _faults_of_options(
             Fault("fit.temperature_error", problem, str(temperature_error), "2 K is usual where it is logged")
         )
     if kind not in get_args(Kind):
-        faults.append(
-            Fault(
-                "fit.kind",
-                "unknown kind of torque",
-                str(kind),
-                f"one of {', '.join(get_args(Kind))}",
-            )
-        )
+        faults.append(Fault("fit.kind", "unknown kind of torque", str(kind), f"one of {', '.join(get_args(Kind))}"))
     return faults
 
 

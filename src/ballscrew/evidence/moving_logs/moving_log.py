@@ -230,13 +230,6 @@ def _check_motion(name: str, log: MovingLog) -> None:
     resolution = float(steps[steps > 0].min()) if (steps > 0).any() else np.inf
     if float(np.ptp(path)) < _RESOLVED * resolution:
         remedy = "record strokes in both directions, with the position in finer steps"
-        raise InputError(
-            Fault(
-                name,
-                f"does not move: its {log.path_column} is the same in all rows",
-                "",
-                remedy,
-            )
-        )
+        raise InputError(Fault(name, f"does not move: its {log.path_column} is the same in all rows", "", remedy))
     if float(np.ptp(log.force)) == 0:
         raise InputError(Fault(name, "has the same force in all rows", "", "record what the motor gives"))

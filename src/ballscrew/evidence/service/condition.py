@@ -125,25 +125,11 @@ def _faults(baseline: Any, false_alarms: Any, tolerance: Any) -> list[Fault]:
 def _faults_of_count(count: int, baseline: int) -> list[Fault]:
     if count > MOST_TESTS:
         remedy = "a table has a row for each test: is this a log? Of logs give several, one for each test"
-        return [
-            Fault(
-                "condition.tests",
-                f"more than {MOST_TESTS}",
-                str(count),
-                remedy,
-            )
-        ]
+        return [Fault("condition.tests", f"more than {MOST_TESTS}", str(count), remedy)]
     if count > baseline:
         return []
     remedy = f"give {baseline + 1} or more, or a shorter baseline ({LEAST_BASELINE} or more)"
-    return [
-        Fault(
-            "condition.tests",
-            f"too few: the baseline alone takes {baseline}",
-            str(count),
-            remedy,
-        )
-    ]
+    return [Fault("condition.tests", f"too few: the baseline alone takes {baseline}", str(count), remedy)]
 
 
 def _judged(

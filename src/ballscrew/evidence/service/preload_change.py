@@ -221,14 +221,7 @@ def held_numbers(subject: Configuration, uncertain: Mapping[str, Distribution] |
 def _faults_of_options(free: Sequence[str], tolerance: Any) -> list[Fault]:
     faults: list[Fault] = []
     if isinstance(free, str) or PRELOAD not in free:
-        faults.append(
-            Fault(
-                "service.free",
-                f"must have {PRELOAD} in it",
-                str(free),
-                f'free=["{PRELOAD}"]',
-            )
-        )
+        faults.append(Fault("service.free", f"must have {PRELOAD} in it", str(free), f'free=["{PRELOAD}"]'))
     else:
         remedy = f"{' and '.join(FREE)} can be fitted; a distribution of a number in the case makes it unknown, too"
         faults += [

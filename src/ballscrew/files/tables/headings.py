@@ -318,14 +318,7 @@ def _missing(path: Path, column: Column, headings: Sequence[Heading], first: Rec
     names = [bare(name) for name in (column.name, *column.aliases)]
     alike = [other for name in names for other in difflib.get_close_matches(name, others, n=1, cutoff=0.7)]
     guess = f'write it for "{others[alike[0]]}"' if alike else f"it may also be called {', '.join(column.aliases[:3])}"
-    return Fault(
-        path.name,
-        f'has no column "{column.example}"',
-        "",
-        guess,
-        id=NO_COLUMN,
-        column=column.name,
-    )
+    return Fault(path.name, f'has no column "{column.example}"', "", guess, id=NO_COLUMN, column=column.name)
 
 
 def unused(first: Record, headings: Sequence[Heading], body: Sequence[Record]) -> list[str]:

@@ -129,14 +129,7 @@ class TorqueSeries:
             return []
         remedy = "give each nut a table of its own: what another nut loses says nothing of the wear of this one"
         first = others[0]
-        return [
-            Fault(
-                f"{self._where(first)}, nut",
-                f"is another than {self.nuts[0]}",
-                self.nuts[first],
-                remedy,
-            )
-        ]
+        return [Fault(f"{self._where(first)}, nut", f"is another than {self.nuts[0]}", self.nuts[first], remedy)]
 
     @classmethod
     def of(cls, data: Any) -> TorqueSeries:

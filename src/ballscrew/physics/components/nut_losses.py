@@ -182,14 +182,7 @@ class Seals(ByValue):
         found = min(seal_table(), key=lambda row: row.distance(nominal_diameter, lead))
         if not all(distance <= SAME_SIZE for distance in found.distance(nominal_diameter, lead)):
             given = f"{nominal_diameter * 1e3:g} mm, lead {lead * 1e3:g} mm"
-            raise InputError(
-                Fault(
-                    "losses.seals",
-                    "not in the table of seal torques",
-                    given,
-                    f"nearest: {found}",
-                )
-            )
+            raise InputError(Fault("losses.seals", "not in the table of seal torques", given, f"nearest: {found}"))
         return cls(seal_torque=found.torque)
 
     def __call__(self, screw: BallScrew, lubricant: Lubricant, screw_speed: AngularSpeed) -> Torque:

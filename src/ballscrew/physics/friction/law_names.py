@@ -81,12 +81,7 @@ def fault_of_law(slot: str, law: Any) -> Fault | None:
     if law is None and None in known.values():
         return None
     if isinstance(law, type):
-        return Fault(
-            where,
-            "must be a law",
-            f"the class {law.__name__}",
-            f"make one of it: {law.__name__}(…)",
-        )
+        return Fault(where, "must be a law", f"the class {law.__name__}", f"make one of it: {law.__name__}(…)")
     if not isinstance(law, str):
         return Fault(where, "must be a law", repr(law), "give a function, or a frozen dataclass with __call__")
     named = known.get(law)

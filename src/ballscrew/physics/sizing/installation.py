@@ -98,14 +98,7 @@ class Installation(ByValue):
         faults = faults_of("installation", self, optional=("bearing_rigidity", "mount_rigidity", "accuracy_factor"))
         if not isinstance(cast("Any", self.ends), Ends):
             known = ", ".join(f"Ends.{ends.name}" for ends in Ends)
-            faults.append(
-                Fault(
-                    "installation.ends",
-                    "must be one of Ends",
-                    repr(self.ends),
-                    f"known: {known}",
-                )
-            )
+            faults.append(Fault("installation.ends", "must be one of Ends", repr(self.ends), f"known: {known}"))
         raise_if_any(faults)
 
 

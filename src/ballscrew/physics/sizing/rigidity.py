@@ -315,11 +315,6 @@ def _faults(
         ):
             length = shown(installation.unsupported_length, "m")
             faults.append(
-                Fault(
-                    "rigidity.distance_to_bearing",
-                    "must lie on the shaft",
-                    shown(distance, "m"),
-                    f"below {length}",
-                )
+                Fault("rigidity.distance_to_bearing", "must lie on the shaft", shown(distance, "m"), f"below {length}")
             )
     return faults

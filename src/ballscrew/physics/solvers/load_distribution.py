@@ -508,12 +508,7 @@ def _faults(screw: BallScrew, halves: int, deviations: Deviations | None) -> lis
     balls = halves * int(screw.carrying_balls)
     sizes = {} if deviations is None else {name: np.shape(value) for name, value in deviations._asdict().items()}
     return [
-        Fault(
-            f"deviations.{name}",
-            "must be one number or one for each ball",
-            f"shape {size}",
-            f"give {balls}",
-        )
+        Fault(f"deviations.{name}", "must be one number or one for each ball", f"shape {size}", f"give {balls}")
         for name, size in sizes.items()
         if size not in ((), (balls,))
     ]

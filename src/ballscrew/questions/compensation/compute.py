@@ -127,9 +127,4 @@ def _stopped(stopped: Duration, hours: float) -> Fault:
         "model knows"
     )
     less = f"write --hours {reached:g} at most, or " if reached else ""
-    return Fault(
-        "--hours",
-        problem,
-        f"{hours:g}",
-        f"{less}look at ballscrew warm-up: less work, or more cooling",
-    )
+    return Fault("--hours", problem, f"{hours:g}", f"{less}look at ballscrew warm-up: less work, or more cooling")

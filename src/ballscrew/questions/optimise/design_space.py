@@ -194,12 +194,7 @@ def _bounds(given: Any, usual: Mapping[str, Span], nut: Any, faults: list[Fault]
             if len(values) != 2 or not 0 < values[0] <= values[1]:
                 sample = "[2, 5]" if VARIABLES[name].unit == "1" else '["20 mm", "63 mm"]'
                 faults.append(
-                    Fault(
-                        where,
-                        "is not a lower and an upper bound above zero",
-                        str(ends),
-                        f"write {sample}",
-                    )
+                    Fault(where, "is not a lower and an upper bound above zero", str(ends), f"write {sample}")
                 )
             else:
                 found[name] = (values[0], values[1])

@@ -224,14 +224,7 @@ def _put(made: dict[str, Any], place: str, value: Any, where: str, faults: list[
     if not isinstance(table, dict):
         faults.append(Fault(section, "must be a table", str(table), f"write [{section}]"))
     elif field in table:
-        faults.append(
-            Fault(
-                where,
-                "is given twice",
-                str(value),
-                f"{place} stands for the same: leave one out",
-            )
-        )
+        faults.append(Fault(where, "is given twice", str(value), f"{place} stands for the same: leave one out"))
     else:
         table[field] = value
 

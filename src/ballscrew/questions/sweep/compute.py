@@ -290,14 +290,7 @@ def _file_faults(to: Path | None, lengths: Sequence[int]) -> list[Fault]:
         return [Fault("--to", "unknown kind of file", str(to), "end it in .csv, .xlsx, .nc or .zarr")]
     missing = [name for name in _NEEDS[kind] if importlib.util.find_spec(name) is None]
     if missing:
-        return [
-            Fault(
-                "--to",
-                f"needs {' and '.join(missing)}",
-                str(to),
-                'pip install "ballscrew[data]"',
-            )
-        ]
+        return [Fault("--to", f"needs {' and '.join(missing)}", str(to), 'pip install "ballscrew[data]"')]
     too_wide = len(lengths) == 2 and lengths[1] >= _XLSX_COLUMNS
     if kind == ".xlsx" and (math.prod(lengths) >= _XLSX_ROWS or too_wide):
         return [Fault("--to", "too large for a worksheet", " x ".join(map(str, lengths)), "write .nc or .csv")]
@@ -345,12 +338,7 @@ def _fault_of_range(where: str, text: str, quantity: Quantity) -> Fault | None:
             f'write "1:10:4{_blank_unit(quantity)}", count a whole number',
         )
     if span and quantity.unit != "1" and not span["unit"]:
-        return Fault(
-            where,
-            "needs a unit",
-            text,
-            f'write "{text} {quantity.shown_in}"',
-        )
+        return Fault(where, "needs a unit", text, f'write "{text} {quantity.shown_in}"')
     return None
 
 
