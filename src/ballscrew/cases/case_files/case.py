@@ -36,14 +36,6 @@ from ballscrew.physics.sizing.installation import Installation, Limits
 from ballscrew.physics.sizing.own_nut import RATED, odd_ratings, odd_root, odd_seals
 from ballscrew.physics.sizing.ratings import rated_geometry_of, ratings_of
 
-_NEW_SURFACES = (
-    "boundary friction of {given} is that of surfaces that have reacted with additives; on new ones {fresh} "
-    "was measured, and it rose while they ran in"
-)
-_BARE_OIL = (
-    "boundary friction of {given} is that of surfaces that have reacted with additives, and this oil has none; "
-    "{fresh} was measured before a film of reacted oil had grown"
-)
 #: A moved mass below this share of that of the nut is a slip: the mass of the nut is an estimate.
 _LEAST_MASS = 0.5
 #: The limits of the checks where a case gives none.
@@ -311,8 +303,15 @@ def _not_reacted(model: FrictionModel, lubricant: Lubricant) -> list[Record]:
     bare = not has_additives(lubricant.grade)
     if friction is None or not (is_new or bare) or not float(friction) > 1.5 * FRESH_BOUNDARY_FRICTION:
         return []
-    template = _BARE_OIL if bare else _NEW_SURFACES
-    message = template.format(fresh=units.number(FRESH_BOUNDARY_FRICTION), given=units.number(friction))
+    fresh = units.number(FRESH_BOUNDARY_FRICTION)
+    reason = (
+        f", and this oil has none; {fresh} was measured before a film of reacted oil had grown"
+        if bare
+        else f"; on new ones {fresh} was measured, and it rose while they ran in"
+    )
+    message = (
+        f"boundary friction of {units.number(friction)} is that of surfaces that have reacted with additives{reason}"
+    )
     return [
         units.record(
             message,

@@ -36,10 +36,6 @@ OPTIONS: Mapping[str, Option] = {
 }
 #: Inertia of the motor of the example, kg m².
 _ROTOR = 1e-3
-_OFF = "the table of a LossyGear is off by up to {error}, {percent} % of the largest friction"
-_OFF_BY_MUCH = (
-    "the table of a LossyGear is off by up to {error}, {percent} % of the largest friction; take the component instead"
-)
 
 _README = """\
 BallScrewFriction.mo has the component BallScrew with an example; it needs the Modelica Standard Library, version 4.
@@ -220,8 +216,10 @@ def _creeps(at_rest: float) -> Record:
 
 def _gear_is_off(gear: LossTable) -> list[Record]:
     severe = gear.of_largest > LARGE
-    message = (_OFF_BY_MUCH if severe else _OFF).format(
-        error=units.in_unit(gear.error, "N m", 2), percent=units.to_significant(100 * gear.of_largest, 2)
+    percent = units.to_significant(100 * gear.of_largest, 2)
+    message = (
+        f"the table of a LossyGear is off by up to {units.in_unit(gear.error, 'N m', 2)}, {percent} % of the largest "
+        f"friction{'; take the component instead' if severe else ''}"
     )
     return [
         units.record(

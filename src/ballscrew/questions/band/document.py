@@ -24,27 +24,8 @@ from ballscrew.questions.shared import declared
 
 _TORQUE = "screw_torque"
 _KNOWN = quantities_of(FrictionResult)[_TORQUE]
-#: The numbers of the sentences that are ends of bands, which are rounded outward.
-_LOW_ENDS, _HIGH_ENDS = ("low", "inputs_low", "laws_low"), ("high", "inputs_high", "laws_high", "greatest")
 #: A cause is named where the band is so much narrower without it, as a share of its width.
 _WORTH_SAYING = 0.9
-#: The sentences where the other laws pull the band to one side of the model's own.
-_LOWERED = (
-    "inputs and laws together end at {high}, below the {inputs_high} of the inputs alone: most other laws "
-    "give less torque than the model's; for a motor take {inputs_high}"
-)
-_RAISED = (
-    "inputs and laws together begin at {low}, above the {inputs_low} of the inputs alone: most other laws "
-    "give more torque than the model's; for a brake take {inputs_low}"
-)
-_ABOVE = (
-    "the case lies at {value}, above the laws alone ({laws_low} to {laws_high}): most other laws give less "
-    "torque than the model's; expect the median {median} and for a motor take {greatest}"
-)
-_BELOW = (
-    "the case lies at {value}, below the laws alone ({laws_low} to {laws_high}): most other laws give more "
-    "torque than the model's; expect the median {median} and for a motor take {greatest}"
-)
 
 
 def document(run: Run, report: BandReport) -> dict[str, Any]:
@@ -186,32 +167,43 @@ def beside_laws(torque: OutputBand, quantity: Quantity) -> list[Record]:
     One line for each, with the number to use. Ends that are written alike count as the same.
     """
     both, inputs, laws = torque.both, torque.parameters, torque.model_form
-    numbers = {"value": torque.value, "median": torque.median}
-    numbers |= {"greatest": max(both.high, inputs.high), "laws_low": laws.low, "laws_high": laws.high}
-    numbers |= {"low": both.low, "high": both.high, "inputs_low": inputs.low, "inputs_high": inputs.high}
-    if not all(map(math.isfinite, numbers.values())):
+    greatest = max(both.high, inputs.high)
+    if not all(map(math.isfinite, (torque.value, torque.median, greatest, *both, *inputs, *laws))):
         return []
+    (low, high), (inputs_low, inputs_high), (laws_low, laws_high) = (
+        units.ends(*ends, quantity) for ends in (both, inputs, laws)
+    )
+    value, median = units.shown(torque.value, quantity), units.shown(torque.median, quantity)
+    advice = f"expect the median {median} and for a motor take {units.shown(greatest, quantity, toward=1)}"
 
-    outward = {**dict.fromkeys(_LOW_ENDS, -1), **dict.fromkeys(_HIGH_ENDS, 1)}
-
-    def differ(one: str, other: str) -> bool:
-        return len({units.rounded(numbers[name], quantity, toward=outward.get(name, 0)) for name in (one, other)}) > 1
-
-    def _of_laws(name: str, template: str, used: str) -> Record:
-        message = template.format(
-            **{key: units.shown(value, quantity, toward=outward.get(key, 0)) for key, value in numbers.items()}
-        )
-        return units.record(message, id=f"band.{name}", subject=_TORQUE, value=numbers[used], unit=quantity.unit)
+    def of_laws(name: str, text: str, number: float) -> Record:
+        return units.record(text, id=f"band.{name}", subject=_TORQUE, value=number, unit=quantity.unit)
 
     found: list[Record] = []
-    if both.high < inputs.high and differ("high", "inputs_high"):
-        found.append(_of_laws("laws_lower_it", _LOWERED, "inputs_high"))
-    if both.low > inputs.low and differ("low", "inputs_low"):
-        found.append(_of_laws("laws_raise_it", _RAISED, "inputs_low"))
-    if torque.value > laws.high and differ("value", "laws_high"):
-        found.append(_of_laws("above_laws", _ABOVE, "median"))
-    if torque.value < laws.low and differ("value", "laws_low"):
-        found.append(_of_laws("below_laws", _BELOW, "median"))
+    if both.high < inputs.high and high != inputs_high:
+        text = (
+            f"inputs and laws together end at {high}, below the {inputs_high} of the inputs alone: most other laws "
+            f"give less torque than the model's; for a motor take {inputs_high}"
+        )
+        found.append(of_laws("laws_lower_it", text, inputs.high))
+    if both.low > inputs.low and low != inputs_low:
+        text = (
+            f"inputs and laws together begin at {low}, above the {inputs_low} of the inputs alone: most other laws "
+            f"give more torque than the model's; for a brake take {inputs_low}"
+        )
+        found.append(of_laws("laws_raise_it", text, inputs.low))
+    if torque.value > laws.high and value != laws_high:
+        text = (
+            f"the case lies at {value}, above the laws alone ({laws_low} to {laws_high}): most other laws give less "
+            f"torque than the model's; {advice}"
+        )
+        found.append(of_laws("above_laws", text, torque.median))
+    if torque.value < laws.low and value != laws_low:
+        text = (
+            f"the case lies at {value}, below the laws alone ({laws_low} to {laws_high}): most other laws give more "
+            f"torque than the model's; {advice}"
+        )
+        found.append(of_laws("below_laws", text, torque.median))
     return found
 
 
