@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import re
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -32,6 +33,9 @@ ROWS, NOISE = 120, 0.01
 RPM = 2 * math.pi / 60
 #: The ranges in which nothing was said before the verdicts: of the coefficient, and of the constant torque in N m.
 BEFORE = {FRICTION: (0.0, 1.0), CONSTANT: (-50.0, 50.0), PRELOAD: (0.0, math.inf)}
+
+#: The range in the sentence of a verdict.
+OUTSIDE = re.compile(r"is (outside .+? to .+?) \(")
 
 
 class Log(NamedTuple):
@@ -99,8 +103,7 @@ def table() -> str:
             said = "plausible"
             for record in found.verdict_records:
                 if record.subject == estimate.name:
-                    least, most = (record.message.values[end].value for end in ("low", "high"))
-                    said = f"implausible: outside {least:.3g} to {most:.3g}{unit}"
+                    said = f"implausible: {OUTSIDE.findall(record.text)[0]}"
             lines.append(f"| {name} | {log.fault} | {value} | {before} | {said} |")
     return "\n".join(lines) + "\n"
 

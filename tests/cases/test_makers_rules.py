@@ -4,7 +4,6 @@ import dataclasses
 
 import pytest
 
-from ballscrew.basis import units
 from ballscrew.cases.case_files import case_file, descriptions
 from ballscrew.cases.case_files.makers_rules import by_rules, subject_of
 from ballscrew.questions.run import makers
@@ -61,7 +60,7 @@ def said(case):
 
 
 def test_rows_of_another_maker_are_called_so(case):
-    rules = {one.rule.label: units.filled(one.message) for one in by_rules(case)}
+    rules = {one.rule.label: one.text for one in by_rules(case)}
     assert rules["Rexroth"] == "0.8075 N m by Rexroth"  # 0.004 x 5047 N x 40 mm
     own, other, unknown = (said(of_make(case, make)) for make in ("Rexroth", "THK", ""))
     assert "these are rows" not in own
@@ -74,7 +73,7 @@ def test_rows_of_another_maker_are_called_so(case):
 def test_the_rules_contradict_each_other_by_their_own_ends(case):
     found = run(case)
     torques = [one.torque for one in by_rules(case)]
-    line, contradiction = map(units.filled, makers.messages(found.case, found.nut))
+    line, contradiction = makers.messages(found.case, found.nut)
     assert f"by a factor of {max(torques) / min(torques):.2f}" in contradiction
     assert line.startswith(f"drag torque without seals {found.nut.drag_of_balls:.4g} N m; by the rules of makers: ")
     assert f": Rexroth, its maker, {torques[0]:.4g} N m (model / rule " in line

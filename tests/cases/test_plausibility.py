@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
+from ballscrew.basis import units
 from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.cases.case_files import case_file
 from ballscrew.physics.components.laws import Hysteresis
@@ -78,8 +79,8 @@ def test_what_no_screw_has_is_named(name):
     assert not low <= record.value <= high
     warning = next(text for text in r.warnings if quantity.info.meaning in text)
     assert warning.startswith("implausible: ")
-    assert f"{record.value:.6g}" in warning
-    assert f"{high:.6g}" in warning
+    assert units.shown(record.value, quantity) in warning
+    assert units.shown(high, quantity) in warning
 
 
 def test_nothing_is_said_of_a_usual_screw():

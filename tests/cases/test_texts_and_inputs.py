@@ -7,7 +7,6 @@ import types
 import pytest
 
 import ballscrew as bs
-from ballscrew.basis import units
 from ballscrew.basis.errors import MISSING, Fault, InputError
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.cases.case_files import case_file, case_text, descriptions, fitted_case, inputs
@@ -107,7 +106,7 @@ def test_seals_say_whose_torque_they_have():
     assert said(0.3, seal_torque_source="measured by us") == []
     assert said(None, seal_torque_source="measured by us") == []
     assert said(0.2) == []
-    maker = units.filled(seal_source("HIWIN"))
+    maker = seal_source("HIWIN")
     assert maker in said(0.2, seal_torque_source=maker, make="HIWIN")[0]
     without_row = types.SimpleNamespace(row=None, screw=types.SimpleNamespace(nut=types.SimpleNamespace(losses={})))
     assert descriptions._seals_of_row(without_row) == []

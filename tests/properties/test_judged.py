@@ -218,7 +218,7 @@ def test_the_quadrant_by_its_signs():
     ):
         row = BY_ID["verdict.quadrant"]
         found = row.finds({**values, "drive_torque": torque})
-        assert row.message(found, {}).filled(lambda one: f"{one.value:g} N m") == words
+        assert row.text(found, {}) == words
     assert not row.finds({**values, "drive_torque": math.nan})["said"]
     assert not row.finds({"axial_load": 5.0, "screw_speed": 3.0, "drive_torque": 1.0})["said"]
 

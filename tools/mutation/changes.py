@@ -66,7 +66,7 @@ _OPPOSITE = {one: other for pair in _TWINS for one, other in (pair, reversed(pai
 _LOST = ("abs", "sqrt", "absolute", "sorted", "radians", "degrees", "exp", "log", "square", "cumsum")
 #: Calls in which nothing is changed: they describe, or say what is wrong.
 _DESCRIBE = (
-    "Info", "Unit", "Option", "Quantity", "Field", "field", "Message", "Fault", "Record", "Measured", "InputError",
+    "Info", "Unit", "Option", "Quantity", "Field", "field", "Fault", "Record", "InputError",
 )  # fmt: skip
 
 

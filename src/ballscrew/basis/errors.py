@@ -17,8 +17,7 @@ from typing import Any, ParamSpec, TypeVar, cast, get_type_hints
 
 import numpy as np
 
-from ballscrew.basis.quantities import BEYOND, Info, Quantity, carries_unit, fields_of, in_si, out_of_bounds, unit_of
-from ballscrew.basis.records import Measured, Message, Value, message_of
+from ballscrew.basis.quantities import BEYOND, Quantity, carries_unit, fields_of, in_si, out_of_bounds, unit_of
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -28,35 +27,22 @@ T = TypeVar("T")
 LINES_AT_MOST = 10
 #: Most characters of a given value in a message.
 LONGEST_VALUE = 200
-#: The name of a bound in the problem of a number beyond it.
-BOUND = "bound"
 #: The kind of fault of a key or a section that is not known.
 UNKNOWN = "unknown"
 #: The kind of a fault of a nut whose balls differ, which rigid and equal parts mend.
 ONE_BY_ONE = "one_by_one"
 #: The problem of a field that is not given.
 MISSING = "missing"
-#: A fault in one line, by whether there is a value given, and a remedy.
-_FAULTS = {
-    (False, False): Message("{field}: {problem}"),
-    (True, False): Message("{field}: {problem} ({given})"),
-    (False, True): Message("{field}: {problem} · {remedy}"),
-    (True, True): Message("{field}: {problem} ({given}) · {remedy}"),
-}
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
 class Fault:
-    """One error in one field.
-
-    Problem and remedy are a literal text, or a :class:`Message` with what stands in it, so that faces say numbers in
-    their units.
-    """
+    """One error in one field."""
 
     where: str
-    problem: str | Message
-    given: str | Message = ""
-    remedy: str | Message = ""
+    problem: str
+    given: str = ""
+    remedy: str = ""
     #: The known name that was probably meant, where the remedy suggests one.
     meant: str = ""
     #: The kind of fault, where callers tell kinds apart: no caller reads the texts.
@@ -65,6 +51,8 @@ class Fault:
     column: str = ""
     #: The part of the field that it is about, where the field has several: ``point 2`` of a curve.
     part: str = ""
+    #: The bound that its texts name, in SI: who knows how the field is written writes it like that.
+    bound: float | None = None
 
     def __str__(self) -> str:
         return f"{self.field}: {self.text}"
@@ -83,24 +71,7 @@ class Fault:
     @property
     def parts(self) -> tuple[str, str, str]:
         """The problem, the value given and the remedy as English texts of one line."""
-        problem, given, remedy = (message_of(one).filled(shown_in_si) for one in (self.problem, "", self.remedy))
-        given = _cut(self.given if isinstance(self.given, str) else self.given.filled(shown_in_si))
-        return _one_line(problem), _one_line(given), _one_line(remedy)
-
-    @property
-    def message(self) -> Message:
-        """The field, the problem, the value given and the remedy as one message, with numbers in SI."""
-
-        def in_si_units(value: Value) -> Value:
-            return dataclasses.replace(value, written=shown_in_si(value)) if isinstance(value, Measured) else value
-
-        said = self.changed(in_si_units)
-        given = said.given
-        if isinstance(given, str):
-            given = Message("{value}", {"value": _one_line(_cut(given))})
-        values = {"problem": message_of(said.problem), "given": given, "remedy": message_of(said.remedy)}
-        template = _FAULTS[bool(self.given), bool(message_of(self.remedy).template)]
-        return template.of(field=self.field, **values)
+        return _one_line(self.problem), _one_line(_cut(self.given)), _one_line(self.remedy)
 
     def document(self) -> dict[str, Any]:
         """The fault as it stands in JSON."""
@@ -116,11 +87,16 @@ class Fault:
             "remedy": remedy,
         }
 
-    def changed(self, change: Callable[[Value], Value]) -> Fault:
-        """The fault with each value in its texts changed."""
-        given = self.given if isinstance(self.given, str) else self.given.changed(change)
-        problem, remedy = (message_of(one).changed(change) for one in (self.problem, self.remedy))
-        return dataclasses.replace(self, problem=problem, given=given, remedy=remedy)
+    def with_bound(self, unit: str, written: str) -> Fault:
+        """The fault with its bound, of this SI unit, as it is ``written``."""
+        if self.bound is None:
+            return self
+        number = shown(self.bound, unit)
+        if number in self.problem:
+            return dataclasses.replace(self, problem=self.problem.replace(number, written), bound=None)
+        if not self.bound:  # "must be positive" names no number
+            return self
+        return dataclasses.replace(self, remedy=self.remedy.replace(number, written), bound=None)
 
 
 def _cut(text: str) -> str:
@@ -154,38 +130,18 @@ class ImplausibleInput(UserWarning):
     """
 
 
-def nearest(word: str, known: Iterable[str], most: int | None = None) -> Message:
+def nearest(word: str, known: Iterable[str], most: int | None = None) -> str:
     """``did you mean "…"?`` for the closest known word, else the list of known words, ``most`` of them at most."""
     candidates = list(known)
     if found := closest(word, candidates):
-        return Message('did you mean "{word}"?', {"word": found})
-    names = ", ".join(candidates[:most])
+        return f'did you mean "{found}"?'
     is_cut = most is not None and len(candidates) > most
-    return Message("known: {names}, …" if is_cut else "known: {names}", {"names": names})
+    return f"known: {', '.join(candidates[:most])}{', …' if is_cut else ''}"
 
 
-def either(names: Iterable[str], quote: str = '"') -> Message:
+def either(names: Iterable[str], quote: str = '"') -> str:
     """``"a" or "b" or "c"``."""
-    return chained(Message("{others} or {last}"), [f"{quote}{name}{quote}" for name in names])
-
-
-def both(names: Iterable[Value]) -> Message:
-    """``a and b and c``."""
-    return chained(Message("{others} and {last}"), list(names))
-
-
-def each_of(names: Iterable[Value]) -> list[Message]:
-    """``a, b, c``."""
-    return [Message("{name}", {"name": name}) for name in names]
-
-
-def chained(pair: Message, names: Sequence[Value]) -> Message:
-    """Values with what stands between ``{others}`` and ``{last}`` of a pair."""
-    first, *others = names
-    found = Message("{name}", {"name": first})
-    for name in others:
-        found = pair.of(others=found, last=name)
-    return found
+    return " or ".join(f"{quote}{name}{quote}" for name in names)
 
 
 def closest(word: str, known: Iterable[str]) -> str:
@@ -231,27 +187,27 @@ def shown(value: Any, unit: str) -> str:
     return number if unit == "1" else f"{number} {unit}"
 
 
-def shown_in_si(one: Measured) -> str:
-    """A number of a message as it is written, or in SI, as rooms write it that know no other units."""
-    return one.written or shown(one.value, "1" if one.quantity is None else one.quantity.unit)
+def spoken(path: str) -> str:
+    """The name of a field, a law or a result as people read it, by its path: ``nut.preload_share``."""
+    return path.rpartition(".")[2].replace("_", " ")
 
 
-def shown_to_digits(one: Measured) -> str:
-    """As :func:`shown_in_si`, with no more digits than the number of the message has."""
-    return shown_in_si(dataclasses.replace(one, value=float(f"{one.value:.{one.digits}g}")))
+def in_file(path: str) -> str:
+    """A field by its place in a case file, by its path: ``[axis] mass``."""
+    section, _, key = path.partition(".")
+    return f"[{section}] {key}"
 
 
-def measured(value: Any, unit: str = "1", digits: int = 6) -> Measured:
-    """A number of a message in a room that knows no display units."""
-    return Measured(as_float(value), None if unit == "1" else Quantity("", unit, Info("", "")), digits)
+def to_set(path: str) -> str:
+    """What a file has before the value of a field, by its path: ``preload = ``."""
+    return f"{path.rpartition('.')[2]} = "
 
 
 def fault_of(section: str, quantity: Quantity, value: Any, given: str = "") -> Fault | None:
     """The fault of one concrete value, or None. ``given`` is the text of the input, if known."""
     where = f"{section}.{quantity.name}"
     if isinstance(value, str | bytes | bool) or value is None:
-        expected = Message("must be a number in {unit}", {"unit": quantity.unit})
-        problem = "must be a number" if quantity.unit == "1" else expected
+        problem = "must be a number" if quantity.unit == "1" else f"must be a number in {quantity.unit}"
         return Fault(where, problem, given or shown(value, quantity.unit), "give a number without quotes")
     complex_number = isinstance(value, numbers.Number) and not isinstance(value, numbers.Real)
     of_others = isinstance(value, np.ndarray) and value.dtype.kind not in "fiu"
@@ -264,8 +220,8 @@ def fault_of(section: str, quantity: Quantity, value: Any, given: str = "") -> F
     if found is None:
         return None
     condition, bound = found
-    problem = Message(BEYOND[condition], {} if bound is None else {BOUND: Measured(bound, quantity, 6)})
-    return Fault(where, problem, given or shown(value, quantity.unit), quantity.info.hint)
+    problem = BEYOND[condition] if bound is None else BEYOND[condition].format(bound=shown(bound, quantity.unit))
+    return Fault(where, problem, given or shown(value, quantity.unit), quantity.info.hint, bound=bound)
 
 
 def without_unit(where: str, value: Any, unit: str | None) -> Any | Fault:
@@ -281,7 +237,7 @@ def without_unit(where: str, value: Any, unit: str | None) -> Any | Fault:
         return in_si(value, unit)
     # of pint: a wrong dimension, an offset unit, an unknown one
     except (TypeError, ValueError, AttributeError) as error:
-        in_unit = Message("give a quantity in {unit}, or a plain number in {unit}", {"unit": unit})
+        in_unit = f"give a quantity in {unit}, or a plain number in {unit}"
         return Fault(where, "wrong unit", f"{value}: {error}", "give a plain number" if unit == "1" else in_unit)
 
 
@@ -290,8 +246,7 @@ def fault_of_declared_unit(where: str, labelled: Any, unit: str) -> Fault | None
     declared = str(labelled.attrs.get("units", unit))
     if declared == unit:
         return None
-    remedy = Message("give it in {unit}", {"unit": unit})
-    return Fault(where, "is in another unit by its attribute units", declared, remedy)
+    return Fault(where, "is in another unit by its attribute units", declared, f"give it in {unit}")
 
 
 def _is_number(value: Any) -> bool:
@@ -316,7 +271,7 @@ def _refuse_unknown(name: str, given: Iterable[str], known: Iterable[str]) -> No
     """Raise the ``TypeError`` of a keyword that is not known, with the one that was probably meant."""
     for word in given:
         if word not in known:
-            raise TypeError(f"{name}() has no keyword {word!r}: {nearest(word, known).filled(shown_in_si)}")
+            raise TypeError(f"{name}() has no keyword {word!r}: {nearest(word, known)}")
 
 
 #: What the docstring of a function says that is decorated by :func:`accepts_units`.

@@ -21,9 +21,10 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from ballscrew.basis import units
 from ballscrew.basis.arrays import as_array, namespace, where
 from ballscrew.basis.quantities import Mask, Quantity, Ratio
-from ballscrew.basis.records import Measured, Message, Record, Severity, Value
+from ballscrew.basis.records import Record, Severity
 
 Formula: TypeAlias = Callable[[Mapping[str, Any]], Mapping[str, Any]]
 
@@ -37,12 +38,13 @@ class Shown:
     digits: int = 4
     decimals: int | None = None
 
-    def measured(self, value: Any) -> Measured:
-        """The number for a message."""
-        if self.decimals is None:
-            return Measured(float(value), self.quantity, self.digits)
-        written = f"{float(value):.{self.decimals}f}"
-        return Measured(float(written), self.quantity, 12, written=written)
+    def text(self, value: Any) -> str:
+        """The number as people read it."""
+        if self.decimals is not None:
+            return units.fixed(value, self.decimals)
+        if self.quantity is None or self.quantity.unit == "1":
+            return units.number(value, self.digits)
+        return units.shown(value, self.quantity, self.digits)
 
     def document(self) -> dict[str, Any]:
         """The place as it stands in JSON: ``number`` is its name."""
@@ -67,22 +69,22 @@ class Words:
 class Sentence:
     """A sentence, and the mask under which it is said; without one, wherever none before it is."""
 
-    message: Message
+    template: str
     said: str = ""
     #: What stands in the places of the template: a number, words, one of several sentences, or a constant.
-    places: Mapping[str, Shown | Words | tuple[Sentence, ...] | Value] = dataclasses.field(default_factory=dict)
+    places: Mapping[str, Shown | Words | tuple[Sentence, ...] | str] = dataclasses.field(default_factory=dict)
 
-    def filled(self, found: Mapping[str, Any], words: Mapping[str, Value]) -> Message:
+    def filled(self, found: Mapping[str, Any], words: Mapping[str, str]) -> str:
         """The sentence with what a formula found at one point, and words."""
 
-        def one(place: Any) -> Value:
+        def one(place: Shown | Words | tuple[Sentence, ...] | str) -> str:
             if isinstance(place, Shown):
-                return place.measured(found[place.name])
+                return place.text(found[place.name])
             if isinstance(place, Words):
                 return words[place.name]
             return chosen(place, found, words) if isinstance(place, tuple) else place
 
-        return self.message.of(**{name: one(place) for name, place in self.places.items()})
+        return self.template.format(**{name: one(place) for name, place in self.places.items()})
 
     def document(self) -> dict[str, Any]:
         """The sentence as it stands in JSON; a constant is ``constant``, a choice of sentences ``sentences``."""
@@ -92,13 +94,13 @@ class Sentence:
                 return place.document()
             if isinstance(place, tuple):
                 return {"sentences": [each.document() for each in place]}
-            return {"constant": place if isinstance(place, str) else place.document()}
+            return {"constant": place}
 
         places = {name: one(place) for name, place in self.places.items()}
-        return {"template": self.message.template, "said": self.said or None, "places": places}
+        return {"template": self.template, "said": self.said or None, "places": places}
 
 
-def chosen(sentences: Sequence[Sentence], found: Mapping[str, Any], words: Mapping[str, Value]) -> Message:
+def chosen(sentences: Sequence[Sentence], found: Mapping[str, Any], words: Mapping[str, str]) -> str:
     """The first of the sentences whose mask holds at one point, filled."""
     return next(one.filled(found, words) for one in sentences if not one.said or bool(found[one.said]))
 
@@ -138,9 +140,9 @@ class Judgement:
         return self.id.rpartition(".")[2]
 
     @property
-    def title(self) -> Message:
+    def title(self) -> str:
         """The name as people read it."""
-        return Message(self.name.replace("_", " "))
+        return self.name.replace("_", " ")
 
     def finds(self, values: Mapping[str, Any]) -> Mapping[str, Any] | None:
         """The masks and numbers of the formula; None where a value that it needs is not given.
@@ -162,25 +164,21 @@ class Judgement:
     def _left_out(self, name: str) -> Any:
         return np.bool_(False) if name in self.truths else np.float64("nan")
 
-    def message(self, found: Mapping[str, Any], words: Mapping[str, Value]) -> Message:
+    def text(self, found: Mapping[str, Any], words: Mapping[str, str]) -> str:
         """The sentence that is said at one point."""
         return chosen(self.sentences, found, words)
 
-    def record(
-        self, found: Mapping[str, Any], words: Mapping[str, Value], text: Callable[[Message], str]
-    ) -> Record | None:
-        """What is said at one point, None where nothing is; ``text`` fills a message in English."""
+    def record(self, found: Mapping[str, Any], words: Mapping[str, str]) -> Record | None:
+        """What is said at one point, None where nothing is."""
         if not found.get("said", True):
             return None
-        message = self.message(found, words)
         holds = bool(found["holds"]) if "holds" in found else self.holds
         holds = holds if found.get("judged", True) else None
         fails = holds is False and self.severity_of_failure is not None
         return Record(
             id=self.id,
             subject=self.subject,
-            text=text(message),
-            message=message,
+            text=self.text(found, words),
             severity=self.severity_of_failure or self.severity if fails else self.severity,
             holds=holds,
             value=float(found["value"]) if "value" in found else None,
@@ -195,7 +193,7 @@ class Judgement:
         return {
             "id": self.id,
             "subject": self.subject,
-            "title": self.title.template,
+            "title": self.title,
             "severity": self.severity,
             "severity_of_failure": self.severity_of_failure,
             "holds": self.holds,
@@ -220,12 +218,10 @@ def judged(rows: Iterable[Judgement], values: Mapping[str, Any]) -> dict[str, Ma
     return {name: one for name, one in found if one is not None}
 
 
-def said(
-    rows: Iterable[Judgement], values: Mapping[str, Any], words: Mapping[str, Value], text: Callable[[Message], str]
-) -> list[Record]:
+def said(rows: Iterable[Judgement], values: Mapping[str, Any], words: Mapping[str, str]) -> list[Record]:
     """The records of the rows that have something to say at one point, in their order."""
     found = ((row, row.finds(values)) for row in rows)
-    records = (row.record(one, words, text) for row, one in found if one is not None)
+    records = (row.record(one, words) for row, one in found if one is not None)
     return [record for record in records if record is not None]
 
 

@@ -190,7 +190,7 @@ def _fields_of(cls: Any) -> dict[str, Quantity]:
     return {name: quantity for name, quantity in quantities_of(cls).items() if name in names}
 
 
-#: What is wrong with a number beyond a bound, as a template of a message.
+#: What is wrong with a number beyond a bound, which stands in its braces.
 BEYOND: Mapping[str, str] = {
     "finite": "must be a finite number",
     "whole": "must be a whole number",

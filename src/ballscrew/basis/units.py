@@ -12,15 +12,12 @@ import reprlib
 import sys
 from collections.abc import Mapping, Sequence
 from importlib import resources
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ballscrew.basis import pint_plugins as _pint_plugins
 from ballscrew.basis.errors import Fault, as_float
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.basis.records import Measured, Message, Record, UnitName, Value, message_of
-
-if TYPE_CHECKING:
-    import pint
+from ballscrew.basis.records import Record
 
 _VALUE = re.compile(
     r"\s*(?P<number>[-+]?(?:(?:\d+(?:[' \u00a0\u2009\u202f]\d{3}(?!\d))*[.,\d]*|[.,]\d+)(?:e[-+]?\d+)?"
@@ -106,11 +103,10 @@ def _pint() -> Any:
 
 
 @functools.cache
-def registry() -> pint.UnitRegistry[Any]:
+def registry() -> Any:
     """The units of ``data/units.txt``; a fraction of pint's own list, and quick to load."""
-    pint = _pint()
-    no_file: Any = None  # an empty registry; pint's type hints do not allow None
-    units: pint.UnitRegistry[Any] = pint.UnitRegistry(no_file, autoconvert_offset_to_baseunit=True)
+    # None: an empty registry
+    units = _pint().UnitRegistry(None, autoconvert_offset_to_baseunit=True)
     text = resources.files("ballscrew").joinpath("data/units.txt").read_text(encoding="utf-8")
     for line in text.splitlines():
         if line and not line.startswith("#"):
@@ -158,12 +154,6 @@ DIGITS = 4
 _WITH_EXPONENT = 1e6
 #: Digits beyond which a number is that of its rounding errors.
 _EXACT = 12
-
-
-_KINEMATIC = Message(
-    "{remedy}; for a kinematic viscosity multiply by the density, or give kinematic_viscosity_40 and "
-    'kinematic_viscosity_100, or grade = "ISO VG 100"'
-)
 
 
 def rounded(value: Any, quantity: Quantity, digits: int = DIGITS, toward: int = 0) -> str:
@@ -216,26 +206,14 @@ def shown(value: Any, quantity: Quantity, digits: int = DIGITS, toward: int = 0)
     return " ".join(filter(None, (rounded(value, quantity, digits, toward), label(quantity))))
 
 
-def filled(message: Message) -> str:
-    """The English text of a message, with its numbers in display units."""
-    return message.filled(_measured)
+def number(value: Any, digits: int = DIGITS) -> str:
+    """A plain number to so many digits, without the exponent of programs where a person writes none."""
+    return f"{float(f'{value:.{digits}g}'):.10g}"
 
 
-def filled_text(template: str, **values: Value) -> str:
-    """The text of a template with its values in display units."""
-    return filled(Message(template, values))
-
-
-def _measured(one: Measured) -> str:
-    return one.written or (
-        one.plain() if one.quantity is None or one.is_plain else shown(one.value, one.quantity, one.digits, one.toward)
-    )
-
-
-def record(sentence: Message | str, **fields: Any) -> Record:
+def record(text: str, **fields: Any) -> Record:
     """A record that says a sentence; ``fields`` are its others."""
-    message = Message("{sentence}", {"sentence": sentence}) if isinstance(sentence, str) else sentence
-    return Record(text=filled(message), message=message, **fields)
+    return Record(text=text, **fields)
 
 
 def ends(low: Any, high: Any, quantity: Quantity) -> tuple[str, str]:
@@ -243,21 +221,12 @@ def ends(low: Any, high: Any, quantity: Quantity) -> tuple[str, str]:
     return shown(low, quantity, toward=-1), shown(high, quantity, toward=1)
 
 
-def in_display_units(fault: Fault, quantity: Quantity, given: str | Message) -> Fault:
+def in_display_units(fault: Fault, quantity: Quantity, given: str) -> Fault:
     """A fault found in SI, with its bound in the display unit and the value as it was written."""
-    digits = 9 if quantity.info.whole else DIGITS
-
-    def with_unit(value: Value) -> Value:
-        if not isinstance(value, Measured) or value.written:
-            return value
-        return dataclasses.replace(value, quantity=quantity, written=shown(value.value, quantity, digits))
-
-    return dataclasses.replace(fault.changed(with_unit), given=given)
-
-
-def in_display_units_of(records: Sequence[Record]) -> list[Record]:
-    """Records with the quantities of their texts in display units."""
-    return [dataclasses.replace(record, text=filled(record.message)) for record in records]
+    if fault.bound is not None:
+        digits = 9 if quantity.info.whole else DIGITS
+        fault = fault.with_bound(quantity.unit, shown(fault.bound, quantity, digits))
+    return dataclasses.replace(fault, given=given)
 
 
 def heading(quantity: Quantity, name: str | None = None) -> str:
@@ -266,9 +235,9 @@ def heading(quantity: Quantity, name: str | None = None) -> str:
     return words if quantity.unit == "1" else f"{words} [{quantity.shown_in}]"
 
 
-def example_of(quantity: Quantity, number: str = "1") -> Message:
+def example_of(quantity: Quantity, number: str = "1") -> str:
     """An example of valid text for a quantity."""
-    return Message('"{number} {unit}"', {"number": number, "unit": UnitName(quantity.shown_in)})
+    return f'"{number} {quantity.shown_in}"'
 
 
 #: Signs and digits that programs and keyboards of East Asia write, the minus sign and full-width forms, and ASCII.
@@ -295,8 +264,7 @@ def parse(where: str, raw: object, quantity: Quantity) -> float | Fault:
             return as_float(raw)
         return Fault(where, "needs a unit", given, _written_like(quantity, given))
     if len(raw) > LONGEST_VALUE:
-        problem = Message("has more than {most} letters", {"most": str(LONGEST_VALUE)})
-        return Fault(where, problem, given, _fix(quantity))
+        return Fault(where, f"has more than {LONGEST_VALUE} letters", given, _fix(quantity))
     fraction = _FRACTION.fullmatch(in_ascii(raw)) if quantity.unit == "m" else None
     if fraction is not None:
         size = int(fraction["whole"] or 0) + int(fraction["part"]) / int(fraction["parts"])
@@ -325,8 +293,7 @@ def _plain(written: str) -> str | Fault:
     match = _WITH_COMMA.fullmatch(mantissa)
     if match and len(match[2]) == 3 and match[1].strip("+-0"):
         thousands, fraction = f"{match[1]}{match[2]}", f"{match[1]}.{match[2].rstrip('0') or '0'}"
-        either = {"thousands": thousands, "fraction": fraction}
-        remedy = Message("write {thousands} for thousands, {fraction} for a decimal", either)
+        remedy = f"write {thousands} for thousands, {fraction} for a decimal"
         return Fault("", "could be two numbers", written, remedy)
     if match and (match[1] or match[2]):
         return f"{match[1]}.{match[2]}{e}{exponent}"
@@ -376,25 +343,21 @@ def in_unit(value: Any, unit: str, digits: int = DIGITS) -> str:
     return shown(value, Quantity("", unit, Info("", "")), digits)
 
 
-def _written_like(quantity: Quantity, number: str) -> Message:
-    return Message("write {example}", {"example": example_of(quantity, number)})
+def _written_like(quantity: Quantity, number: str) -> str:
+    return f"write {example_of(quantity, number)}"
 
 
-def _fix(quantity: Quantity) -> str | Message:
-    if quantity.unit == "1":
-        return "write a plain number"
-    return Message("write it like {example}", {"example": example_of(quantity)})
+def _fix(quantity: Quantity) -> str:
+    return "write a plain number" if quantity.unit == "1" else f"write it like {example_of(quantity)}"
 
 
-def _plain_number(number: float, unit: str, quantity: Quantity) -> str | Message:
+def _plain_number(number: float, unit: str, quantity: Quantity) -> str:
     """The remedy for a plain number with a unit; to drop the unit could make another number of it."""
     if quantity.name == "loaded_balls":
         return "a number of balls: about turns · pi · pitch_circle_diameter / ball_diameter"
     if unit == "%" and not quantity.info.whole:
-        return Message("write {example}", {"example": f"{number / 100:.12g}"})
-    if quantity.info.hint:
-        return Message("it is a plain number: {hint}", {"hint": Message(quantity.info.hint)})
-    return "it is a plain number"
+        return f"write {number / 100:.12g}"
+    return f"it is a plain number: {quantity.info.hint}" if quantity.info.hint else "it is a plain number"
 
 
 def _usual(quantity: Quantity) -> list[str]:
@@ -402,19 +365,16 @@ def _usual(quantity: Quantity) -> list[str]:
     return list(dict.fromkeys([quantity.shown_in, *USUAL.get(quantity.unit, ()), quantity.unit]))
 
 
-def _advice(quantity: Quantity) -> str | Message:
+def _advice(quantity: Quantity) -> str:
     """A remedy that names units of a quantity."""
     if quantity.unit == "rad/s":
         return 'write it in rpm, such as "1500 rpm"'
-    *others, last = (UnitName(unit) for unit in _usual(quantity)[:_NAMED])
-    if not others:
-        return Message("use the unit {unit}", {"unit": last})
-    listed = [Message("{unit}", {"unit": unit}) for unit in others]
-    return Message("use a unit such as {units} or {unit}", {"units": listed, "unit": last})
+    *others, last = _usual(quantity)[:_NAMED]
+    return f"use a unit such as {', '.join(others)} or {last}" if others else f"use the unit {last}"
 
 
-def _meant_or_usual(meant: str, quantity: Quantity) -> Message:
-    return Message('did you mean "{unit}"?', {"unit": UnitName(meant)}) if meant else message_of(_advice(quantity))
+def _meant_or_usual(meant: str, quantity: Quantity) -> str:
+    return f'did you mean "{meant}"?' if meant else _advice(quantity)
 
 
 def _similar_unit(unit: str, quantity: Quantity) -> str:
@@ -443,7 +403,10 @@ def _converted(where: str, number: float, unit: str, quantity: Quantity, given: 
     except pint.DimensionalityError:
         remedy = _meant_or_usual(_similar_unit(unit, quantity), quantity)
         if quantity.name == "viscosity":
-            remedy = _KINEMATIC.of(remedy=remedy)
+            remedy = (
+                f"{remedy}; for a kinematic viscosity multiply by the density, or give kinematic_viscosity_40 and "
+                'kinematic_viscosity_100, or grade = "ISO VG 100"'
+            )
         return Fault(where, "wrong unit", given, remedy)
     # errors of pint are of several kinds; a unit to the power of none is a KeyError
     except (pint.PintError, ValueError, ArithmeticError, TypeError, LookupError):

@@ -15,13 +15,15 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.basis.errors import ImplausibleInput, is_concrete, shown_in_si
+from ballscrew.basis import units
+from ballscrew.basis.errors import ImplausibleInput, is_concrete, shown
 from ballscrew.basis.quantities import Info, Mask, Quantity, fields_of, quantities_of
-from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.records import Record
 
 #: The id of the warning, whose last part is its name.
 IMPLAUSIBLE = "inputs.implausible"
-_UNUSUAL = Message("{meaning} {value} lies outside the usual {low} to {high}: check the number and its unit")
+#: How a number is written, of a value and its quantity.
+Written = Callable[[Any, Quantity], str]
 #: Relations that say nothing new where another quantity of the same part is named.
 _RELATED = ("groove_pitch",)
 #: Functions between a part that is being made and whoever makes it.
@@ -29,24 +31,29 @@ _MAKING = frozenset({"__post_init__", "__init__", "replace", "_replace", "__repl
 _PACKAGE = __name__.partition(".")[0]
 
 
-def unusual(section: str, part: Any) -> list[Record]:
+def in_si(value: Any, quantity: Quantity) -> str:
+    """A value in its SI unit, as programs give it."""
+    return shown(value, quantity.unit)
+
+
+def unusual(section: str, part: Any, written: Written = units.shown) -> list[Record]:
     """A warning for each quantity of a part that is somewhere outside its usual range, with the value farthest out.
 
     Relations of fields, such as the lead angle, are quantities of the part as well.
     """
     found = {
-        name: _record(f"{section}.{name}", quantity, value)
+        name: _record(f"{section}.{name}", quantity, value, written)
         for name, quantity in quantities_of(type(part)).items()
         if quantity.info.usual is not None and (value := _farthest_out(quantity, getattr(part, name))) is not None
     }
     return [record for name, record in found.items() if name not in _RELATED or len(found) == 1]
 
 
-def warn_at_once(section: str, part: Any, also: Callable[[Any], Sequence[Record]] | None = None) -> None:
+def warn_at_once(section: str, part: Any, also: Callable[[Any, Written], Sequence[Record]] | None = None) -> None:
     """Warn (:class:`~ballscrew.basis.errors.ImplausibleInput`) of a part whose plain numbers no ball screw has.
 
-    ``also`` gives further records of the part. Nothing is said of arrays, nor of parts that this package makes: it
-    says so in the records of its results.
+    ``also`` gives further records of the part, with numbers as they are written here. Nothing is said of arrays, nor of
+    parts that this package makes: it says so in the records of its results.
     """
     frame, level = _maker()
     if frame is None or frame.f_globals.get("__name__", "").partition(".")[0] == _PACKAGE:
@@ -57,9 +64,9 @@ def warn_at_once(section: str, part: Any, also: Callable[[Any], Sequence[Record]
     beyond = (
         []
         if all(_is_usual(quantity, part) for quantity in quantities_of(type(part)).values())
-        else unusual(section, part)
+        else unusual(section, part, in_si)
     )
-    for record in [*beyond, *([] if also is None else also(part))]:
+    for record in [*beyond, *([] if also is None else also(part, in_si))]:
         text = f"{record.subject}: {record.text}; numbers without a unit are in SI units"
         warnings.warn(text, ImplausibleInput, stacklevel=level)
 
@@ -110,19 +117,19 @@ def _farthest_out(quantity: Quantity, values: Any) -> float | None:
     return float(most if most > high and (least >= low or most / high > low / max(least, 1e-300)) else least)
 
 
-def _record(subject: str, quantity: Quantity, value: float) -> Record:
+def _record(subject: str, quantity: Quantity, value: float, written: Written) -> Record:
     assert quantity.info.usual is not None
     low, high = quantity.info.usual
-    numbers = {"value": Measured(value, quantity), "low": Measured(low, quantity), "high": Measured(high, quantity)}
-    message = _UNUSUAL.of(meaning=Message(quantity.info.meaning), **numbers)
+    number, least, most = (written(one, quantity) for one in (value, low, high))
     return Record(
         id=IMPLAUSIBLE,
         subject=subject,
-        text=message.filled(shown_in_si),
+        text=(
+            f"{quantity.info.meaning} {number} lies outside the usual {least} to {most}: check the number and its unit"
+        ),
         severity="warning",
         holds=False,
         value=value,
         limit=high if value > high else low,
         unit=quantity.unit,
-        message=message,
     )

@@ -11,7 +11,7 @@ from typing import Any
 from ballscrew.basis import units
 from ballscrew.basis.atomic_files import atomic_write, check_writable
 from ballscrew.basis.quantities import Quantity
-from ballscrew.basis.records import Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.exports.subject import TEMPERATURE, HandOver
 from ballscrew.exports.worst_error import WorstError
 
@@ -85,7 +85,7 @@ def _warnings(handed: HandOver) -> list[Record]:
     """Starvation, and a warning where the temperature changes nothing."""
     if handed.has_effect[TEMPERATURE]:
         return [*handed.starvation]
-    message = Message(
+    message = (
         "the oil is given by its numbers, so that the input temperature changes nothing; give a grade or a data sheet"
     )
     record = units.record(message, id="hand_over.temperature", subject="temperature", severity="warning", holds=False)

@@ -9,7 +9,6 @@ import numpy as np
 
 from ballscrew.basis.errors import Fault, InputError, accepts_units, nearest, raise_if_any, si_value
 from ballscrew.basis.quantities import Quantity, within_bounds
-from ballscrew.basis.records import Message
 from ballscrew.engine.evaluation.outputs import OPERATION, known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.exports import subject as subjects
@@ -128,11 +127,7 @@ def _option(name: str, option: Option, value: Any) -> Any:
     if kind is float and isinstance(value, int | np.floating) and not isinstance(value, bool):
         value = float(value)
     if type(value) is not kind:
-        raise InputError(
-            Fault(
-                f"hand_over.{name}", Message("must be a {kind}", {"kind": kind.__name__}), repr(value), option.meaning
-            )
-        )
+        raise InputError(Fault(f"hand_over.{name}", f"must be a {kind.__name__}", repr(value), option.meaning))
     missing = kind is float and np.isnan(value) and np.isnan(option.default)
     if kind is float and not np.isfinite(value) and not missing:
         raise InputError(Fault(f"hand_over.{name}", "must be a finite number", f"{value:g}", option.meaning))

@@ -14,7 +14,7 @@ from typing import Annotated, Any
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, raise_if_any
 from ballscrew.basis.quantities import Angle, AngularSpeed, Force, Info, Quantity, Ratio
-from ballscrew.basis.records import Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.exports.subject import HandOver
 from ballscrew.exports.targets import Option
@@ -36,11 +36,6 @@ OPTIONS: Mapping[str, Option] = {
         math.nan, "speed of the screw at the reversal, a slow one (default: that of the case)", _SPEED
     ),
 }
-_HYPOTHESIS = Message(
-    "friction that comes back over the angle of the screw after a reversal is a hypothesis; it is fitted at {load} and "
-    "{speed} with an error of up to {off} of the steady torque, and of up to {work} of the friction work of short "
-    "strokes, and carried over to all else"
-)
 _NOTES = """\
 Friction after a reversal is a HYPOTHESIS: it is computed from the contacts, and no published ball screw shows it by
 itself. {elements}, fitted to a reversal at
@@ -108,11 +103,14 @@ class Presliding:
     @property
     def warning(self) -> Record:
         """That it is a hypothesis."""
-        message = _HYPOTHESIS.of(
-            load=units.shown(self.axial_load, _LOAD, 3),
-            speed=units.shown(self.screw_speed, _SPEED, 3),
-            off=units.percent(self.fit.error.largest),
-            work=units.percent(self.fit.work_error),
+        load = units.shown(self.axial_load, _LOAD, 3)
+        speed = units.shown(self.screw_speed, _SPEED, 3)
+        off = units.percent(self.fit.error.largest)
+        message = (
+            "friction that comes back over the angle of the screw after a reversal is a hypothesis; it is fitted "
+            f"at {load} and {speed} with an error of up to {off} of the steady torque, and of up to "
+            f"{units.percent(self.fit.work_error)} of the friction work of short strokes, and carried over to all "
+            "else"
         )
         return units.record(
             message, id="hand_over.presliding", subject="screw_torque", severity="warning", value=self.fit.error.largest

@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
-from ballscrew.basis.records import Message
 from ballscrew.cases.case_files import provenance
 from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation.plan import Configuration
@@ -59,11 +58,7 @@ def of_case(case: Case, to: str, request: Request) -> Export:
 def _split(where: str, texts: Sequence[str], example: str) -> dict[str, str]:
     """``name=value`` as a dictionary."""
     raise_if_any(
-        [
-            Fault(where, "needs a name and a value", text, Message("write {example}", {"example": example}))
-            for text in texts
-            if "=" not in text
-        ]
+        [Fault(where, "needs a name and a value", text, f"write {example}") for text in texts if "=" not in text]
     )
     return {name.strip(): value.strip() for name, _, value in (text.partition("=") for text in texts)}
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.basis.records import Message, Record, in_file
+from ballscrew.basis.records import Record
 from ballscrew.basis.references import citations_of
 from ballscrew.basis.version import __version__
 from ballscrew.compiler.tracing.gradient import UnknownDerivativeError, partials
@@ -32,9 +32,9 @@ TEMPERATURE = "temperature"
 PRELOADS = ("preload", "oversize")
 #: Points at which an error is measured.
 POINTS = 2000
-_OF_RANGE = Message(
-    "so where the range of the inputs starves the most; {constant} = 0 hands over the full bath",
-    {"constant": in_file("model.inlet.replenishment_constant")},
+_OF_RANGE = (
+    "so where the range of the inputs starves the most; [model] inlet.replenishment_constant = 0 hands over the "
+    "full bath"
 )
 #: Shares of the largest load and of the largest speed of the range at which starvation is looked for.
 _SHARES = {OPERATION[0]: np.array([0.0, 0.1, 1.0]), OPERATION[1]: np.array([0.1, 1.0])}
@@ -162,22 +162,10 @@ class HandOver:
         except CannotRecordError as error:
             remedy = "take a table (--to table), or a nut without bodies, deviations and scatter"
             raise InputError(
-                Fault(
-                    "hand_over.to",
-                    Message("needs a model that can be recorded: {error}", {"error": str(error)}),
-                    "",
-                    remedy,
-                )
+                Fault("hand_over.to", f"needs a model that can be recorded: {error}", "", remedy)
             ) from None
         except UnknownDerivativeError as unknown:
-            raise InputError(
-                Fault(
-                    "hand_over.derivatives",
-                    Message("{unknown} has no derivative here", {"unknown": str(unknown)}),
-                    "",
-                    "",
-                )
-            ) from None
+            raise InputError(Fault("hand_over.derivatives", f"{unknown} has no derivative here", "", "")) from None
 
     def _is_nonnegative(self, name: str) -> bool:
         return self.has_effect[name] and self.subject.is_nonnegative(name)

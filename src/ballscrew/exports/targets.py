@@ -12,7 +12,6 @@ from typing import Any, NamedTuple
 
 from ballscrew.basis.errors import Fault, InputError, closest
 from ballscrew.basis.quantities import Quantity
-from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.case import Case
 from ballscrew.exports.export import Export
 from ballscrew.exports.subject import HandOver
@@ -59,16 +58,16 @@ _TAKEN_BY: Mapping[str, str] = {
     **dict.fromkeys(("sdf", "usd", "gazebo", "ros", "isaac"), "urdf"),
     **dict.fromkeys(("c99", "cpp", "c++"), "c"),
 }
-_MEANT, _KNOWN = Message('did you mean "{meant}"? known: {known}'), Message("known: {known}")
-_WRITTEN_FOR = Message('write "{meant}", whose files {name} takes; known: {known}')
 
 
 def target_module(name: str) -> Any:
     """The module of a target. Raises :class:`~ballscrew.basis.errors.InputError` for an unknown one."""
     if name not in TARGETS:
-        named, known = _TAKEN_BY.get(str(name).casefold(), ""), ", ".join(TARGETS)
-        meant = named or closest(name, TARGETS)
-        remedy = (_WRITTEN_FOR if named else _MEANT if meant else _KNOWN).of(meant=meant, name=str(name), known=known)
+        remedy = f"known: {', '.join(TARGETS)}"
+        if reads := _TAKEN_BY.get(str(name).casefold()):
+            remedy = f'write "{reads}", whose files {name} takes; {remedy}'
+        elif meant := closest(name, TARGETS):
+            remedy = f'did you mean "{meant}"? {remedy}'
         raise InputError(Fault("hand_over.to", "unknown target", str(name), remedy))
     return importlib.import_module(f".{TARGETS[name].module}", _FOLDER)
 

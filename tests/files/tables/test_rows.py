@@ -13,9 +13,8 @@ import xlsxwriter
 
 from ballscrew.axis.motion import trajectory_file
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, InputError, measured
+from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import fields_of
-from ballscrew.basis.records import Message
 from ballscrew.cases.screw_tables.catalogue import COLUMNS
 from ballscrew.evidence.moving_logs import columns as moving_logs
 from ballscrew.evidence.validation.sets import SETS
@@ -389,7 +388,7 @@ def test_faults_of_what_is_made_are_those_of_the_row(table):
     def make(row):
         if row.values["lead"] > 0.0055:
             raise InputError(
-                Fault("screw.lead", "too big", "0.006 m", Message("below {bound}", {"bound": measured(0.0055, "m")})),
+                Fault("screw.lead", "too big", "0.006 m", "below 0.0055 m", bound=0.0055),
                 Fault("x.y", "odd"),
             )
         return row

@@ -6,8 +6,6 @@ import math
 import pytest
 
 import ballscrew as bs
-from ballscrew.basis import units
-from ballscrew.basis.records import Message
 from ballscrew.basis.references import bibliography
 from ballscrew.physics.components.nut import DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
 from ballscrew.physics.equations import life, shaft
@@ -95,7 +93,7 @@ def test_utilisation_decides():
 )
 def test_demand_over_capacity(value, limit, at_most, at_least):
     """Nothing that is asked of nothing is no demand; something asked of nothing is beyond all."""
-    made = (kind(Message("said"), "one", value, limit, "1") for kind in (Check.at_most, Check.at_least))
+    made = (kind("said", "one", value, limit, "1") for kind in (Check.at_most, Check.at_least))
     assert [(check.utilisation, check.holds) for check in made] == [at_most, at_least]
 
 
@@ -273,7 +271,7 @@ def test_limits_of_the_dn_value_are_those_that_makers_print(make, recirculation,
     found = printed_limit(make, recirculation)
     assert (found is None) == (limit is None)
     assert found is None or found.value == pytest.approx(limit * MM_RPM)
-    assert found is None or ("of all makes" in units.filled(found.words)) is (make == "Anybody")
+    assert found is None or ("of all makes" in found.words) is (make == "Anybody")
 
 
 def test_printed_limits_have_sources_and_make_nothing_milder():
@@ -284,7 +282,7 @@ def test_printed_limits_have_sources_and_make_nothing_milder():
 
 
 def said(checks, **how):
-    return units.filled(verdict_of(checks, **how))
+    return verdict_of(checks, **how)
 
 
 def test_no_verdict_passes_with_checks_that_were_not_judged():

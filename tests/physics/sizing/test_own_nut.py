@@ -181,7 +181,7 @@ def test_a_rating_in_the_wrong_unit_is_named_with_its_value_and_a_remedy():
     (warning,) = without(dataclasses.replace(row, dynamic_load_rating=7210.0)).warnings
     assert warning.subject == "screw.dynamic_load_rating"
     assert warning.severity == "warning"
-    assert "7210 N" in warning.text
+    assert "7.21 kN" in warning.text
     assert "check its unit" in warning.text
     found = without(dataclasses.replace(row, dynamic_load_rating=7210.0), "ball_diameter")
     assert estimate(found, "ball_diameter").source == own.BY_RULE

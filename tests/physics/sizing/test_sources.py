@@ -5,7 +5,6 @@ import math
 import pytest
 
 import ballscrew as bs
-from ballscrew.basis.records import Message
 from ballscrew.basis.references import bibliography
 from ballscrew.physics.components.nut import DoubleNut
 from ballscrew.physics.sizing.accuracy_factors import factor_of_make, factors_of_makes, factors_of_standard
@@ -73,8 +72,8 @@ def test_the_dn_limit_of_another_nut_is_an_estimate(changes, source):
 
 
 def test_a_check_of_given_and_computed_numbers_has_no_source():
-    assert Check.at_most(Message("said"), "motor_rms_torque", 1.0, 2.0, "N m").source is None
-    assert Check.at_most(Message("said"), "buckling", 1.0, 2.0, "N").source == "read"
+    assert Check.at_most("said", "motor_rms_torque", 1.0, 2.0, "N m").source is None
+    assert Check.at_most("said", "buckling", 1.0, 2.0, "N").source == "read"
 
 
 def test_only_what_was_read_needs_no_words():

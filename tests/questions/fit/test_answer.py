@@ -5,7 +5,6 @@ import tomllib
 
 import pytest
 
-from ballscrew.basis import units
 from ballscrew.basis.output.json_text import plain
 from ballscrew.basis.output.sheet import Columns
 from ballscrew.cases.case_files import case_file
@@ -81,9 +80,9 @@ def test_no_trade_off_is_not_taken_for_a_log_that_determines_each_number(tmp_pat
     case = case_file.build(tomllib.loads(PAPER), None, EXAMPLES)
     options = read_options(case, {"free": [FRICTION]})
     model = compute.fit(case, steady_log(case, path, options), options).model
-    assert units.filled(trade_off(model)) == "Trade-offs: none; the log determines each number by itself"
+    assert trade_off(model) == "Trade-offs: none; the log determines each number by itself"
     untold = dataclasses.replace(model.estimates[FRICTION], identified=False, std=None)
-    said = units.filled(trade_off(dataclasses.replace(model, estimates={FRICTION: untold})))
+    said = trade_off(dataclasses.replace(model, estimates={FRICTION: untold}))
     assert said == "Trade-offs: none; the log does not determine: boundary friction coefficient"
 
 
@@ -126,7 +125,7 @@ def test_a_number_that_is_known_by_its_prior_too_is_not_said_to_be_determined_by
     known = dataclasses.replace(report.model.identifiability, identified={FRICTION: False})
     model = dataclasses.replace(report.model, identifiability=known)
     expected = "the log determines boundary friction coefficient only together with what was known before"
-    assert units.filled(trade_off(model)) == f"Trade-offs: none; {expected}"
+    assert trade_off(model) == f"Trade-offs: none; {expected}"
 
 
 def test_a_trade_off_of_a_number_that_is_not_identified_has_no_standard_error(tmp_path):
@@ -137,7 +136,7 @@ def test_a_trade_off_of_a_number_that_is_not_identified_has_no_standard_error(tm
 
     def sentence(**changes):
         estimates = {**report.model.estimates, "constant_torque": dataclasses.replace(constant, value=0.05, **changes)}
-        return units.filled(trade_off(dataclasses.replace(report.model, identifiability=together, estimates=estimates)))
+        return trade_off(dataclasses.replace(report.model, identifiability=together, estimates=estimates))
 
     assert sentence().endswith("fits the rows nearly as well (one standard error)")
     assert sentence(identified=False, std=None).endswith("nearly as well; not identified: constant torque")

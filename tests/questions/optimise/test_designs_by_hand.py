@@ -9,7 +9,6 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
-from ballscrew.basis.records import Message
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.checks import Check
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
@@ -212,8 +211,8 @@ def member(loss, life, *checks, valid=True, searched=2.0):
 
 
 def test_members_by_their_first_objective_with_their_front():
-    fails = Check.saying(Message("said"), "life", 2.0, 1.0, "1", 2.0, False)
-    unjudged = Check.saying(Message("said"), "life", None, None, "1", None, None)
+    fails = Check.saying("said", "life", 2.0, 1.0, "1", 2.0, False)
+    unjudged = Check.saying("said", "life", None, None, "1", None, None)
     table = [member(3.0, 9.0), member(1.0, 5.0), member(2.0, 4.0), member(0.5, 99.0, fails),
              member(0.7, 99.0, valid=False), member(2.5, 8.0, unjudged)]  # fmt: skip
     # a search shows what it ends with, not what it begins with

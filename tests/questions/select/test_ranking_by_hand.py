@@ -9,8 +9,6 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.basis import units
-from ballscrew.basis.records import Message
 from ballscrew.cases.case_files import case_file
 from ballscrew.physics.sizing.checks import Check
 from ballscrew.questions.select import candidates, requirement_checks
@@ -30,7 +28,7 @@ HOUR = 3600.0
 
 def check(name, used, holds=None):
     said = None if used is None else used <= 1
-    return Check.saying(Message("said"), name, used, 1.0, "1", used, said if holds is None else holds)
+    return Check.saying("said", name, used, 1.0, "1", used, said if holds is None else holds)
 
 
 def candidate(name, *checks, loss=1.0, life=2e4 * HOUR, valid=True, complete=True, looked_for=None, **more):
@@ -97,7 +95,7 @@ def test_what_a_candidate_says_of_its_checks():
     assert candidate("x", check("life", None, holds=False), check("buckling", 0.4)).worst == math.inf
     assert candidate("x", check("life", 0.4)).holds
     assert not candidate("x", check("life", 0.4), complete=False).holds
-    unjudged = Check.saying(Message("said"), "life", None, None, "1", None, None)
+    unjudged = Check.saying("said", "life", None, None, "1", None, None)
     assert candidate("x", unjudged).fits
     assert not candidate("x", unjudged).holds
     assert candidate("x", looked_for=2e4 * HOUR, life=1e4 * HOUR).life_short == 2.0
@@ -221,13 +219,13 @@ def test_steps_and_bounds_by_hand():
     assert (drive.utilisation, drive.holds) == (pytest.approx(0.8), True)
     assert (idle.utilisation, idle.holds) == (pytest.approx(1.2), False)
     assert (rigidity.utilisation, rigidity.holds, rigidity.limit) == (None, None, 4e8)
-    assert "rigidity of the nut under the load: not known here" in units.filled(rigidity.message)
+    assert "rigidity of the nut under the load: not known here" in rigidity.text
     # of the balls under the load and of the nut as catalogues print it the smaller; shaft and bearings stand beside it
     printed = with_rigidities(nut=6e8, nut_corrected=3e8, drive=2e8)
     for balls, value in ((5e8, 3e8), (2.5e8, 2.5e8), (math.nan, 3e8)):
         *_, rigidity = requirement_checks.of_friction(bounds, printed, run, {**numbers, "rigidity": balls})
         assert (rigidity.value, rigidity.holds) == (value, False)
-        assert "by ISO 3408-4, 300 N/µm; nut, shaft and bearings together 200 N/µm" in units.filled(rigidity.message)
+        assert "by ISO 3408-4, 300 N/µm; nut, shaft and bearings together 200 N/µm" in rigidity.text
     *_, rigidity = requirement_checks.of_friction(bounds, with_rigidities(nut=6e8), run, {**numbers, "rigidity": 9e8})
     assert (rigidity.value, rigidity.holds) == (6e8, True)
 

@@ -11,9 +11,9 @@ import numpy as np
 from ballscrew.axis.duty_cycle.duty import Duty
 from ballscrew.axis.duty_cycle.motor import Motor
 from ballscrew.axis.motion.states import Numbers
+from ballscrew.basis import units
 from ballscrew.basis.arrays import ByValue, lazy
 from ballscrew.basis.quantities import Energy, fields_of
-from ballscrew.basis.records import Measured, Message
 from ballscrew.physics.friction.starvation import FULL_BATH
 from ballscrew.physics.sizing.checks import Check
 
@@ -105,15 +105,12 @@ class MotorCheck(ByValue):
         peak = float(motor.peak_at(self.duty.motor_speed[at : at + 1])[0])
         rms_where, rms = self.worst_rms
         where, largest = self.worst_torque
-        of_rms = _of(rms_where, Message("RMS torque, rests included, against the rated torque"))
-        of_peak = _of(where, Message("torque against the curve of the motor, worst in “{phase}”", {"phase": name}))
+        of_rms = _of(rms_where, "RMS torque, rests included, against the rated torque")
+        of_peak = _of(where, f"torque against the curve of the motor, worst in “{name}”")
         if speed > motor.largest_speed:
-            of_peak = Message(
-                "the motor has no torque above {largest}, where its curve ends; the cycle needs {speed}",
-                {
-                    "largest": Measured(float(motor.largest_speed), _LARGEST_SPEED),
-                    "speed": Measured(speed, _LARGEST_SPEED),
-                },
+            of_peak = (
+                f"the motor has no torque above {units.shown(motor.largest_speed, _LARGEST_SPEED)}, where its "
+                f"curve ends; the cycle needs {units.shown(speed, _LARGEST_SPEED)}"
             )
         return (
             Check.at_most(of_rms, "motor_rms_torque", rms, motor.rated_torque, "N m"),
@@ -125,10 +122,10 @@ class MotorCheck(ByValue):
     def speed_check(self) -> Check:
         """Speed against the largest of the motor: it knows no torque."""
         speed = float(np.max(np.abs(self.duty.motor_speed)))
-        message = Message("speed of the motor against its largest")
+        message = "speed of the motor against its largest"
         return Check.at_most(message, "motor_speed", speed, self.motor.largest_speed, "rad/s")
 
 
-def _of(condition: str, message: Message) -> Message:
+def _of(condition: str, message: str) -> str:
     """A message, and the condition of the track that it is of."""
-    return Message("{what}, {condition}", {"what": message, "condition": Message(condition)}) if condition else message
+    return f"{message}, {condition}" if condition else message

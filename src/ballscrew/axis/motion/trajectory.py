@@ -9,9 +9,8 @@ import numpy as np
 
 from ballscrew.axis.motion.states import MotionStates, Numbers
 from ballscrew.basis.arrays import ByValue, compact, lazy
-from ballscrew.basis.errors import MISSING, Fault, measured, raise_if_any, shown
+from ballscrew.basis.errors import MISSING, Fault, raise_if_any, shown
 from ballscrew.basis.quantities import Acceleration
-from ballscrew.basis.records import Message
 
 #: Numbers of samples on either side that a smoothing reaches.
 HALF_WIDTHS = (0, 1, 2, 4, 8, 16, 32, 64)
@@ -187,10 +186,7 @@ def faults_of_times(time: Numbers, where: str, lines: np.ndarray) -> list[Fault]
     usual = float(np.median(step))
     least, greatest = USUAL_STEPS
     if not least <= usual <= greatest:
-        remedy = Message(
-            "{least} to {greatest}: check the unit of the time",
-            {"least": measured(least, "s"), "greatest": measured(greatest, "s")},
-        )
+        remedy = f"{shown(least, 's')} to {shown(greatest, 's')}: check the unit of the time"
         return [Fault(where.format(lines[1]), "has an unlikely step of time", shown(usual, "s"), remedy)]
     gap = np.flatnonzero(step > LARGEST_STEP * usual)
     if gap.size:

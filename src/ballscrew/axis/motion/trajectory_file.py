@@ -11,7 +11,6 @@ from ballscrew.axis.motion.states import Numbers
 from ballscrew.axis.motion.trajectory import Trajectory, faults_of_times
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.basis.records import Message
 from ballscrew.files.tables import decimals
 from ballscrew.files.tables.headings import Column, checked, headings_in, unused
 from ballscrew.files.tables.sheets import unreadable
@@ -83,14 +82,7 @@ def read_trajectory(path: Path) -> Trajectory:
                 parts.append({name: column[kept] for name, column in values.items()})
                 lines.append(piece.line[kept])
                 if sum(one.size for one in lines) > MOST_ROWS:
-                    raise InputError(
-                        Fault(
-                            path.name,
-                            Message("has more than {most_rows} rows", {"most_rows": str(MOST_ROWS)}),
-                            "",
-                            "cut it to a few cycles",
-                        )
-                    )
+                    raise InputError(Fault(path.name, f"has more than {MOST_ROWS} rows", "", "cut it to a few cycles"))
     except (OSError, ValueError) as error:
         if isinstance(error, InputError):
             raise
@@ -123,7 +115,7 @@ def _faults(name: str, columns: Mapping[str, Numbers], line: np.ndarray) -> list
     missing = [
         Fault(
             where.format(line[int(np.argmax(np.isnan(values)))]),
-            Message("has no {column}", {"column": column}),
+            f"has no {column}",
             "",
             "fill it in, or cut it out",
         )

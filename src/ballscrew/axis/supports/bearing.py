@@ -13,7 +13,7 @@ from ballscrew.basis import units
 from ballscrew.basis.arrays import ByValue, lazy
 from ballscrew.basis.errors import Fault, accepts_units, faults_of, raise_if_any, shown
 from ballscrew.basis.quantities import Angle, Count, Force, Info, Length, Mask, Power, Ratio, Stiffness, Torque
-from ballscrew.basis.records import Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.physics.components.frame import bearing_frame
 from ballscrew.physics.components.laws import ProportionalBallForce
 from ballscrew.physics.components.materials import Lubricant
@@ -166,7 +166,7 @@ class SupportBearing(ByValue):
                 "bearing.balls",
                 "do not fit on their circle",
                 given,
-                Message("{room} mm are all there is", {"room": units.to_significant(1000.0 * room, 4)}),
+                f"{units.to_significant(1000.0 * room, 4)} mm are all there is",
             )
         ]
 
@@ -277,7 +277,7 @@ class BearingFriction(ByValue):
         """Warnings as records."""
         if np.all(self.validity[DIRECTION]):
             return self.balls.warning_records
-        message = Message(
+        message = (
             "one row carries no load in the other direction: it was computed for the size of the load; take a pair"
         )
         lifted = units.record(

@@ -15,7 +15,6 @@ from ballscrew.axis.supports.makers_bearing import KnownBearing, PalmgrenBearing
 from ballscrew.axis.supports.mounted_bearing import MountedBearing
 from ballscrew.basis.errors import MISSING, Fault
 from ballscrew.basis.quantities import Quantity, fields_of
-from ballscrew.basis.records import Message, Setting
 
 #: Laws of bearings and of guides by name; the first is meant where none is named.
 BEARING_LAWS: Mapping[str, type] = {
@@ -54,11 +53,8 @@ def misplaced(where: str, law: str, laws: Mapping[str, type], values: Mapping[st
     for name, value in values.items():
         if name in fields_of_laws(laws) and name not in fields_of(laws[law]):
             others = " or ".join(f'"{other}"' for other, cls in laws.items() if name in fields_of(cls))
-            problem, remedy = (
-                Message('the law "{law}" has none', {"law": law}),
-                Message("leave it out, or write {field}{others}", {"field": Setting(f"{where}.law"), "others": others}),
-            )
-            found.append(Fault(f"{where}.{name}", problem, reprlib.repr(value), remedy))
+            remedy = f"leave it out, or write law = {others}"
+            found.append(Fault(f"{where}.{name}", f'the law "{law}" has none', reprlib.repr(value), remedy))
     return found
 
 
@@ -69,14 +65,7 @@ def missing(where: str, law: Any, values: Mapping[str, Any]) -> list[Fault]:
         if field.default is dataclasses.MISSING and field.name in known and field.name not in values:
             quantity = known[field.name]
             sample = "a number" if quantity.unit == "1" else f'"… {quantity.shown_in}"'
-            found.append(
-                Fault(
-                    f"{where}.{field.name}",
-                    MISSING,
-                    "",
-                    Message("add {field}{sample}", {"field": Setting(f"{where}.{field.name}"), "sample": sample}),
-                )
-            )
+            found.append(Fault(f"{where}.{field.name}", MISSING, "", f"add {field.name} = {sample}"))
     return found
 
 

@@ -14,7 +14,7 @@ from ballscrew.basis import units
 from ballscrew.basis.arrays import ByValue, lazy
 from ballscrew.basis.errors import Fault, faults_of, raise_if_any, shown
 from ballscrew.basis.quantities import Array, Count, Force, Info, KinematicViscosity, Mask, Power, Ratio, Torque
-from ballscrew.basis.records import Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import DoubleNut
 from ballscrew.physics.components.operating_state import OperatingState
@@ -81,7 +81,7 @@ class MakersFriction(ByValue):
         """A warning where a number is not finite."""
         if np.all(self.validity["inputs"]):
             return []
-        message = Message("the friction is not a finite number somewhere: check load, speed and oil")
+        message = "the friction is not a finite number somewhere: check load, speed and oil"
         return [units.record(message, id="validity.inputs", subject="inputs", severity="warning", holds=False)]
 
 

@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 from ballscrew.axis.supports import formulas
 from ballscrew.axis.supports.shaft_on_supports import buckling_root, whirling_root
 from ballscrew.basis.arrays import ByValue, lazy
-from ballscrew.basis.errors import Fault, accepts_units, is_concrete, measured, raise_if_any, shown
+from ballscrew.basis.errors import Fault, accepts_units, is_concrete, raise_if_any, shown
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Ratio, Stiffness
-from ballscrew.basis.records import Message
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import geometry, presliding, rigidity, shaft
 from ballscrew.physics.sizing.installation import Installation
@@ -171,7 +170,7 @@ def stiffness_over_stroke(
 def _faults(places: Numbers, length: float, mount: Stiffness | None, root: Length | None) -> list[Fault]:
     faults: list[Fault] = []
     if not np.all((places > 0) & (places < length)):
-        remedy = Message("distances from the fixed bearing, below {length}", {"length": measured(length, "m")})
+        remedy = f"distances from the fixed bearing, below {shown(length, 'm')}"
         faults.append(Fault("stiffness.positions", "must lie on the shaft", "", remedy))
     for name, value, unit in (("mount_rigidity", mount, "N/m"), ("root_diameter", root, "m")):
         if value is not None and is_concrete(value) and not value > 0:

@@ -10,9 +10,9 @@ from scipy.optimize import root_scalar
 
 from ballscrew.axis.motion.states import Numbers
 from ballscrew.axis.thermal.network import Network
+from ballscrew.basis import units
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.quantities import Length, Power, Ratio
-from ballscrew.basis.records import Measured
 
 #: Points of the powers among which an equilibrium is looked for.
 _POWERS = 400
@@ -36,9 +36,9 @@ class Equilibrium(ByValue):
     temperatures: Numbers
 
     @property
-    def shown_margin(self) -> Measured:
-        """The margin as messages show it."""
-        return Measured(self.margin, digits=3)
+    def shown_margin(self) -> str:
+        """The margin as people read it."""
+        return units.number(self.margin, 3)
 
     @property
     def nut_temperature(self) -> float:

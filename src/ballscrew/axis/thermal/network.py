@@ -20,7 +20,6 @@ from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import AngularSpeed, Conductance, Force, HeatTransfer, Length, Mass, Power, Ratio
-from ballscrew.basis.records import Message
 from ballscrew.physics.components.nut import Nut, SingleNut
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import geometry, heat, hertz
@@ -216,7 +215,7 @@ def network_of(
     if not COLDEST <= surroundings.ambient <= HOTTEST:
         known = " to ".join(f"{end - ZERO_CELSIUS:g} °C" for end in (COLDEST, HOTTEST))
         given = f"{surroundings.ambient - ZERO_CELSIUS:.4g} °C"
-        remedy = Message("the oil is known from {known}", {"known": known})
+        remedy = f"the oil is known from {known}"
         raise InputError(Fault("surroundings.ambient", "is not among the temperatures of the oil", given, remedy))
     length = surroundings.shaft_length if surroundings.shaft_length is not None else shaft_length
     if length is None:

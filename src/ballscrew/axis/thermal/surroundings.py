@@ -8,7 +8,6 @@ from typing import Annotated
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, faults_of, raise_if_any
 from ballscrew.basis.quantities import Conductance, HeatTransfer, Info, Length, Mass, Ratio, Temperature
-from ballscrew.basis.records import Message
 
 #: Air at 40 °C: kinematic viscosity m²/s, thermal conductivity W/(m K), Prandtl number; as recalled.
 AIR_VISCOSITY, AIR_CONDUCTIVITY, AIR_PRANDTL = 17.0e-6, 0.0270, 0.706
@@ -160,10 +159,8 @@ class Surroundings(ByValue):
         )
         faults = faults_of("surroundings", self, optional=optional)
         if self.bracing not in ("", *BRACINGS):
-            remedy = Message("write {names}, or leave it out", {"names": " or ".join(BRACINGS)})
+            remedy = f"write {' or '.join(BRACINGS)}, or leave it out"
             faults.append(Fault("surroundings.bracing", "unknown way of bracing", str(self.bracing), remedy))
         if self.coolant is not None and not self.bore:
-            faults.append(
-                Fault("surroundings.coolant", "has no bore to flow through", "", 'give {surroundings.bore}"12 mm"')
-            )
+            faults.append(Fault("surroundings.coolant", "has no bore to flow through", "", 'give bore = "12 mm"'))
         raise_if_any(faults)

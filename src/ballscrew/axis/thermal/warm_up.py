@@ -23,7 +23,7 @@ from ballscrew.basis import units
 from ballscrew.basis.arrays import ByValue, lazy
 from ballscrew.basis.errors import Fault, InputError, accepts_units
 from ballscrew.basis.quantities import Duration, Energy, Info, Length, Power, Quantity, Torque
-from ballscrew.basis.records import Measured, Message, Record, in_file
+from ballscrew.basis.records import Record
 from ballscrew.physics.friction.starvation import NEARLY_ALL, differs
 
 #: Relative and absolute tolerance of the integration; temperatures are then right to a millikelvin.
@@ -328,26 +328,19 @@ class WarmUp(ByValue):
         return _records(self)
 
 
-def _ending(bracing: str, end: Equilibrium) -> Message:
+def _ending(bracing: str, end: Equilibrium) -> str:
     """The preload in a steady state of one way to brace the halves, or that there is none."""
-    values = {"bracing": Message(bracing), "preload": Measured(end.preload, _PRELOAD)}
-    return Message("{bracing} {preload}", values) if end.exists else Message("{bracing} no steady state", values)
+    return f"{bracing} {units.shown(end.preload, _PRELOAD)}" if end.exists else f"{bracing} no steady state"
 
 
 def _records(found: WarmUp) -> list[Record]:
     end = found.equilibrium
-    message = (
-        Message(
-            "settles with the nut at {temperature}; "
-            "stability margin of the thermal loop {margin}, thermal runaway at 0",
-            {
-                "temperature": Measured(end.nut_temperature, _TEMPERATURE, 3),
-                "margin": end.shown_margin,
-            },
+    message = "no equilibrium within the range of oil and preload: thermal runaway, or too hot for the model"
+    if end.exists:
+        message = (
+            f"settles with the nut at {units.shown(end.nut_temperature, _TEMPERATURE, 3)}; stability margin of the "
+            f"thermal loop {end.shown_margin}, thermal runaway at 0"
         )
-        if end.exists
-        else Message("no equilibrium within the range of oil and preload: thermal runaway, or too hot for the model")
-    )
     verdicts = [
         units.record(
             message,
@@ -361,29 +354,22 @@ def _records(found: WarmUp) -> list[Record]:
     ]
     both = {name: equilibrium(one) for name, one in found.network.by_bracing.items()}
     if both:
-        message = Message(
-            "the growth of the shaft between the halves of the nut is left out, as it is not said how they are braced: "
-            "{endings}; give {bracing}",
-            {
-                "endings": [_ending(name, one) for name, one in both.items()],
-                "bracing": in_file("surroundings.bracing"),
-            },
+        endings = ", ".join(_ending(name, one) for name, one in both.items())
+        message = (
+            "the growth of the shaft between the halves of the nut is left out, as it is not said how they are "
+            f"braced: {endings}; give [surroundings] bracing"
         )
         verdicts.append(units.record(message, id="warning.bracing", subject="preload", severity="warning", holds=False))
     if found.stopped is not None:
-        message = Message(
-            "stopped after {time}: beyond it oil or preload are outside what the model knows",
-            {"time": Measured(found.stopped, _HOURS, 3)},
-        )
+        time = units.shown(found.stopped, _HOURS, 3)
+        message = f"stopped after {time}: beyond it oil or preload are outside what the model knows"
         verdicts.append(
             units.record(message, id="warning.stopped", subject="time", severity="error", value=found.stopped, unit="s")
         )
     left = found.stretch_left
     if left is not None and np.min(left) < 0:
-        message = Message(
-            "the stretch of the shaft is lost: {stretch} at the worst, and the shaft pushes",
-            {"stretch": Measured(float(np.min(left)), _STRETCH, 2)},
-        )
+        stretch = units.shown(np.min(left), _STRETCH, 2)
+        message = f"the stretch of the shaft is lost: {stretch} at the worst, and the shaft pushes"
         verdicts.append(
             units.record(
                 message,

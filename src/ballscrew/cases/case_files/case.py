@@ -16,7 +16,7 @@ from ballscrew.basis import units
 from ballscrew.basis.arrays import lazy
 from ballscrew.basis.displayed import Displayed
 from ballscrew.basis.quantities import Length, MomentOfInertia, fields_of
-from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.basis.usual_ranges import unusual
 from ballscrew.cases.screw_tables.nut_kinds import LISTED
 from ballscrew.engine.uncertainty.distributions import Distribution
@@ -36,20 +36,6 @@ from ballscrew.physics.sizing.installation import Installation, Limits
 from ballscrew.physics.sizing.own_nut import RATED, odd_ratings, odd_root, odd_seals
 from ballscrew.physics.sizing.ratings import rated_geometry_of, ratings_of
 
-_CALIBRATED = Message("calibrated, and {verdict}")
-_TOO_MANY = Message("{balls} loaded balls, and the {turns} turns of {row} hold {most}: check the number")
-_OTHER_NUTS = Message(
-    "the calibration {calibration} was fitted to nuts with {fitted} contacts a ball, and this one has {contacts}"
-)
-_NEW_SURFACES = Message(
-    "boundary friction of {given} is that of surfaces that have reacted with additives; "
-    "on new ones {fresh} was measured, and it rose while they ran in"
-)
-_BARE_OIL = Message(
-    "boundary friction of {given} is that of surfaces that have reacted with additives, and this oil has none; "
-    "{fresh} was measured before a film of reacted oil had grown"
-)
-_LIGHT = Message("moved mass {mass} is less than that of the nut, about {nut}: check the number and its unit")
 #: A moved mass below this share of that of the nut is a slip: the mass of the nut is an estimate.
 _LEAST_MASS = 0.5
 #: The limits of the checks where a case gives none.
@@ -76,16 +62,14 @@ class PreloadNote(NamedTuple):
 
     def __str__(self) -> str:
         """``preload 5.047 kN: 7 % of the dynamic load rating 72.1 kN, as listed``."""
-        return units.filled(self.message)
+        return self.text
 
     @property
-    def message(self) -> Message:
-        """The preload, the share, the rating and its source."""
+    def text(self) -> str:
+        """``preload 5.047 kN: 7 % of the dynamic load rating 72.1 kN, as listed``."""
         quantity = LISTED["dynamic_load_rating"]
         force, rating = (units.shown(value, quantity) for value in (self.share * self.rating, self.rating))
-        share = f"{100 * self.share:.4g}"
-        message = Message("preload {force}: {share} % of the dynamic load rating {rating}, {source}")
-        return message.of(force=force, share=share, rating=rating, source=Message(self.source))
+        return f"preload {force}: {100 * self.share:.4g} % of the dynamic load rating {rating}, {self.source}"
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -192,7 +176,7 @@ class Case(Displayed):
     def implausible(self) -> list[Record]:
         """A warning for each input that no ball screw has, and :attr:`doubts`."""
         parts = named_parts(self.model, self.screw, self.lubricant, operation=self.operation)
-        return [*units.in_display_units_of(implausible(parts)), *self.doubts]
+        return [*implausible(parts), *self.doubts]
 
     @property
     def _other_parts(self) -> dict[str, Any]:
@@ -222,7 +206,7 @@ class Case(Displayed):
             return []
         ratings = odd_ratings(listed, ratings_of(rated_geometry_of(screw))) if {*RATED} & {*listed} else []
         found = [*ratings, *odd_root(listed.get("root_diameter"), screw), *odd_seals(screw)]
-        return [*units.in_display_units_of(found), *_light(self.axis, screw)]
+        return [*found, *_light(self.axis, screw)]
 
     @property
     def unlikely(self) -> tuple[str, ...]:
@@ -237,7 +221,7 @@ class Case(Displayed):
         that have not reacted.
         """
         return [
-            *units.in_display_units_of(implausible(self._other_parts)),
+            *implausible(self._other_parts),
             *self._far_from_estimates(),
             *_of_fit(self.fit),
             *self.doubtful_numbers,
@@ -257,7 +241,10 @@ def _light(axis: Axis | None, screw: BallScrew) -> list[Record]:
     if not 0 < axis.mass < _LEAST_MASS * nut:
         return []
     quantity = fields_of(Axis)["mass"]
-    message = _LIGHT.of(mass=Measured(float(axis.mass), quantity), nut=Measured(nut, quantity, digits=2))
+    message = (
+        f"moved mass {units.shown(axis.mass, quantity)} is less than that of the nut, about "
+        f"{units.shown(nut, quantity, 2)}: check the number and its unit"
+    )
     return [
         units.record(
             message,
@@ -276,7 +263,7 @@ def _of_fit(table: Mapping[str, Any]) -> list[Record]:
     """What the fit that a case is from said of its own numbers: which of them no screw has."""
     return [
         units.record(
-            _CALIBRATED.of(verdict=text),
+            f"calibrated, and {text}",
             id="calibration.implausible",
             subject=f"calibration.{place}",
             severity="warning",
@@ -290,10 +277,11 @@ def _of_other_nuts(calibration: Calibration | None, nut: Nut) -> list[Record]:
     """A warning of a calibration that was fitted to nuts whose balls have another number of contacts."""
     if calibration is None or nut.contacts_per_ball in calibration.contacts_per_ball:
         return []
-    message = _OTHER_NUTS.of(
-        calibration=calibration.name,
-        fitted=Measured(float(calibration.contacts_per_ball[0])),
-        contacts=Measured(float(nut.contacts_per_ball)),
+    fitted = units.number(calibration.contacts_per_ball[0])
+    contacts = units.number(nut.contacts_per_ball)
+    message = (
+        f"the calibration {calibration.name} was fitted to nuts with {fitted} contacts a ball, and this one has "
+        f"{contacts}"
     )
     return [
         units.record(
@@ -315,8 +303,15 @@ def _not_reacted(model: FrictionModel, lubricant: Lubricant) -> list[Record]:
     bare = not has_additives(lubricant.grade)
     if friction is None or not (is_new or bare) or not float(friction) > 1.5 * FRESH_BOUNDARY_FRICTION:
         return []
-    template = _BARE_OIL if bare else _NEW_SURFACES
-    message = template.of(fresh=Measured(FRESH_BOUNDARY_FRICTION), given=Measured(float(friction)))
+    fresh = units.number(FRESH_BOUNDARY_FRICTION)
+    reason = (
+        f", and this oil has none; {fresh} was measured before a film of reacted oil had grown"
+        if bare
+        else f"; on new ones {fresh} was measured, and it rose while they ran in"
+    )
+    message = (
+        f"boundary friction of {units.number(friction)} is that of surfaces that have reacted with additives{reason}"
+    )
     return [
         units.record(
             message,
@@ -339,17 +334,15 @@ def _too_many_balls(screw: BallScrew, row: CatalogueRow | None) -> list[Record]:
     )
     if screw.loaded_balls <= most:
         return []
-    numbers = {"balls": screw.loaded_balls, "turns": row.turns, "most": most}
-    message = _TOO_MANY.of(row=row.name, **{name: Measured(float(value)) for name, value in numbers.items()})
+    balls, turns, room = (units.number(count) for count in (screw.loaded_balls, row.turns, most))
     return [
         Record(
             id=IMPLAUSIBLE,
             subject="screw.loaded_balls",
-            text=message.filled(Measured.plain),
+            text=f"{balls} loaded balls, and the {turns} turns of {row.name} hold {room}: check the number",
             severity="warning",
             holds=False,
             value=float(screw.loaded_balls),
             limit=float(most),
-            message=message,
         )
     ]

@@ -15,9 +15,8 @@ from typing import Any, NamedTuple
 from ballscrew.axis.supports.mounted_bearing import MountedBearing
 from ballscrew.axis.thermal.written_bands import written_bands
 from ballscrew.basis import units
-from ballscrew.basis.errors import UNKNOWN, Fault, InputError, both, closest, nearest
+from ballscrew.basis.errors import UNKNOWN, Fault, InputError, closest, nearest
 from ballscrew.basis.quantities import fields_of
-from ballscrew.basis.records import Message
 from ballscrew.basis.units import in_display_units
 from ballscrew.cases.case_files import case_text, duty_tables, nut_tables, project, support_tables, uncertain_inputs
 from ballscrew.cases.case_files.case import USUAL_LIMITS
@@ -100,11 +99,7 @@ def override(tables: dict[str, Any], settings: Sequence[str]) -> dict[str, Any]:
         *parents, field = path.strip().split(".")
         if not equals or not parents or not all([*parents, field]):
             places = places_of(path.strip()) if equals else []
-            remedy = (
-                Message("write {places}={text}", {"places": places[0], "text": text})
-                if places
-                else 'write operation.axial_load="4 kN"'
-            )
+            remedy = f"write {places[0]}={text}" if places else 'write operation.axial_load="4 kN"'
             faults.append(Fault("--set", "is not section.field=value", setting, remedy))
             continue
         table: dict[str, Any] = tables
@@ -113,9 +108,7 @@ def override(tables: dict[str, Any], settings: Sequence[str]) -> dict[str, Any]:
             if parents == ["model", parent] and parent in LAWS and isinstance(inner, str):
                 inner = table[parent] = {"law": inner}  # a law by name takes coefficients, too
             if not isinstance(inner, dict):
-                faults.append(
-                    Fault(f"--set {path}", "is not a table", parent, Message("set {parent} itself", {"parent": parent}))
-                )
+                faults.append(Fault(f"--set {path}", "is not a table", parent, f"set {parent} itself"))
                 break
             table = inner
         else:
@@ -235,7 +228,7 @@ def _missing_sections(tables: Mapping[str, Any], needed: Sequence[str]) -> list[
             name,
             "missing section",
             "",
-            (_ADD_OR_MOVE if name == "operation" and "motion" in tables else _ADD).of(section=name),
+            f"add a table [{name}]{_MOVE if name == 'operation' and 'motion' in tables else ''}",
         )
         for name in needed
         if name not in tables and name not in misspelt
@@ -248,19 +241,19 @@ def _rating(screw: BallScrew, made: _MadeScrew) -> float | None:
     return found if math.isfinite(found) else None
 
 
-def _meant(name: str, content: Any) -> Message:
+def _meant(name: str, content: Any) -> str:
     """The place that was probably meant: that of a law or a loss which stands by itself, or a section written alike."""
     section = "model" if name in LAWS else "losses" if name in LOSSES else ""
     if not section:
         return nearest(name, SECTIONS)
     inner = [f".{field}" for field in content] if isinstance(content, dict) else [""]
-    return Message("write {names}", {"names": ", ".join(f"{section}.{name}{field}" for field in inner)})
+    names = ", ".join(f"{section}.{name}{field}" for field in inner)
+    return f"write {names}"
 
 
-_ADD = Message("add a table [{section}]")
 _WRITE_ESTIMATES = 'write [estimates.installation] and unsupported_length = "1 m"'
 #: A motion stands in the file of another command.
-_ADD_OR_MOVE = Message("add a table [{section}]; only ballscrew duty and warm-up take the motion in its place")
+_MOVE = "; only ballscrew duty and warm-up take the motion in its place"
 
 
 class _MadeScrew(NamedTuple):
@@ -333,10 +326,6 @@ def _mounting(
     return support_tables.mounted_on(mounted, bearings), bearings
 
 
-_IMPOSE = Message('leave it out, or write ball_force = "imposed"')
-_SET_OR_IMPOSE = Message('leave it out and set {names}, or write ball_force = "imposed"')
-
-
 def _model(sections: Sections, chosen: str | None, faults: list[Fault], code: Path | None) -> FrictionModel | None:
     """A preset with the fields of the table put in; ``chosen`` on the command line wins over its name."""
     before = len(faults)
@@ -351,10 +340,9 @@ def _model(sections: Sections, chosen: str | None, faults: list[Fault], code: Pa
     preset_force = preset.ball_force if preset is not None and name == named else None
     force = changes.get("ball_force", preset_force)
     if not traits_of(force).uses_imposed_force and "ball_to_ball_force" in table:
-        problem = Message('does not count with ball_force = "{law}"', {"law": name_of_law("ball_force", force)})
-        remedy = (_IMPOSE if not coefficients(force) else _SET_OR_IMPOSE).of(
-            names=both(f"ball_force.{name}" for name in coefficients(force)) if coefficients(force) else ""
-        )
+        problem = f'does not count with ball_force = "{name_of_law("ball_force", force)}"'
+        names = " and ".join(f"ball_force.{name}" for name in coefficients(force))
+        remedy = f'leave it out{f" and set {names}" if names else ""}, or write ball_force = "imposed"'
         faults.append(Fault("model.ball_to_ball_force", problem, str(table["ball_to_ball_force"]), remedy))
     if len(faults) > before or preset is None:
         return None

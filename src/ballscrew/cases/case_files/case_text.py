@@ -13,7 +13,6 @@ from typing import Any, NoReturn
 
 from ballscrew.basis.atomic_files import read_bytes
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.records import Message
 from ballscrew.physics.friction.law_names import LAWS
 
 #: Bytes of a case file at most, and bits of a whole number in it: no float is larger.
@@ -101,14 +100,7 @@ def for_json(where: str, value: Any, notes: list[str], depth: int = 0) -> Any:
     Raises :class:`~ballscrew.basis.errors.InputError` where they are nested too deeply for an answer.
     """
     if depth > _DEEPEST_DESIGN:
-        raise InputError(
-            Fault(
-                where,
-                "is nested too deeply",
-                "",
-                Message("{deepest_design} levels at most in a design", {"deepest_design": str(_DEEPEST_DESIGN)}),
-            )
-        )
+        raise InputError(Fault(where, "is nested too deeply", "", f"{_DEEPEST_DESIGN} levels at most in a design"))
     if isinstance(value, Mapping):
         return {
             name: for_json(f"{where}.{name}".removeprefix("."), inner, notes, depth + 1)
@@ -196,12 +188,7 @@ def _given_twice(where: str, error: str, text: str) -> Fault | None:
             of_table = f"the table of line {of_list}" if of_list != table else f"[{table}]" if table else "the file"
             words = f'"{name}" of {of_table}' if name else of_table
             remedy = "leave one of them out" if name else "put their keys into one"
-            return Fault(
-                where,
-                Message("{words} {twice}", {"words": words, "twice": str(_TWICE)}),
-                f"lines {first} and {number}",
-                remedy,
-            )
+            return Fault(where, f"{words} {_TWICE}", f"lines {first} and {number}", remedy)
     return None
 
 
@@ -210,7 +197,7 @@ def _bare(key: str) -> str:
     return re.sub(r"[\s\"']", "", key)
 
 
-def _unquoted(error: str, text: str) -> Message | None:
+def _unquoted(error: str, text: str) -> str | None:
     """The remedy of a line whose value stands without quotes, as in ``lead = 10,0 mm``; None for any other line."""
     at = re.match(r"(?:Expected newline|Invalid value).*\(at line (\d+)", error)
     lines = text.split("\n")  # as tomllib counts them
@@ -219,11 +206,11 @@ def _unquoted(error: str, text: str) -> Message | None:
         return None
     key, value = found["key"], found["value"]
     if value.casefold() in ("true", "false"):
-        return Message("write {setting}", {"setting": f"{key} = {value.casefold()}"})
-    return Message("put the value in quotes: {setting}", {"setting": f'{key} = "{value}"'})
+        return f"write {key} = {value.casefold()}"
+    return f'put the value in quotes: {key} = "{value}"'
 
 
-def _remedy(error: str, text: str) -> str | Message:
+def _remedy(error: str, text: str) -> str:
     """Remedy: most often a value has no quotes, or a law is given by name and with coefficients."""
     if (unquoted := _unquoted(error, text)) is not None:
         return unquoted
@@ -234,4 +221,4 @@ def _remedy(error: str, text: str) -> str | Message:
     slot = key[1] if key and key[1] in LAWS else "rolling"
     given = re.search(rf"""^\s*{slot}\s*=\s*["']([\w-]+)["']""", text, re.MULTILINE)
     law = given[1] if given else "houpert"
-    return Message('a law with coefficients: write {slot}.law = "{law}" beside them', {"slot": slot, "law": law})
+    return f'a law with coefficients: write {slot}.law = "{law}" beside them'

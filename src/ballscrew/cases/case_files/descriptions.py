@@ -115,7 +115,7 @@ def assumptions(case: Case, ball_to_ball_force: float | None = None) -> list[str
     common = common_assumptions(case, ball_to_ball_force)
     if case.nut is None:
         return [*common, *_without_preload(case)]
-    notes = [units.filled(note.message) for note in case.notes]
+    notes = [note.text for note in case.notes]
     return [*common, _bodies(case.nut), *_spacers(case), *_seals_of_row(case), *notes, *_against_vendors(case)]
 
 
@@ -170,7 +170,7 @@ def _oil(case: Case) -> str:
     if not case.oil:
         return f"oil {viscosity}, {coefficient}"
     temperature = units.shown(case.oil.get("temperature", _DEFAULT_TEMPERATURE), TEMPERATURE)
-    return f"oil {units.filled(described(case.oil))} at {temperature}: {viscosity}, {coefficient}"
+    return f"oil {described(case.oil)} at {temperature}: {viscosity}, {coefficient}"
 
 
 def _between_balls(case: Case, force: float | None) -> str:
@@ -217,7 +217,7 @@ def whose_rows(case: Case, data: str) -> str:
     if of_rows is None or rule_of(make) is of_rows:
         return ""
     nut = f"this nut is of {make}" if make else "the make of this nut is not known"
-    rules = ", ".join(units.filled(rule.message) for rule in by_rules(case))
+    rules = ", ".join(rule.text for rule in by_rules(case))
     drag = "its drag torque without seals is, by the rules of makers,"
     return f"these are rows of {of_rows.maker}, and {nut}: {drag} {rules}"
 

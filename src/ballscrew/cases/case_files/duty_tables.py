@@ -21,7 +21,6 @@ from ballscrew.basis import units
 from ballscrew.basis.errors import MISSING, Fault, InputError, either, nearest
 from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import fields_of
-from ballscrew.basis.records import Message, Setting, UnitName
 from ballscrew.cases.schema.case_schema import MODELS, read_table
 from ballscrew.cases.schema.duty_schema import (
     CONSTANT_EFFICIENCY,
@@ -120,30 +119,22 @@ def efficiency(sections: Sections, chosen: str | None, moves: bool, faults: list
     named = table.get("name")
     if CONSTANT_EFFICIENCY not in (named, chosen) or (chosen not in (None, CONSTANT_EFFICIENCY)):
         if "efficiency" in table and named != CONSTANT_EFFICIENCY:
-            remedy = Message(
-                'leave it out, or write name = "{constant_efficiency}"',
-                {"constant_efficiency": str(CONSTANT_EFFICIENCY)},
-            )
+            remedy = f'leave it out, or write name = "{CONSTANT_EFFICIENCY}"'
             faults.append(Fault("model.efficiency", "a model computes it", str(table["efficiency"]), remedy))
         return None
     before = len(faults)
     values = sections.values_of("model", faults)
     if not moves:
-        remedy = Message("take a model: {names}", {"names": ", ".join(MODELS)})
+        remedy = f"take a model: {', '.join(MODELS)}"
         problem = "is a rule, which only ballscrew duty takes"
         faults.append(Fault("model.name", problem, CONSTANT_EFFICIENCY, remedy))
     faults += [
-        Fault(
-            f"model.{name}",
-            Message('does not count with "{constant_efficiency}"', {"constant_efficiency": str(CONSTANT_EFFICIENCY)}),
-            reprlib.repr(value),
-            "leave it out",
-        )
+        Fault(f"model.{name}", f'does not count with "{CONSTANT_EFFICIENCY}"', reprlib.repr(value), "leave it out")
         for name, value in table.items()
         if name not in ("name", "efficiency")
     ]
     if len(faults) == before and "efficiency" not in values:
-        faults.append(Fault("model.efficiency", MISSING, "", "add {model.efficiency}0.9"))
+        faults.append(Fault("model.efficiency", MISSING, "", "add efficiency = 0.9"))
     return values["efficiency"] if len(faults) == before else math.nan
 
 
@@ -168,7 +159,7 @@ def _motion(sections: Sections, folder: Path, faults: list[Fault]) -> Motion | N
     kinds = (*MOTIONS, TRAJECTORY)
     kind: str = values.pop("kind", "")
     if not kind:
-        faults.append(Fault("motion.kind", MISSING, "", Message("add {motion.kind}{kinds}", {"kinds": either(kinds)})))
+        faults.append(Fault("motion.kind", MISSING, "", f"add kind = {either(kinds)}"))
     elif kind not in kinds:
         faults.append(Fault("motion.kind", "unknown kind of motion", kind, nearest(kind, kinds)))
     else:
@@ -193,32 +184,23 @@ def _misplaced(kind: str, table: Mapping[str, Any]) -> list[Fault]:
     for name, value in table.items():
         if name != "kind" and name not in own:
             kinds = [other for other in (*MOTIONS, TRAJECTORY) if name in fields_of_motion(other)]
-            remedy = Message("leave it out, or write {motion.kind}{kinds}", {"kinds": either(kinds)})
-            found.append(
-                Fault(
-                    f"motion.{name}",
-                    Message('a motion of kind "{kind}" has none', {"kind": kind}),
-                    reprlib.repr(value),
-                    remedy,
-                )
-            )
+            remedy = f"leave it out, or write kind = {either(kinds)}"
+            found.append(Fault(f"motion.{name}", f'a motion of kind "{kind}" has none', reprlib.repr(value), remedy))
     return found
 
 
 def _missing(kind: str, table: Mapping[str, Any]) -> list[Fault]:
     """Faults of fields that a kind of motion needs."""
     if kind == TRAJECTORY:
-        return [] if "file" in table else [Fault("motion.file", MISSING, "", 'add {motion.file}"run.csv"')]
+        return [] if "file" in table else [Fault("motion.file", MISSING, "", 'add file = "run.csv"')]
     known, found = fields_of(MOTIONS[kind]), list[Fault]()
     for field in dataclasses.fields(MOTIONS[kind]):
         key = KEYS.get(field.name, field.name)
         if field.default is dataclasses.MISSING and key not in table:
             quantity = known.get(key)
-            remedy = Message("add tables [[motion.{key}]]", {"key": key})
+            remedy = f"add tables [[motion.{key}]]"
             if quantity is not None:
-                remedy = Message(
-                    'add {field}"… {unit}"', {"field": Setting(f"motion.{key}"), "unit": UnitName(quantity.shown_in)}
-                )
+                remedy = f'add {key} = "… {quantity.shown_in}"'
             found.append(Fault(f"motion.{key}", MISSING, "", remedy))
     return found
 

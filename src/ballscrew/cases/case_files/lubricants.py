@@ -10,7 +10,6 @@ from typing import Any
 from ballscrew.basis import units
 from ballscrew.basis.errors import MISSING, Fault, InputError
 from ballscrew.basis.quantities import fields_of
-from ballscrew.basis.records import Message, Setting
 from ballscrew.basis.units import in_display_units
 from ballscrew.cases.case_files.oil_library import named_oil
 from ballscrew.cases.schema.sections import Sections
@@ -80,9 +79,9 @@ def _told_twice(table: Mapping[str, Any]) -> list[Fault]:
     return [
         Fault(
             f"lubricant.{one}",
-            Message("contradicts {words}", {"words": words}),
+            f"contradicts {words}",
             f"{table[one]} and {table[other]}",
-            Message("give one of the two; --set lubricant.{other}= takes this away", {"other": other}),
+            f"give one of the two; --set lubricant.{other}= takes this away",
         )
         for one, other, words in pairs
         if one in table and other in table
@@ -94,7 +93,7 @@ def _told_in_half(table: Mapping[str, Any]) -> list[Fault]:
     faults: list[Fault] = []
     points, others = _points(table), _of_data_sheet(table)
     if "temperature" in table and not _follows_temperature(table):
-        remedy = 'add {lubricant.grade}"ISO VG 100", or kinematic_viscosity_40 and kinematic_viscosity_100'
+        remedy = 'add grade = "ISO VG 100", or kinematic_viscosity_40 and kinematic_viscosity_100'
         faults.append(
             Fault("lubricant.temperature", "needs a grade or a data sheet", str(table["temperature"]), remedy)
         )
@@ -102,14 +101,7 @@ def _told_in_half(table: Mapping[str, Any]) -> list[Fault]:
         return faults
     if len(points) == 1:
         missing = next(name for name in _POINTS if name not in table)
-        faults.append(
-            Fault(
-                f"lubricant.{missing}",
-                MISSING,
-                "",
-                Message('add {field}"… cSt"', {"field": Setting(f"lubricant.{missing}")}),
-            )
-        )
+        faults.append(Fault(f"lubricant.{missing}", MISSING, "", f'add {missing} = "… cSt"'))
     if others and not points:
         remedy = "add kinematic_viscosity_40 and kinematic_viscosity_100, or leave it out"
         faults.append(Fault(f"lubricant.{others[0]}", "is of a data sheet", str(table[others[0]]), remedy))
@@ -133,17 +125,17 @@ def _shown(fault: Fault, table: Mapping[str, Any]) -> Fault:
     """A fault with its bound in display units and its value as it is written."""
     known = {**fields_of(DataSheet), "temperature": SHEET_TEMPERATURE}
     name = fault.where.rpartition(".")[2]
-    if not isinstance(fault.problem, Message) or name not in known:
+    if fault.bound is None or name not in known:
         return fault
     return in_display_units(fault, known[name], str(table.get(name, fault.given)))
 
 
-def described(oil: Mapping[str, Any]) -> Message:
+def described(oil: Mapping[str, Any]) -> str:
     """The oil by what it was made from: ``ISO VG 100``, ``with 100 cSt at 40 °C and 11.1 cSt at 100 °C``."""
     if "grade" in oil:
-        return Message("{oil}", {"oil": str(oil["grade"])})
+        return str(oil["grade"])
     if "oil" in oil:
-        return Message("{oil}", {"oil": str(oil["oil"])})
+        return str(oil["oil"])
     known = fields_of(DataSheet)
     warm, hot = (units.shown(oil[name], known[name]) for name in _POINTS)
-    return Message("with {warm} at 40 °C and {hot} at 100 °C", {"warm": warm, "hot": hot})
+    return f"with {warm} at 40 °C and {hot} at 100 °C"

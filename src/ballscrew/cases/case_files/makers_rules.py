@@ -7,7 +7,6 @@ from typing import NamedTuple
 
 from ballscrew.basis import units
 from ballscrew.basis.quantities import Info, Quantity, Torque
-from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.case import Case
 from ballscrew.physics.sizing.rules import DRAG_RULES, RULES, Rule, Subject, drags, rule_of
 from ballscrew.physics.solvers.load_distribution import preload_of
@@ -32,10 +31,10 @@ class OfRule(NamedTuple):
     is_own: bool
 
     @property
-    def message(self) -> Message:
+    def text(self) -> str:
         """``0.8654 N m by THK (JIS B 1192)``."""
         torque = units.shown(self.torque, BY_RULE[self.rule.name])
-        return Message("{torque} by {rule}", {"torque": torque, "rule": self.rule.label})
+        return f"{torque} by {self.rule.label}"
 
 
 def subject_of(case: Case) -> Subject:

@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from typing import Any
 
 from ballscrew.basis.errors import Fault, either, raise_if_any
-from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.schema.case_schema import name_of_law
 from ballscrew.evidence.validation.nearest import NearRows, near_rows
@@ -48,7 +47,7 @@ def of_make(tables: Mapping[str, Any], row: CatalogueRow | None, faults: list[Fa
         return _without_calibration(tables)  # of a screw that is at fault itself
     if found is None:
         known = either(dict.fromkeys(one.maker for one in calibrations().values()))
-        remedy = Message("take a row of {known}, or the name of a calibration", {"known": known})
+        remedy = f"take a row of {known}, or the name of a calibration"
         problem = "there is none of this make" if make else "the make of this nut is not given"
         faults.append(Fault("model.calibration", problem, make, remedy))
         return _without_calibration(tables)

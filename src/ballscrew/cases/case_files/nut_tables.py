@@ -11,7 +11,6 @@ from typing import Any
 from ballscrew.basis import units
 from ballscrew.basis.errors import MISSING, Fault, InputError, either, nearest
 from ballscrew.basis.quantities import fields_of
-from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.case import PreloadNote
 from ballscrew.cases.schema.case_schema import law_of
 from ballscrew.cases.schema.sections import Sections
@@ -184,7 +183,7 @@ def _nut(
         return None, ()
     kind = values.pop("type", (row.nut or "single") if row is not None else None)
     if kind not in NUTS:
-        missing = Fault("nut.type", MISSING, "", Message("add {nut.type}{kinds}", {"kinds": either(NUTS)}))
+        missing = Fault("nut.type", MISSING, "", f"add type = {either(NUTS)}")
         faults.append(missing if kind is None else Fault("nut.type", "unknown kind of nut", kind, nearest(kind, NUTS)))
         return None, ()
     faults += _misplaced(kind, table)
@@ -222,7 +221,7 @@ def _with_preload(
         return dict(values)
     of_row = {} if row is None else _preload_of(row)
     if not of_row:
-        remedy = 'add {nut.preload}"3 kN", or "7 %" of the dynamic load rating'
+        remedy = 'add preload = "3 kN", or "7 %" of the dynamic load rating'
         faults.append(Fault("nut.preload", MISSING, "", remedy))
     return {**values, **of_row}
 
@@ -242,18 +241,15 @@ def _preload_of(row: CatalogueRow) -> dict[str, float]:
     return {} if row.preload is None else {"preload": row.preload}
 
 
-_ANOTHER_NUT = Message("leave it out, or take {nut.type}{kinds}")
-
-
 def _misplaced(kind: str, table: Mapping[str, Any]) -> list[Fault]:
     """Faults of fields that another kind of nut has."""
     fields = {name: {field.name for field in dataclasses.fields(nut)} for name, nut in NUTS.items()}
     return [
         Fault(
             f"nut.{name}",
-            Message('a nut of type "{kind}" has none', {"kind": kind}),
+            f'a nut of type "{kind}" has none',
             str(table[name]),
-            _ANOTHER_NUT.of(kinds=either(n for n, own in fields.items() if name in own)),
+            f"leave it out, or take type = {either(n for n, own in fields.items() if name in own)}",
         )
         for name in (*NUT_FIELDS, "set_at_rest")
         if name in table and name not in fields[kind]
@@ -280,16 +276,10 @@ def installation(sections: Sections, faults: list[Fault]) -> Installation | None
     values = sections.values_of("installation", faults)
     if len(faults) == before:
         if "unsupported_length" not in values:
-            faults.append(
-                Fault("installation.unsupported_length", MISSING, "", 'add {installation.unsupported_length}"1 m"')
-            )
+            faults.append(Fault("installation.unsupported_length", MISSING, "", 'add unsupported_length = "1 m"'))
         ends = values.get("ends")
         if ends is None:
-            faults.append(
-                Fault(
-                    "installation.ends", MISSING, "", Message("add {installation.ends}{kinds}", {"kinds": either(ENDS)})
-                )
-            )
+            faults.append(Fault("installation.ends", MISSING, "", f"add ends = {either(ENDS)}"))
         elif ends not in ENDS:
             faults.append(Fault("installation.ends", "unknown kind of ends", ends, nearest(ends, ENDS)))
     return Installation(**{**values, "ends": ENDS[values["ends"]]}) if len(faults) == before else None

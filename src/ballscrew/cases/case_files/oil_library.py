@@ -16,7 +16,6 @@ from pydantic import Field
 from ballscrew.basis.atomic_files import read_bytes
 from ballscrew.basis.errors import Fault, InputError, nearest
 from ballscrew.basis.quantities import fields_of
-from ballscrew.basis.records import Message
 from ballscrew.cases.schema.case_schema import read_table
 from ballscrew.cases.schema.fields import section_of
 from ballscrew.physics.components.data_sheet import DataSheet
@@ -41,11 +40,7 @@ class Oils(dict[str, DataSheet]):
 
     def __missing__(self, name: str) -> DataSheet:
         like = [known for known, sheet in self.items() if _is_consistency(str(name), sheet)]
-        remedy = (
-            Message("greases of that consistency: {names}", {"names": ", ".join(like[:5])})
-            if like
-            else nearest(str(name), self, most=5)
-        )
+        remedy = f"greases of that consistency: {', '.join(like[:5])}" if like else nearest(str(name), self, most=5)
         raise InputError(Fault(self.file, "unknown oil", str(name), remedy))
 
     def named(self, name: str) -> DataSheet:

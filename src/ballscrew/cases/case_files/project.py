@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
-from ballscrew.basis.records import Message
 from ballscrew.cases.case_files import case_text
 
 #: The name that marks a project, and the version that is written and read.
@@ -41,11 +40,7 @@ def designs_of(tables: Mapping[str, Any], where: str) -> list[Design]:
     if type(version) is not int or version != VERSION:
         given = "" if version is None else str(version)
         problem = "is a project without a version" if version is None else "is a project of an unknown version"
-        remedy = (
-            Message("write {key} = {version}", {"key": str(KEY), "version": str(VERSION)})
-            if version is None
-            else Message("this program reads {key} = {version}: update it", {"key": str(KEY), "version": str(VERSION)})
-        )
+        remedy = f"write {KEY} = {VERSION}" if version is None else f"this program reads {KEY} = {VERSION}: update it"
         raise InputError(Fault(where, problem, given, remedy))
     unknown = [name for name in tables if name not in (KEY, "designs")]
     faults = [Fault(name, "unknown name in a project", "", nearest(name, (KEY, "designs"))) for name in unknown]
@@ -54,14 +49,7 @@ def designs_of(tables: Mapping[str, Any], where: str) -> list[Design]:
         faults.append(Fault("designs", "has no designs", "", "write [[designs]] with name, and [designs.case.screw] …"))
         listed = []
     if len(listed) > MOST_DESIGNS:
-        faults.append(
-            Fault(
-                "designs",
-                "too many",
-                str(len(listed)),
-                Message("{most_designs} at most in a file", {"most_designs": str(MOST_DESIGNS)}),
-            )
-        )
+        faults.append(Fault("designs", "too many", str(len(listed)), f"{MOST_DESIGNS} at most in a file"))
         listed = []
     found = [_design(place, table, faults) for place, table in enumerate(listed, start=1)]
     names = [design.name for design in found]
@@ -113,9 +101,7 @@ def read(path: str | Path) -> list[Design]:
     tables = case_text.tables_at(file)
     if not is_project(tables):
         if name:
-            raise InputError(
-                Fault(str(file), "is a case file, no project", name, Message('leave out "#{name}"', {"name": name}))
-            )
+            raise InputError(Fault(str(file), "is a case file, no project", name, f'leave out "#{name}"'))
         return [Design(file.stem, tables)]
     found = designs_of(tables, str(file))
     if not name:
@@ -131,9 +117,7 @@ def design_at(path: str | Path) -> dict[str, Any]:
     found = read(path)
     if len(found) > 1:
         names = ", ".join(design.name for design in found)
-        remedy = Message(
-            'name one: "{path}#{found}"; ballscrew compare takes them all', {"path": str(path), "found": found[0].name}
-        )
+        remedy = f'name one: "{path}#{found[0].name}"; ballscrew compare takes them all'
         raise InputError(Fault(str(path), "is a project of several designs", names, remedy))
     return dict(found[0].tables)
 

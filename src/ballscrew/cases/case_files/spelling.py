@@ -16,7 +16,7 @@ from pydantic import BaseModel
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault
 from ballscrew.basis.quantities import Quantity, within_bounds
-from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.cases.schema.case_schema import sections
 from ballscrew.physics.components.ratings import PRELOAD_SHARES
 
@@ -24,7 +24,6 @@ from ballscrew.physics.components.ratings import PRELOAD_SHARES
 THOUSANDS = "inputs.thousands"
 #: One to three digits, a point, three digits, and a unit: as a number with its thousands parted, or three decimals.
 _EITHER = re.compile(r"\s*([-+]?[1-9]\d{0,2})\.(\d{3})(?![\d.,'])\s*(\D.*)?")
-_READ = Message('"{written}" is read as {plain}: write "{thousands}" if that is meant, else "{decimal}"')
 #: What may be a thousand times as large on another screw.
 _OF_ANY_SIZE = ("operation.axial_load", "operation.screw_speed", "nut.preload")
 _FORCES = {"operation.axial_load": (0.0, 1.0), "nut.preload": PRELOAD_SHARES}
@@ -75,12 +74,11 @@ def _doubt(where: str, text: str, quantity: Quantity, rating: float | None) -> R
         f"{number} {unit}".strip() for number in (f"{float(_decimal(match)):g}", whole + thousandths)
     )
     decimal = f"{_decimal(match)}0 {unit}".strip() if _EITHER.fullmatch(plain) else plain  # which is not asked again
-    message = _READ.of(written=text.strip(), plain=plain, thousands=with_thousands, decimal=decimal)
+    message = f'"{text.strip()}" is read as {plain}: write "{with_thousands}" if that is meant, else "{decimal}"'
     return Record(
         id=THOUSANDS,
         subject=where,
-        text=message.filled(Measured.plain),
-        message=message,
+        text=message,
         severity="warning",
         holds=False,
         value=read,

@@ -24,7 +24,6 @@ from ballscrew.axis.supports.element_laws import (
 from ballscrew.axis.supports.mounted_bearing import MountedBearing
 from ballscrew.basis.errors import MISSING, Fault, InputError, nearest, shown
 from ballscrew.basis.quantities import fields_of
-from ballscrew.basis.records import Message, Setting
 from ballscrew.cases.case_files.oil_library import named_oil
 from ballscrew.cases.schema.sections import Sections
 from ballscrew.cases.schema.support_schema import OIL
@@ -70,21 +69,16 @@ def _contradictions(sections: Sections, tables: Mapping[str, Any], mounted: Inst
         faults.append(Fault("bearings.floating", "is at the end of the second fixed bearing", "", remedy))
     own = [place for place, table in tables.items() if place != "floating" and "rigidity" in table]
     if mounted is not None and mounted.bearing_rigidity is not None and own:
-        remedy = Message("leave one out: the other is bearings.{own}.rigidity", {"own": own[0]})
+        remedy = f"leave one out: the other is bearings.{own[0]}.rigidity"
         given = shown(mounted.bearing_rigidity, "N/m")
         faults.append(Fault("installation.bearing_rigidity", "is given beside that of the bearing", given, remedy))
     far = {Ends.FIXED_FIXED: "second_fixed", Ends.FIXED_SUPPORTED: "floating"}
     given = next((place for place in far.values() if place in tables), None)
     if mounted is not None and given is not None and far.get(mounted.ends) != given:
         fitting = next(ends.words.replace("–", "-") for ends, place in far.items() if place == given)
-        remedy = Message('write {installation.ends}"{ends}"', {"ends": fitting})
+        remedy = f'write ends = "{fitting}"'
         faults.append(
-            Fault(
-                "installation.ends",
-                Message("has no {given} bearing", {"given": given.replace("_", " ")}),
-                mounted.ends.words,
-                remedy,
-            )
+            Fault("installation.ends", f"has no {given.replace('_', ' ')} bearing", mounted.ends.words, remedy)
         )
     return faults
 
@@ -109,26 +103,12 @@ def _bearing(
         values = {**{name: value for name, value in of_row.items() if value is not None}, **values}
         mounting = {"rigidity": unit.rigidity, **mounting}
         if "preload" in known and "preload" not in values:
-            faults.append(
-                Fault(
-                    f"{where}.preload",
-                    "is not printed in the catalogue",
-                    row,
-                    Message('add {field}"… N"', {"field": Setting(f"{where}.preload")}),
-                )
-            )
+            faults.append(Fault(f"{where}.preload", "is not printed in the catalogue", row, 'add preload = "… N"'))
     faults += missing(where, BEARING_LAWS[law], values)
     if "lubricant" in BEARING_LAWS[law].__dataclass_fields__:
         values["lubricant"] = _lubricant(where, oil, folder, lubricant, faults)
     elif oil:
-        faults.append(
-            Fault(
-                f"{where}.{next(iter(oil))}",
-                Message('a bearing of law "{law}" has none', {"law": law}),
-                "",
-                "leave it out",
-            )
-        )
+        faults.append(Fault(f"{where}.{next(iter(oil))}", f'a bearing of law "{law}" has none', "", "leave it out"))
     if len(faults) > before:
         return None
     element = _made(where, lambda: BEARING_LAWS[law](**values), faults)
@@ -180,14 +160,7 @@ def guided(
     if "lubricant" in GUIDE_LAWS[law].__dataclass_fields__:
         values["lubricant"] = _lubricant("guides", oil, folder, lubricant, faults)
     elif oil:
-        faults.append(
-            Fault(
-                f"guides.{next(iter(oil))}",
-                Message('guides of law "{law}" have none', {"law": law}),
-                "",
-                "leave it out",
-            )
-        )
+        faults.append(Fault(f"guides.{next(iter(oil))}", f'guides of law "{law}" have none', "", "leave it out"))
     if len(faults) > before or axis is None:
         return None
     table = _table(axis, where, values.get("carriages", 4), faults)
@@ -207,13 +180,10 @@ def _table(axis: Axis, where: Mapping[str, float], carriages: float, faults: lis
         return None
     for name in ("carriage_spacing", "rail_spacing"):
         if name not in where:
-            remedy = Message(
-                'add {field}"… mm", or leave {names} out',
-                {"field": Setting(f"guides.{name}"), "names": ", ".join(where)},
-            )
+            remedy = f'add {name} = "… mm", or leave {", ".join(where)} out'
             faults.append(Fault(f"guides.{name}", MISSING, "", remedy))
     if carriages != 4:
-        remedy = Message("leave {names} out: all carriages then bear alike", {"names": ", ".join(where)})
+        remedy = f"leave {', '.join(where)} out: all carriages then bear alike"
         faults.append(Fault("guides.carriages", "must be four for the loads of each", f"{carriages:g}", remedy))
     if faults:
         return None
@@ -232,14 +202,7 @@ def _lubricant(
         faults.append(Fault(f"{where}.oil_file", "needs the name of an oil", str(oil["oil_file"]), 'add oil = "…"'))
     if not oil:
         if lubricant is None:
-            faults.append(
-                Fault(
-                    f"{where}.grade",
-                    MISSING,
-                    "",
-                    Message('add {field}"ISO VG 68", or a [lubricant]', {"field": Setting(f"{where}.grade")}),
-                )
-            )
+            faults.append(Fault(f"{where}.grade", MISSING, "", 'add grade = "ISO VG 68", or a [lubricant]'))
         return lubricant
     at = {} if lubricant is None or lubricant.temperature is None else {"temperature": lubricant.temperature}
     if "grade" in oil:

@@ -18,9 +18,8 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 
 from ballscrew.axis.duty_cycle.axis import Axis
 from ballscrew.axis.duty_cycle.motor import Motor
-from ballscrew.basis.errors import MISSING, UNKNOWN, Fault, InputError, closest, nearest
+from ballscrew.basis.errors import MISSING, UNKNOWN, Fault, InputError, closest, nearest, to_set
 from ballscrew.basis.quantities import Quantity, fields_of
-from ballscrew.basis.records import Message, Setting, Value
 from ballscrew.cases.schema.duty_schema import CONSTANT_EFFICIENCY, DUTY_TABLES, duty_sections, efficiency_field
 from ballscrew.cases.schema.fields import EXAMPLES as EXAMPLES
 from ballscrew.cases.schema.fields import NUT_SPEED, defaults_of, json_of, read_preload, read_speed, section_of
@@ -306,7 +305,7 @@ def law_of(slot: str, written: Any, present: Any, faults: list[Fault], folder: P
     """
     where = _place(slot)
     if not isinstance(written, str | dict):
-        remedy = Message("write {slot} = {either}", {"slot": slot, "either": _either(_SLOTS[slot])})
+        remedy = f"write {slot} = {_either(_SLOTS[slot])}"
         faults.append(Fault(where, "must be the name of a law, or a table", reprlib.repr(written), remedy))
         return present
     table = {"law": written} if isinstance(written, str) else dict(written)
@@ -349,15 +348,12 @@ def _from_outside(
 def _no_coefficient(slot: str, name: str, field: str) -> Fault:
     known = coefficients_of(slot, name)
     elsewhere = [other for other in _SLOTS[slot] if field in coefficients_of(slot, other)]
-    values: dict[str, Value] = {"law": name, "coefficients": ", ".join(known) or Message("no coefficients")}
+    remedy = f"{name} has {', '.join(known) or 'no coefficients'}"
     if elsewhere:
-        remedy = Message("it belongs to {slot}.law = {laws}; {law} has {coefficients}")
-        remedy = remedy.of(slot=slot, laws=_either(elsewhere), **values)
+        remedy = f"it belongs to {slot}.law = {_either(elsewhere)}; {remedy}"
     elif meant := closest(field, known):
-        remedy = Message('did you mean "{word}"? {law} has {coefficients}').of(word=meant, **values)
-    else:
-        remedy = Message("{law} has {coefficients}").of(**values)
-    problem = Message('no coefficient of the law "{name}"', {"name": name})
+        remedy = f'did you mean "{meant}"? {remedy}'
+    problem = f'no coefficient of the law "{name}"'
     return Fault(f"{_place(slot)}.{field}", problem, "", remedy)
 
 
@@ -397,16 +393,16 @@ def _fault(section: str, model: type[BaseModel], problem: dict[str, Any]) -> Fau
         case "extra_forbidden":
             return _unknown_key(where, path[-1], _known(model, path[:-1]))
         case "model_type" | "dict_type" | "model_attributes_type":
-            return Fault(where, "must be a table", given, Message("write [{where}]", {"where": where}))
+            return Fault(where, "must be a table", given, f"write [{where}]")
         case "list_type":
             sample = f"[[{where}]]" if path[-1] == "segment" else f'{path[-1]} = [["0 rpm", "7 N m"]]'
-            return Fault(where, "must be a list", given, Message("write {sample}", {"sample": sample}))
+            return Fault(where, "must be a list", given, f"write {sample}")
         case "bool_type":
             return Fault(where, "must be true or false", given, "without quotes")
         case "string_type":
             return Fault(where, "must be text", given, "put it in quotes")
         case _:
-            return Fault(where, Message("{reason}", {"reason": problem["msg"]}), given)
+            return Fault(where, problem["msg"], given)
 
 
 def _missing_key(where: str, key: str) -> Fault:
@@ -415,14 +411,14 @@ def _missing_key(where: str, key: str) -> Fault:
     quantity = {n: q for part in parts for n, q in fields_of(part).items()}.get(key)
     unit = "" if quantity is None else f" {quantity.shown_in}"
     sample = "a number" if quantity is not None and quantity.unit == "1" else f'"…{unit}"'
-    return Fault(where, MISSING, "", Message("add {field}{sample}", {"field": Setting(where), "sample": sample}))
+    return Fault(where, MISSING, "", f"add {to_set(where)}{sample}")
 
 
 def _unknown_key(where: str, key: str, known: Sequence[str]) -> Fault:
     """The fault of a key that is not known; a coefficient may be written without the slot of its law."""
     slots = [slot for slot in LAWS if any(key in coefficients_of(slot, name) for name in LAWS[slot])]
     if where == f"model.{key}" and slots:
-        remedy = Message('did you mean "{word}"?', {"word": f"{slots[0]}.{key}"})
+        remedy = f'did you mean "{slots[0]}.{key}"?'
         return Fault(where, "unknown key", "", remedy, id=UNKNOWN)
     return Fault(where, "unknown key", "", nearest(key, known), meant=closest(key, known), id=UNKNOWN)
 

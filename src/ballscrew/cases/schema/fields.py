@@ -14,7 +14,6 @@ from pydantic_core import PydanticCustomError
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, fault_of
 from ballscrew.basis.quantities import Info, Quantity, fields_of
-from ballscrew.basis.records import Message
 from ballscrew.cases.screw_tables.nut_kinds import NUT_FIELDS, PERCENT, Share
 from ballscrew.engine.uncertainty import uncertain_value
 from ballscrew.physics.components.operating_state import OperatingState
@@ -141,8 +140,7 @@ def read_preload(raw: object) -> float:
     bare = units.parse("", raw, PERCENT)
     if not isinstance(bare, Fault) and 0 < bare <= 100:
         share, force = (f"{number:.12g}" for number in (bare if bare >= 1 else 100 * bare, bare))
-        numbers = {"share": share, "force": force}
-        remedy = Message('write "{share} %" of the dynamic load rating, or "{force} kN"', numbers)
+        remedy = f'write "{share} %" of the dynamic load rating, or "{force} kN"'
         raise PydanticCustomError("fault", "fault", {"fault": Fault("", "needs a unit", str(raw), remedy)})
     return si_value(raw, NUT_FIELDS["preload"], may_vary=True)
 

@@ -17,7 +17,6 @@ from pathlib import Path
 from typing import Any
 
 from ballscrew.basis.errors import MISSING, Fault, InputError, nearest
-from ballscrew.basis.records import Message
 from ballscrew.physics.friction.law_names import coefficients
 
 #: A law of a module, as it is written.
@@ -42,14 +41,7 @@ def law_from_outside(where: str, written: str, folder: Path | None) -> Any:
     for part in name.split("."):
         if not hasattr(found, part):
             laws = [n for n, law in vars(found).items() if callable(law) and law.__module__ == module_name]
-            raise InputError(
-                Fault(
-                    where,
-                    Message("{module_name} has no {name}", {"module_name": module_name, "name": name}),
-                    written,
-                    nearest(name, laws),
-                )
-            )
+            raise InputError(Fault(where, f"{module_name} has no {name}", written, nearest(name, laws)))
         found = getattr(found, part)
     if isinstance(found, type):
         if not dataclasses.is_dataclass(found) or not callable(getattr(found, "__call__", None)):  # noqa: B004  (the class, not the instance)
@@ -81,9 +73,7 @@ def with_plain_numbers(where: str, kind: Any, table: Mapping[str, Any], faults: 
         for name, field in fields.items()
         if name not in table and field.default is dataclasses.MISSING and field.default_factory is dataclasses.MISSING
     ]
-    faults += [
-        Fault(f"{where}.{name}", MISSING, "", Message("add {name} = a number", {"name": name})) for name in missing
-    ]
+    faults += [Fault(f"{where}.{name}", MISSING, "", f"add {name} = a number") for name in missing]
     return plain
 
 
@@ -98,34 +88,17 @@ def _module(where: str, written: str, name: str, folder: Path) -> Any:
                 module = importlib.import_module(name)
     except ModuleNotFoundError as error:
         if error.name is not None and (name == error.name or name.startswith(f"{error.name}.")):
-            remedy = Message(
-                "put {partition}.py beside the case or into the current folder", {"partition": name.partition(".")[0]}
-            )
-            raise InputError(
-                Fault(where, Message("there is no module {module}", {"module": error.name}), written, remedy)
-            ) from None
+            remedy = f"put {name.partition('.')[0]}.py beside the case or into the current folder"
+            raise InputError(Fault(where, f"there is no module {error.name}", written, remedy)) from None
         remedy = "install it, or change the module"
-        raise InputError(
-            Fault(
-                where,
-                Message("its module needs {module}, which is not there", {"module": str(error.name)}),
-                written,
-                remedy,
-            )
-        ) from None
+        raise InputError(Fault(where, f"its module needs {error.name}, which is not there", written, remedy)) from None
     except Exception as error:  # the code of a user may raise anything
-        problem = Message(
-            "its module cannot be imported: {type}: {error}", {"type": type(error).__name__, "error": str(error)}
-        )
-        raise InputError(
-            Fault(where, problem, written, Message("try: python -c 'import {name}'", {"name": name}))
-        ) from error
+        problem = f"its module cannot be imported: {type(error).__name__}: {error}"
+        raise InputError(Fault(where, problem, written, f"try: python -c 'import {name}'")) from error
     if beside.is_file() and _file_of(module) != beside:
-        problem = Message(
-            "another module {name} is loaded already: {value}",
-            {"name": name, "value": module.__file__ or "a built-in one"},
-        )
-        raise InputError(Fault(where, problem, written, Message("rename {beside}", {"beside": beside.name})))
+        value = module.__file__ or "a built-in one"
+        problem = f"another module {name} is loaded already: {value}"
+        raise InputError(Fault(where, problem, written, f"rename {beside.name}"))
     _imported.add(name)
     return module
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Collection, Iterable, Mapping
 
-from ballscrew.basis.errors import MISSING, Fault, message_of
-from ballscrew.basis.records import Message, Setting, Value
+from ballscrew.basis.errors import MISSING, Fault, to_set
 
 #: The options that each command with a case has, by the field that they set.
 OPTIONS: Mapping[str, str] = {"model.calibration": "--calibration", "model.name": "--model"}
@@ -22,11 +21,8 @@ def _in_options(fault: Fault, given: Collection[str], sections: Collection[str],
     option, section = options.get(fault.where), fault.where.partition(".")[0]
     if option is None or not (fault.where in given or (fault.problem == MISSING and section in sections)):
         return fault
-
-    flags = {field: f"{name} " for field, name in options.items()}
-
-    def option_of(value: Value) -> Value:
-        return flags.get(value.path, value) if isinstance(value, Setting) else value
-
-    remedy = message_of(fault.remedy).changed(option_of)
-    return dataclasses.replace(fault, where=option, remedy=Message(remedy.template, {**flags, **remedy.values}))
+    remedy = fault.remedy
+    for field, name in options.items():
+        if field.partition(".")[0] == section:
+            remedy = remedy.replace(to_set(field), f"{name} ")
+    return dataclasses.replace(fault, where=option, remedy=remedy)

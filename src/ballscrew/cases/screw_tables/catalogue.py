@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, InputError, closest, message_of, nearest, raise_if_any
+from ballscrew.basis.errors import Fault, InputError, closest, nearest, raise_if_any
 from ballscrew.basis.quantities import Quantity, fields_of, quantities_of
-from ballscrew.basis.records import Message
 from ballscrew.basis.version import __version__
 from ballscrew.cases.screw_tables.nut_kinds import LISTED, NUTS, Share, kind_in
 from ballscrew.files.tables import column_names
@@ -131,18 +130,11 @@ def _made(row: Row, path: Path, taken: dict[str, int], logs: dict[str, Path], od
     values.setdefault("source", f"{file} row {row.line}")
     faults: list[Fault] = []
     if name in taken:
-        faults.append(
-            Fault(
-                "row.name",
-                "is given twice",
-                name,
-                Message("row {row} has it, too: name both apart", {"row": str(taken[name])}),
-            )
-        )
+        faults.append(Fault("row.name", "is given twice", name, f"row {taken[name]} has it, too: name both apart"))
     if isinstance(seals := values.get("seal_torque"), str):
         values["seal_torque"] = _seal_torque(seals, values, faults)
         if seals == column_names.STANDARD:
-            values["seal_torque_source"] = units.filled(seal_source(str(values.get("make", ""))))
+            values["seal_torque_source"] = seal_source(str(values.get("make", "")))
     if "spacer_balls" in values:
         values["spacer_balls"] = values["spacer_balls"] == column_names.YES
     try:
@@ -150,7 +142,7 @@ def _made(row: Row, path: Path, taken: dict[str, int], logs: dict[str, Path], od
         if is_estimated:
             own = completed(fields)
             found = own.row
-            odd += [f"{path.name} row {row.line}: {units.filled(one.message)}" for one in own.warnings]
+            odd += [f"{path.name} row {row.line}: {one.text}" for one in own.warnings]
         else:
             found = CatalogueRow(**fields)
         found.screw()
@@ -172,18 +164,18 @@ def _seal_torque(word: str, values: Mapping[str, Any], faults: list[Fault]) -> f
     try:
         return float(Seals.of_table(values["nominal_diameter"], values["lead"]).seal_torque)
     except InputError as error:
-        remedy = Message("{remedy}; write the torque", {"remedy": message_of(error.faults[0].remedy)})
+        remedy = f"{error.faults[0].remedy}; write the torque"
         faults.append(Fault("row.seal_torque", "no standard seals are known of this size", word, remedy))
         return None
 
 
-def seal_source(make: str) -> Message:
+def seal_source(make: str) -> str:
     """The source of the torque of standard seals, which are those of one maker."""
     if SEAL_MAKER in make.casefold():
-        return Message("standard seals of {source}", {"source": SEAL_SOURCE})
+        return f"standard seals of {SEAL_SOURCE}"
     if not make:
-        return Message("standard seals of {source}, of whatever make the nut is", {"source": SEAL_SOURCE})
-    return Message("standard seals of {source}, not of {make}", {"source": SEAL_SOURCE, "make": make})
+        return f"standard seals of {SEAL_SOURCE}, of whatever make the nut is"
+    return f"standard seals of {SEAL_SOURCE}, not of {make}"
 
 
 def _in_column(fault: Fault, row: Row) -> Fault:
@@ -243,16 +235,15 @@ def named(rows: Mapping[str, CatalogueRow], name: str, where: str = "", file: st
     sizes = None if code is None else (float(code[1]), float(code[2]))
     containing = [f'"{known}"' for known in rows if name and name.casefold() in known.casefold()][:3]
     if containing:
-        remedy = Message("did you mean {names}?", {"names": " or ".join(containing)})
+        remedy = f"did you mean {' or '.join(containing)}?"
     elif (alike := closest(name, rows)) and (sizes is None or _distance(rows[alike], *sizes) < SAME_SIZE):
         remedy = nearest(name, rows)
     elif sizes is not None and rows:
-        remedy = Message(
-            'nearest in size: {names}; "ballscrew catalogue own" makes a nut of its catalogue numbers',
-            {"names": ", ".join(f'"{row.name}"' for row in _nearest_in_size(rows.values(), *sizes))},
-        )
+        names = ", ".join(f'"{row.name}"' for row in _nearest_in_size(rows.values(), *sizes))
+        remedy = f'nearest in size: {names}; "ballscrew catalogue own" makes a nut of its catalogue numbers'
     else:
-        remedy = Message('see "ballscrew catalogue list{words}"', {"words": "" if file is None else f" --rows {file}"})
+        words = "" if file is None else f" --rows {file}"
+        remedy = f'see "ballscrew catalogue list{words}"'
     where = where or ("catalogue" if file is None else Path(file).name)
     raise InputError(Fault(where, "unknown row", name, remedy))
 
@@ -372,7 +363,7 @@ def _comment(one: Estimate) -> str:
     """What stands beside an estimated number: its band, and where it is from."""
     band = " to ".join(units.shown(value, one.quantity, digits=4) for value in (one.low, one.high))
     # a case file is written without letters of other encodings
-    return f"estimated, {band}: {units.filled(one.source)}".replace("\N{MICRO SIGN}", "u")
+    return f"estimated, {band}: {one.source}".replace("\N{MICRO SIGN}", "u")
 
 
 def _has_example_preload(row: CatalogueRow) -> bool:

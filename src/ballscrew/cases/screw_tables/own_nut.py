@@ -8,7 +8,6 @@ from collections.abc import Mapping
 from typing import Any
 
 from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
-from ballscrew.basis.records import Message
 from ballscrew.cases.screw_tables.catalogue import COLUMNS
 from ballscrew.cases.screw_tables.nut_kinds import Share, kind_in
 from ballscrew.files.tables import column_names, decimals
@@ -127,5 +126,5 @@ def _here(fault: Fault) -> Fault:
     return dataclasses.replace(fault, where=f"{WHERE}.{fault.where.rpartition('.')[2]}")
 
 
-def _example(name: str) -> Message:
-    return Message("give it, for example {example}", {"example": _EXAMPLES[name]})
+def _example(name: str) -> str:
+    return f"give it, for example {_EXAMPLES[name]}"

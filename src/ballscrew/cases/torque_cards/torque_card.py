@@ -18,7 +18,6 @@ from pydantic import BaseModel, ConfigDict, Field, create_model
 from ballscrew.basis import units
 from ballscrew.basis.errors import MISSING, Fault, InputError, nearest, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, Info, Length, Quantity, Temperature, Torque, fields_of
-from ballscrew.basis.records import Message
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.schema.case_schema import read_table, sections, without_null
@@ -206,10 +205,10 @@ def read(path: Path) -> TorqueCard:
     )
 
 
-def _remedy(name: str) -> str | Message:
+def _remedy(name: str) -> str:
     if name == "points":
         return "add a table [[points]] for each speed"
-    return Message("add a table [{section}]", {"section": name})
+    return f"add a table [{name}]"
 
 
 def _case(tables: Mapping[str, Any], folder: Path, faults: list[Fault]) -> Case | None:

@@ -12,7 +12,6 @@ import xarray as xr
 
 from ballscrew.basis.errors import MISSING, Fault, InputError, nearest, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.basis.records import Message
 from ballscrew.compiler.tracing.gradient import UnknownDerivativeError, partials
 from ballscrew.compiler.tracing.merging import merged_program
 from ballscrew.compiler.tracing.program import Program
@@ -64,14 +63,7 @@ def derivatives(
     """
     faults = engine_faults("derivatives", engine)
     if method not in METHODS:
-        faults.append(
-            Fault(
-                "derivatives.method",
-                "unknown method",
-                str(method),
-                Message("one of {names}", {"names": ", ".join(METHODS)}),
-            )
-        )
+        faults.append(Fault("derivatives.method", "unknown method", str(method), f"one of {', '.join(METHODS)}"))
     raise_if_any(faults)
     slopes = slopes_of(Configuration(model, screw, lubricant), outputs, by, varied)
     if method == "jax":
@@ -94,12 +86,7 @@ def slopes_of(subject: Configuration, outputs: Sequence[str], by: Sequence[str],
     held = {n: subject.value_of(n) for n in by if n not in varied and n not in OPERATION}
     raise_if_any(
         [
-            Fault(
-                f"derivatives.{name}",
-                "has no value to differentiate by",
-                "",
-                Message("give it one: {name}=…", {"name": name}),
-            )
+            Fault(f"derivatives.{name}", "has no value to differentiate by", "", f"give it one: {name}=…")
             for name, value in held.items()
             if value is None
         ]
@@ -157,18 +144,9 @@ class Slopes(Plan):
                     slopes = partials(tape, found[name], [varying.index(x) for x in self.by])
                     found |= {slope_name(name, x): slope for x, slope in zip(self.by, slopes, strict=True)}
         except UnknownDerivativeError as unknown:
-            raise InputError(
-                Fault(
-                    "derivatives",
-                    Message("{unknown} has no derivative here", {"unknown": str(unknown)}),
-                    "",
-                    JAX_INSTEAD,
-                )
-            ) from None
+            raise InputError(Fault("derivatives", f"{unknown} has no derivative here", "", JAX_INSTEAD)) from None
         except CannotRecordError as why:
-            raise InputError(
-                Fault("derivatives", Message("a law cannot be recorded: {why}", {"why": str(why)}), "", JAX_INSTEAD)
-            ) from None
+            raise InputError(Fault("derivatives", f"a law cannot be recorded: {why}", "", JAX_INSTEAD)) from None
         return merged_program(tape, found)
 
 

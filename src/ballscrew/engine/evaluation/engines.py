@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import Literal
 
 from ballscrew.basis.errors import Fault
-from ballscrew.basis.records import Message
 from ballscrew.compiler.kernels import kernel as kernels
 from ballscrew.compiler.tracing.program import Program
 
@@ -33,14 +32,7 @@ SHORT_SECONDS = 0.1
 def engine_faults(section: str, engine: str | None, engines: Sequence[str] = ENGINES) -> list[Fault]:
     """Faults of a requested engine."""
     if engine is not None and engine not in engines:
-        return [
-            Fault(
-                f"{section}.engine",
-                "unknown engine",
-                str(engine),
-                Message("one of {names}", {"names": ", ".join(engines)}),
-            )
-        ]
+        return [Fault(f"{section}.engine", "unknown engine", str(engine), f"one of {', '.join(engines)}")]
     if engine == "compiled" and not kernels.available():
         remedy = 'pip install "ballscrew[fast]", or leave the engine out'
         return [Fault(f"{section}.engine", "needs a compiler that is not installed", engine, remedy)]

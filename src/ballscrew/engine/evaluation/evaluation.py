@@ -18,7 +18,6 @@ from ballscrew.basis.errors import (
     InputError,
     raise_if_any,
 )
-from ballscrew.basis.records import Message
 from ballscrew.compiler.kernels import kernel as kernels
 from ballscrew.compiler.kernels.buffers import ALIGNMENT, aligned_array
 from ballscrew.compiler.kernels.chain import LANES
@@ -121,14 +120,7 @@ class Evaluation:
             if isinstance(ready, ByBall):
                 return _by_ball(plan, ready)
             if engine == "compiled":
-                raise InputError(
-                    Fault(
-                        f"{section}.engine",
-                        Message("cannot be had: {ready}", {"ready": ready}),
-                        engine,
-                        'take engine="numpy"',
-                    )
-                )
+                raise InputError(Fault(f"{section}.engine", f"cannot be had: {ready}", engine, 'take engine="numpy"'))
             return _by_numpy(plan, None, ready)
         if engine is None and shared:
             known = _of_structure(plan, times)
@@ -151,9 +143,7 @@ class Evaluation:
         except UnknownOperationError as unknown:
             why = f"{unknown} is not known to kernels"
         if engine == "compiled":
-            raise InputError(
-                Fault(f"{section}.engine", Message("cannot be had: {why}", {"why": why}), engine, 'take engine="numpy"')
-            )
+            raise InputError(Fault(f"{section}.engine", f"cannot be had: {why}", engine, 'take engine="numpy"'))
         return _by_numpy(plan, program, why)
 
     @functools.cached_property

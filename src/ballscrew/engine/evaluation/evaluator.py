@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from ballscrew.basis.arrays import BLOCK_SIZE, map_blocks
 from ballscrew.basis.errors import MISSING, Fault, InputError, nearest, raise_if_any, without_unit
 from ballscrew.basis.quantities import Quantity, ends_within, within_bounds
-from ballscrew.basis.records import Message
 from ballscrew.compiler.kernels import kernel as kernels
 from ballscrew.compiler.kernels.buffers import aligned_array
 from ballscrew.compiler.kernels.emission import UnknownOperationError
@@ -142,18 +141,9 @@ class Evaluator:
         except CannotRecordError as error:
             why = f"the model itself, on plain arrays: {error}"
         if by and made_of is None:
-            raise InputError(
-                Fault(
-                    "evaluator.by",
-                    Message("has no derivatives: {why}", {"why": why}),
-                    "",
-                    Message("bs.derivatives: {jax_instead}", {"jax_instead": str(JAX_INSTEAD)}),
-                )
-            )
+            raise InputError(Fault("evaluator.by", f"has no derivatives: {why}", "", f"bs.derivatives: {JAX_INSTEAD}"))
         if engine == "compiled":
-            raise InputError(
-                Fault("evaluator.engine", Message("cannot be had: {why}", {"why": why}), engine, 'take engine="numpy"')
-            )
+            raise InputError(Fault("evaluator.engine", f"cannot be had: {why}", engine, 'take engine="numpy"'))
         self._use("numpy", why, max(1, BLOCK_SIZE // plan.subject.balls))
         self._on_arrays = _played(made_of.program) if made_of else _called(plan, self._quantities, fixed)
         self._new_on_point = self._point_as_arrays
@@ -171,14 +161,7 @@ class Evaluator:
             ready = by_ball(plan, "numpy", varying=self.inputs)
         if isinstance(ready, str):
             if engine == "compiled":
-                raise InputError(
-                    Fault(
-                        "evaluator.engine",
-                        Message("cannot be had: {ready}", {"ready": ready}),
-                        engine,
-                        'take engine="numpy"',
-                    )
-                )
+                raise InputError(Fault("evaluator.engine", f"cannot be had: {ready}", engine, 'take engine="numpy"'))
             self._use("numpy", ready, max(1, BLOCK_SIZE // plan.subject.balls))
             self._on_arrays = _called(plan, self._quantities, fixed)
         else:
@@ -226,21 +209,12 @@ class Evaluator:
         except KeyError:
             pass
         given = dict(zip(self.inputs, values, strict=False))
-        faults = [
-            Fault(
-                "evaluator",
-                "too many values",
-                str(len(values)),
-                Message("inputs: {names}", {"names": ", ".join(self.inputs)}),
-            )
-        ]
+        faults = [Fault("evaluator", "too many values", str(len(values)), f"inputs: {', '.join(self.inputs)}")]
         faults = faults if len(values) > len(self.inputs) else []
         faults += [Fault(f"evaluator.{n}", "is given twice", "", "once is enough") for n in named if n in given]
         faults += [Fault(f"evaluator.{n}", "no input", "", nearest(n, self.inputs)) for n in named.keys() - self.inputs]
         given |= named
-        faults += [
-            Fault(f"evaluator.{n}", MISSING, "", Message("give {n}=…", {"n": n})) for n in self.inputs if n not in given
-        ]
+        faults += [Fault(f"evaluator.{n}", MISSING, "", f"give {n}=…") for n in self.inputs if n not in given]
         raise_if_any(faults)
         return tuple([given[name] for name in self.inputs])
 
@@ -336,11 +310,7 @@ def _recorded(plan: Plan, quantities: Mapping[str, Quantity], fixed: Mapping[str
     try:
         return plan.subject.recorded(tape, {**fixed, **points}, wanted)
     except UnknownDerivativeError as unknown:
-        raise InputError(
-            Fault(
-                "evaluator.by", Message("{unknown} has no derivative here", {"unknown": str(unknown)}), "", JAX_INSTEAD
-            )
-        ) from None
+        raise InputError(Fault("evaluator.by", f"{unknown} has no derivative here", "", JAX_INSTEAD)) from None
 
 
 def _within(inside: Any, output: Output, value: Any) -> Any:

@@ -15,7 +15,7 @@ import xarray as xr
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import MISSING, Fault, nearest, raise_if_any
 from ballscrew.basis.quantities import Quantity, fields_of, quantities_of
-from ballscrew.basis.records import Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.basis.references import citations_of
 from ballscrew.basis.version import __version__
 from ballscrew.compiler.tracing.merging import merged_program
@@ -55,7 +55,7 @@ _MOST_CORNERS = 4096
 _REPLENISHMENT = "inlet.replenishment_constant"
 #: Multiples of it, less their whole part, are spread evenly.
 _GOLDEN = (math.sqrt(5) - 1) / 2
-_OF_POINTS = Message("so at the point that starves the most; the output flooded_torque has it for each")
+_OF_POINTS = "so at the point that starves the most; the output flooded_torque has it for each"
 #: An axis of more values is long: to read it twice takes time.
 LONG_AXIS = 100_000
 
@@ -176,7 +176,7 @@ class Configuration(ByValue):
         operation = OperatingState(*(ends.get(name, 0.0) for name in OPERATION))
         return implausible(named_parts(there.model, there.screw, there.lubricant, operation=operation))
 
-    def starvation(self, points: Mapping[str, Any], remark: Message | None = None) -> list[Record]:
+    def starvation(self, points: Mapping[str, Any], remark: str | None = None) -> list[Record]:
         """The record of points, arrays of one length, that are starved of oil, with both torques where it is most so.
 
         The torques are asked for at all points where oil that comes back late counts. Where these are too many balls
@@ -425,7 +425,7 @@ def starvation_of(attributes: Mapping[str, Any]) -> list[Record]:
     return _starvation_record(given, flooded, _OF_POINTS)
 
 
-def _starvation_record(given: float, flooded: float, remark: Message | None) -> list[Record]:
+def _starvation_record(given: float, flooded: float, remark: str | None) -> list[Record]:
     torque = quantities_of(FrictionResult)["screw_torque"]
     return starvation.records([starvation.BothTorques(torque, given, flooded)], remark)
 
@@ -450,13 +450,9 @@ def _axes(
     faults = [
         Fault(f"{section}.{name}", "unknown name", "", nearest(name, known)) for name in varied if name not in known
     ]
+    faults += [Fault(f"{section}.{name}", MISSING, "", f"give {name}=[…]") for name in OPERATION if name not in varied]
     faults += [
-        Fault(f"{section}.{name}", MISSING, "", Message("give {name}=[…]", {"name": name}))
-        for name in OPERATION
-        if name not in varied
-    ]
-    faults += [
-        Fault(f"{part}.{name}", "is an array", "", Message("give it to the sweep: {name}=[…]", {"name": name}))
+        Fault(f"{part}.{name}", "is an array", "", f"give it to the sweep: {name}=[…]")
         for name, (part, _) in known.items()
         if part != "operation" and name not in varied and np.ndim(read_input(parts[part], name))
     ]

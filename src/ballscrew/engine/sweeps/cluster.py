@@ -27,7 +27,6 @@ from ballscrew.basis.errors import (
     Fault,
     InputError,
 )
-from ballscrew.basis.records import Message
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.fingerprint import package_digest
 from ballscrew.engine.sweeps.store import FULL, Store
@@ -151,7 +150,7 @@ def _wait_for_a_worker(client: Any) -> None:
     try:
         client.wait_for_workers(1, timeout=TIMEOUT)
     except TimeoutError:
-        remedy = Message("start some: dask worker {address}", {"address": client.scheduler.address})
+        remedy = f"start some: dask worker {client.scheduler.address}"
         raise InputError(Fault(_WHERE, "has no workers", client.scheduler.address, remedy)) from None
 
 

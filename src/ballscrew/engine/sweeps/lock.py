@@ -16,7 +16,6 @@ from types import ModuleType
 from typing import Any
 
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.records import Message
 from ballscrew.engine.sweeps.store_entries import opened_as_file
 
 _fcntl: ModuleType | None = importlib.import_module("fcntl") if importlib.util.find_spec("fcntl") else None
@@ -41,12 +40,9 @@ class Lock:
             holder = _holder(self._file)
             if _is_held_by_other(self._file, holder):
                 self._file.close()
-                process = Message("process {process} on {host}")
-                who = process.of(**{k: str(v) for k, v in holder.items()}) if holder else Message("another process")
-                remedy = Message(
-                    "wait for it or choose another name; if it is gone, remove {path}", {"path": str(path)}
-                )
-                raise InputError(Fault(where, Message("is being written by {who}", {"who": who}), str(holds), remedy))
+                who = "process {process} on {host}".format(**holder) if holder else "another process"
+                remedy = f"wait for it or choose another name; if it is gone, remove {path}"
+                raise InputError(Fault(where, f"is being written by {who}", str(holds), remedy))
             if self._is_in_place():
                 break
             self._file.close()  # the previous holder removed it after we had opened it

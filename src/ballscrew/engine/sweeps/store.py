@@ -41,7 +41,6 @@ from ballscrew.basis.errors import (
     InputError,
     raise_if_any,
 )
-from ballscrew.basis.records import Message
 from ballscrew.engine.evaluation.evaluation import Engine, Evaluation
 from ballscrew.engine.evaluation.plan import Plan
 from ballscrew.engine.sweeps.store_check import LAYOUT, ROOT, Contents, Damage, file_in_place_of_a_folder, stored_plan
@@ -103,14 +102,12 @@ class Store:
             evaluation = Evaluation.of(plan, chosen, recorded=True)
         except InputError as error:
             if engine is None and chosen is not None:
-                begun = Fault(
-                    WHERE, Message("was begun with the engine {chosen}", {"chosen": chosen}), str(folder), OTHER
-                )
+                begun = Fault(WHERE, f"was begun with the engine {chosen}", str(folder), OTHER)
                 raise InputError(begun, *error.faults) from None
             raise
         if stored is not None and evaluation.identity.unknown:
             problem = "cannot be gone on with, as it cannot be known whether the model is the same"
-            remedy = Message("choose another name, or remove {folder}", {"folder": str(folder)})
+            remedy = f"choose another name, or remove {folder}"
             raise InputError(Fault(WHERE, problem, evaluation.identity.unknown, remedy))
         blocks = Blocks.of(plan, block_size)
         engine_of = evaluation.attributes
@@ -137,7 +134,7 @@ class Store:
 
     def check(self, stored: Mapping[str, Any] | None) -> None:
         """Raise :class:`~ballscrew.basis.errors.InputError` if another sweep is there, and say how it differs."""
-        remedy = Message("choose another name, or remove {path}", {"path": str(self.path)})
+        remedy = f"choose another name, or remove {self.path}"
         differing = [] if stored is None else differences(stored, self.description)
         raise_if_any([Fault(WHERE, "holds another sweep", words, remedy) for words in differing])
 

@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any
 
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.records import Message
 from ballscrew.engine.sweeps.store_plan import FORMAT, Blocks, checksum, is_plan, read_sealed
 from ballscrew.engine.sweeps.store_rows import BYTES, FALSE, OTHER, OWN, WHERE, Content, cells_of, row, unreadable
 
@@ -78,10 +77,7 @@ def verify(store: str | os.PathLike[str]) -> Verification:
     if document is None:
         raise InputError(Fault(WHERE, "is not the store of a sweep", str(path), _A_STORE))
     if document["format"] != FORMAT:
-        remedy = Message(
-            "sweep again under another name: a store of format {format} has checksums bound to its plan",
-            {"format": str(FORMAT)},
-        )
+        remedy = f"sweep again under another name: a store of format {FORMAT} has checksums bound to its plan"
         raise InputError(Fault(WHERE, "is a store of another version", f"{path}: format {document['format']}", remedy))
     contents = Contents.of(path, document)
     rows = contents.rows()
@@ -155,11 +151,7 @@ class Noted:
         if found == noted:
             return
         problem = "is missing" if content is None else "is damaged, or of another sweep"
-        raise InputError(
-            Fault(
-                WHERE, Message("has a file that {problem}", {"problem": problem}), str(self.contents.path / key), AGAIN
-            )
-        )
+        raise InputError(Fault(WHERE, f"has a file that {problem}", str(self.contents.path / key), AGAIN))
 
     def _of(self, key: str) -> Content | None:
         """What was noted of a file; None of what the store does not have."""

@@ -15,7 +15,6 @@ import numpy as np
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, as_float, is_concrete, nearest, raise_if_any
 from ballscrew.basis.quantities import Array, Info, Quantity
-from ballscrew.basis.records import Message
 
 #: Less than the least share that is ever drawn, 2^-53.
 UNREACHED = 2.0**-64
@@ -171,10 +170,7 @@ class Triangular:
                     "triangular.mode",
                     "must lie between the ends",
                     given,
-                    Message(
-                        "{low} to {high}",
-                        {"low": units.to_significant(self.low, 6), "high": units.to_significant(self.high, 6)},
-                    ),
+                    f"{units.to_significant(self.low, 6)} to {units.to_significant(self.high, 6)}",
                 )
             ]
         raise_if_any(faults)
@@ -231,14 +227,14 @@ def within(distribution: Distribution, info: Info) -> Distribution:
 
 
 def distribution_fault(
-    where: str, name: str, given: object, known: Mapping[str, tuple[str, Quantity]], remedy: str | Message
+    where: str, name: str, given: object, known: Mapping[str, tuple[str, Quantity]], remedy: str
 ) -> Fault | None:
     """Fault of the distribution of an input; ``remedy`` is for a whole number, which has none."""
     if name not in known:
         return Fault(where, "unknown name", "", nearest(name, known))
     if not isinstance(given, Distribution):
         kinds = ", ".join(kind.__name__ for kind in get_args(Distribution))
-        return Fault(where, "is no distribution", str(given), Message("one of {kinds}", {"kinds": kinds}))
+        return Fault(where, "is no distribution", str(given), f"one of {kinds}")
     if known[name][1].info.whole:
         return Fault(where, "is a whole number, which has no distribution", "", remedy)
     return None

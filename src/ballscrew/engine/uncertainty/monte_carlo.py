@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 
 from ballscrew.basis.arrays import map_blocks
 from ballscrew.basis.errors import MISSING, Fault, raise_if_any
-from ballscrew.basis.records import Message
 from ballscrew.engine.evaluation.engines import Engine, engine_faults
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.outputs import OPERATION, attributes_of
@@ -212,17 +211,17 @@ def _faults_of_inputs(
         faults.append(Fault("monte_carlo.distributions", "is empty", "", "name at least one uncertain input"))
     for name in OPERATION:
         if name not in given:
-            remedy = Message("give {name}=… or a distribution of it", {"name": name})
+            remedy = f"give {name}=… or a distribution of it"
             faults.append(Fault(f"monte_carlo.{name}", MISSING, "", remedy))
     for name, distribution in distributions.items():
         where = f"monte_carlo.distributions.{name}"
-        fault = distribution_fault(where, name, distribution, known, Message("give {name}=…", {"name": name}))
+        fault = distribution_fault(where, name, distribution, known, f"give {name}=…")
         faults += [] if fault is None else [fault]
         if name in fixed:
             faults.append(Fault(where, "is given as one number too", str(fixed[name]), "leave one of them out"))
     for name, value in fixed.items():
         if isinstance(value, Distribution):
-            remedy = Message('distributions={"{name}": …}', {"name": name})
+            remedy = f'distributions={{"{name}": …}}'
             faults.append(Fault(f"monte_carlo.{name}", "is a distribution", str(value), remedy))
         elif np.ndim(value):
             faults.append(Fault(f"monte_carlo.{name}", "must be one number", "", "for several, call again for each"))

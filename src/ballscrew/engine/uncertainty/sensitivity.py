@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from ballscrew.basis.displayed import LINES_OF_REPR, Displayed, shortened
 from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any, renamed_keyword
 from ballscrew.basis.quantities import Quantity
-from ballscrew.basis.records import Message
 from ballscrew.engine.evaluation.derivatives import JAX_INSTEAD, derivatives
 from ballscrew.engine.evaluation.outputs import known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
@@ -236,14 +235,7 @@ def _faults(
     elif wanted[output].dtype is bool:
         faults.append(Fault("sensitivity.output", "is true or false, and has no variance", output, "choose a number"))
     if method not in METHODS:
-        faults.append(
-            Fault(
-                "sensitivity.method",
-                "unknown method",
-                str(method),
-                Message("one of {names}", {"names": ", ".join(METHODS)}),
-            )
-        )
+        faults.append(Fault("sensitivity.method", "unknown method", str(method), f"one of {', '.join(METHODS)}"))
     elif method == "local" and subject.nut.one_by_one:
         faults.append(Fault("sensitivity.method", "has no derivatives where balls differ", method, ANOTHER_METHOD))
     if not isinstance(seed, int | np.integer) or seed < 0:
@@ -260,32 +252,12 @@ def _faults_of_samples(samples: Any, method: Method) -> list[Fault]:
     if method == "local":
         return [Fault(where, "does not count with local, which takes no samples", str(samples), "leave it out")]
     if not isinstance(samples, int | np.integer) or samples < MINIMUM_SAMPLES[method]:
-        return [
-            Fault(
-                where,
-                Message("must be a whole number, {least} or more", {"least": str(MINIMUM_SAMPLES[method])}),
-                str(samples),
-            )
-        ]
+        return [Fault(where, f"must be a whole number, {MINIMUM_SAMPLES[method]} or more", str(samples))]
     if samples > MAXIMUM_SAMPLES:
-        return [
-            Fault(
-                where,
-                Message("must be at most {maximum_samples}", {"maximum_samples": str(MAXIMUM_SAMPLES)}),
-                str(samples),
-                "all are in memory",
-            )
-        ]
+        return [Fault(where, f"must be at most {MAXIMUM_SAMPLES}", str(samples), "all are in memory")]
     if method == "sobol" and samples & (samples - 1):
         below = 2 ** (int(samples).bit_length() - 1)
-        return [
-            Fault(
-                where,
-                "must be a power of two",
-                str(samples),
-                Message("take {below} or {below_2}", {"below": str(below), "below_2": str(2 * below)}),
-            )
-        ]
+        return [Fault(where, "must be a power of two", str(samples), f"take {below} or {2 * below}")]
     return []
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import InputError
-from ballscrew.basis.records import Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
 
@@ -14,10 +14,6 @@ from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
 _SIGNS = ("fit.baseline_better", "fit.trend")
 #: A number that brings the residuals below this share of what they were is worth a word.
 _WORTH = 0.7
-_FREE_MORE = Message(
-    "with the constant torque free, too, the rows miss by {after} instead of {before}: "
-    "the log has friction of seals or bearings, which the model of the balls does not; free it"
-)
 
 
 def constant_torque_missed(model: CalibratedModel, refit: Callable[[Sequence[str]], CalibratedModel]) -> list[Record]:
@@ -35,7 +31,11 @@ def constant_torque_missed(model: CalibratedModel, refit: Callable[[Sequence[str
     before, after = model.residual_rms, more.residual_rms
     if not more.estimates[CONSTANT_TORQUE.name].identified or after > _WORTH * before:
         return []
-    message = _FREE_MORE.of(after=units.in_unit(after, "N m", 2), before=units.in_unit(before, "N m", 2))
+    message = (
+        f"with the constant torque free, too, the rows miss by {units.in_unit(after, 'N m', 2)} instead of "
+        f"{units.in_unit(before, 'N m', 2)}: the log has friction of seals or bearings, which the model of the "
+        "balls does not; free it"
+    )
     return [
         units.record(
             message,

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.records import Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.evidence.calibration.fit_result import (
     AS_GIVEN,
@@ -20,7 +20,7 @@ from ballscrew.evidence.calibration.robust import autocorrelation_lag, minimum_s
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.friction.loaded_balls import loads_of
 
-_OF_LOG = Message("so in the row that starves the most, by the numbers of the fit")
+_OF_LOG = "so in the row that starves the most, by the numbers of the fit"
 _FIFTHS = ("lowest", "lower", "middle", "higher", "highest")
 #: What each row of a log has of its own.
 _OF_ROWS = (*OPERATION, TEMPERATURE.name)

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, accepts_units, nearest, raise_if_any, si_value
 from ballscrew.basis.quantities import Force, MomentOfInertia, TemperatureDifference, within_bounds
-from ballscrew.basis.records import Message
 from ballscrew.engine.evaluation.engines import Engine, engine_faults
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.distributions import Distribution
@@ -376,22 +375,13 @@ def _faults_of_options(
     if not isinstance(holdout, int | float) or not 0 <= holdout <= 0.5:
         faults.append(Fault("fit.holdout", "must be a share from 0 to 0.5", str(holdout), "0.2 is usual"))
     if temperature_error is not None and not 0 <= temperature_error <= MOST_TEMPERATURE_ERROR:
-        problem = Message(
-            "must be from 0 to {most_temperature_error} K",
-            {"most_temperature_error": units.to_significant(MOST_TEMPERATURE_ERROR, 6)},
-        )
+        most_temperature_error = units.to_significant(MOST_TEMPERATURE_ERROR, 6)
+        problem = f"must be from 0 to {most_temperature_error} K"
         faults.append(
             Fault("fit.temperature_error", problem, str(temperature_error), "2 K is usual where it is logged")
         )
     if kind not in get_args(Kind):
-        faults.append(
-            Fault(
-                "fit.kind",
-                "unknown kind of torque",
-                str(kind),
-                Message("one of {names}", {"names": ", ".join(get_args(Kind))}),
-            )
-        )
+        faults.append(Fault("fit.kind", "unknown kind of torque", str(kind), f"one of {', '.join(get_args(Kind))}"))
     return faults
 
 

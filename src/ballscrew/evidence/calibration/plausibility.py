@@ -13,9 +13,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ballscrew.basis.errors import shown_in_si
+from ballscrew.basis import units
+from ballscrew.basis.errors import spoken
 from ballscrew.basis.quantities import Force
-from ballscrew.basis.records import Measured, Message, Named, Record
+from ballscrew.basis.records import Record
 from ballscrew.evidence.calibration.fit_result import Estimate, FitResult
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
 
@@ -25,24 +26,17 @@ MOST_CONSTANT = 0.8
 HIGHEST_PRELOAD = 0.1
 #: From the friction of a film, which that of touching surfaces is not below, to the highest coefficient in use.
 BOUNDARY_FRICTION = 0.05, 0.2
-_BOUNDARY = Message(
-    "what steel and oil have: 0.05 is the friction of a film, 0.12 to 0.15 that of bearings that touch (SKF2018), "
-    "0.2 the highest in use (Olaru2005)"
+_BOUNDARY = (
+    "what steel and oil have: 0.05 is the friction of a film, 0.12 to 0.15 that of bearings that touch "
+    "(SKF2018), 0.2 the highest in use (Olaru2005)"
 )
-_CONSTANT = Message(
-    "seals and bearings drive no screw, and make at most {percent} % of a torque without load (Rexroth2006)",
-    {"percent": Measured(100 * MOST_CONSTANT)},
+_CONSTANT = (
+    f"seals and bearings drive no screw, and make at most {units.number(100 * MOST_CONSTANT)} % of a torque "
+    "without load (Rexroth2006)"
 )
-_RATING = Message(
-    "{percent} % of the dynamic load rating is the most that makers set", {"percent": Measured(100 * HIGHEST_PRELOAD)}
-)
-_USUAL = Message("what screws have")
-_OUTSIDE = Message(
-    "implausible: {name} {value} is outside {low} to {high} ({reason}); {end}: look at units, signs and the kind of "
-    "nut, free what the model lacks, or hold this number"
-)
-_WITH_INTERVAL = Message("{value} (95 %: {least} to {most})")
-_REACHES, _AVOID = Message("its interval reaches into it"), Message("do not predict with this fit")
+_RATING = f"{units.number(100 * HIGHEST_PRELOAD)} % of the dynamic load rating is the most that makers set"
+_USUAL = "what screws have"
+_REACHES, _AVOID = "its interval reaches into it", "do not predict with this fit"
 _PRELOADS = ("preload", "nut.preload")
 
 
@@ -50,7 +44,7 @@ class _Range(NamedTuple):
     low: float
     high: float
     #: What has such numbers.
-    reason: Message
+    reason: str
 
 
 def verdict_records(found: FitResult, dynamic_load_rating: Force | None = None) -> list[Record]:
@@ -90,34 +84,33 @@ def _range(found: FitResult, full: str, estimate: Estimate, rating: Force | None
     return None if usual is None else _Range(float(usual[0]), float(usual[1]), _USUAL)
 
 
+def shown_with_interval(estimate: Estimate) -> str:
+    """A fitted number with its interval, where it has one."""
+    # at a bound but for rounding
+    value = min(estimate.bounds, key=lambda end: abs(end - estimate.value)) if estimate.at_bound else estimate.value
+    number, ends = units.shown(value, estimate.quantity), estimate.interval()
+    if ends is None:
+        return number
+    low, high = (units.shown(end, estimate.quantity) for end in ends)
+    return f"{number} (95 %: {low} to {high})"
+
+
 def _record(estimate: Estimate, limit: _Range) -> Record:
     ends = estimate.interval()
     reaches = ends is not None and ends[0] <= limit.high and ends[1] >= limit.low
-    # at a bound but for rounding
-    value = min(estimate.bounds, key=lambda end: abs(end - estimate.value)) if estimate.at_bound else estimate.value
-
-    def measured(number: float) -> Measured:
-        return Measured(number, estimate.quantity)
-
-    said: Measured | Message = measured(value)
-    if ends is not None:
-        said = _WITH_INTERVAL.of(value=said, least=measured(ends[0]), most=measured(ends[1]))
-    message = _OUTSIDE.of(
-        name=Named(estimate.name),
-        value=said,
-        low=measured(limit.low),
-        high=measured(limit.high),
-        reason=limit.reason,
-        end=_REACHES if reaches else _AVOID,
+    low, high = (units.shown(end, estimate.quantity) for end in (limit.low, limit.high))
+    message = (
+        f"implausible: {spoken(estimate.name)} {shown_with_interval(estimate)} is outside {low} to {high} "
+        f"({limit.reason}); {_REACHES if reaches else _AVOID}: look at units, signs and the kind of nut, free what "
+        "the model lacks, or hold this number"
     )
     return Record(
         id="fit.implausible",
         subject=estimate.name,
-        text=message.filled(shown_in_si),
+        text=message,
         severity="warning" if reaches else "error",
         holds=None if reaches else False,
         value=estimate.value,
         limit=limit.low if estimate.value < limit.low else limit.high,
         unit=estimate.quantity.unit,
-        message=message,
     )

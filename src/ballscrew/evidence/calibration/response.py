@@ -15,7 +15,6 @@ from ballscrew.basis.errors import (
     InputError,
     nearest,
 )
-from ballscrew.basis.records import Message
 from ballscrew.engine.evaluation.derivatives import Slopes, slopes_of
 from ballscrew.engine.evaluation.engines import Engine
 from ballscrew.engine.evaluation.evaluation import Evaluation
@@ -40,14 +39,7 @@ def resolve_input(subject: Configuration, name: str, section: str = "fit", besid
     bare = name.removeprefix("model.").removeprefix("screw.").removeprefix("lubricant.")
     found = [bare] if bare in known else [other for other in known if other.rpartition(".")[2] == bare]
     if len(found) > 1:
-        raise InputError(
-            Fault(
-                f"{section}.free",
-                "could be several numbers",
-                name,
-                Message("one of {names}", {"names": ", ".join(found)}),
-            )
-        )
+        raise InputError(Fault(f"{section}.free", "could be several numbers", name, f"one of {', '.join(found)}"))
     if not found:
         raise InputError(Fault(f"{section}.free", "unknown name", name, nearest(bare, [*beside, *known])))
     if found[0] in OPERATION or found[0] == TEMPERATURE.name:

@@ -10,7 +10,6 @@ from typing import Annotated, Any
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, nearest
 from ballscrew.basis.quantities import Info, Quantity, Torque, Unit, quantities_of
-from ballscrew.basis.records import Message
 from ballscrew.evidence.moving_logs.moving_log import quantities
 from ballscrew.files.tables import decimals
 from ballscrew.files.tables.headings import (
@@ -212,12 +211,5 @@ def _check_needed(path: Path, headings: Sequence[Heading]) -> None:
         if not names & {*family}:
             column = _BY_NAME[family[0]]
             others = ", ".join(_BY_NAME[name].example for name in family[1:])
-            remedy = Message(
-                'name it: --column {column}="your heading [{shown_in}]"; or {others}',
-                {"column": column.name, "shown_in": QUANTITIES[column.name].shown_in, "others": others},
-            )
-            raise InputError(
-                Fault(
-                    path.name, Message("has no column of a {meaning}", {"meaning": meaning}), "", remedy, id=NO_COLUMN
-                )
-            )
+            remedy = f'name it: --column {column.name}="your heading [{QUANTITIES[column.name].shown_in}]"; or {others}'
+            raise InputError(Fault(path.name, f"has no column of a {meaning}", "", remedy, id=NO_COLUMN))

@@ -7,8 +7,8 @@ import dataclasses
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, both
-from ballscrew.basis.records import Message, Named, Record
+from ballscrew.basis.errors import Fault, spoken
+from ballscrew.basis.records import Record
 from ballscrew.evidence.moving_logs.equation import Equation
 from ballscrew.evidence.moving_logs.regression import LARGEST_ERROR, LeastSquares, relative_error
 from ballscrew.files.torque_logs.motion import Floats
@@ -26,19 +26,15 @@ _OTHER_UNIT, _BETTER = 4.0, 0.5
 _WITHIN = 0.03
 
 _REMEDIES = {
-    frozenset({"offset", "coulomb_force"}): Message("record strokes in both directions"),
-    frozenset({"coulomb_force", "viscous_coefficient"}): Message(
+    frozenset({"offset", "coulomb_force"}): "record strokes in both directions",
+    frozenset({"coulomb_force", "viscous_coefficient"}): (
         "record strokes at several speeds, the slowest a tenth of the fastest"
     ),
-    frozenset({"mass", "viscous_coefficient"}): Message(
-        "record ramps of several accelerations and strokes at steady speed"
-    ),
-    frozenset({"mass", "coulomb_force"}): Message("record ramps in both directions that speed up and that slow down"),
+    frozenset({"mass", "viscous_coefficient"}): "record ramps of several accelerations and strokes at steady speed",
+    frozenset({"mass", "coulomb_force"}): "record ramps in both directions that speed up and that slow down",
 }
-_SLOW = Message("record faster ramps: the force of the acceleration must be clear of the noise")
-_FEW_SPEEDS = Message("record strokes at several speeds in both directions")
-_CONFOUNDED = Message("the log cannot tell {names} apart · {remedy}")
-_NOT_TOLD = Message("the log does not tell the {name} · {remedy}")
+_SLOW = "record faster ramps: the force of the acceleration must be clear of the noise"
+_FEW_SPEEDS = "record strokes at several speeds in both directions"
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -99,12 +95,9 @@ def _not_told(names: list[str]) -> Record:
     remedy = next(
         (text for pair, text in _REMEDIES.items() if pair <= {*names}), _SLOW if "mass" in names else _FEW_SPEEDS
     )
-    spoken = [Named(name) for name in names]
-    message = (
-        _CONFOUNDED.of(names=both(spoken), remedy=remedy)
-        if len(names) > 1
-        else _NOT_TOLD.of(name=spoken[0], remedy=remedy)
-    )
+    numbers = " and ".join(map(spoken, names))
+    problem = f"cannot tell {numbers} apart" if len(names) > 1 else f"does not tell the {numbers}"
+    message = f"the log {problem} · {remedy}"
     return units.record(message, id="fit.not_identified", subject=",".join(names), severity="warning", holds=False)
 
 

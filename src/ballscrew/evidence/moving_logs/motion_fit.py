@@ -9,9 +9,9 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, InputError, accepts_units, each_of, raise_if_any
+from ballscrew.basis.errors import Fault, InputError, accepts_units, raise_if_any, spoken
 from ballscrew.basis.quantities import Force, Info, Quantity, Ratio, Unit, quantities_of
-from ballscrew.basis.records import Message, Named, Record
+from ballscrew.basis.records import Record
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.evidence.moving_logs.equation import AT_REST, DeadTime, Equation, dead_time
 from ballscrew.evidence.moving_logs.linear_model import NAMES, LinearModel, linear_model, unit_change
@@ -43,26 +43,20 @@ _TABLE_ERROR = 0.02
 #: The axial load of the table of friction, as a share of the force of the largest acceleration.
 _LOAD_ROOM = 1.1
 _REST = Quantity("rest", "m/s", Info("v", "speed that is clear of its noise", "mm/s"))
-_GRAVITY = Message(
+_GRAVITY = (
     "the offset is gravity and the zero error of the force together · to tell them apart, record it once more "
     "with another mass, or read the force with the motor off"
 )
-_NO_EXPONENT = Message("the speeds of the log do not tell an exponent of the speed · record strokes from slow to fast")
-_PRELOAD_FREED = Message(
-    "with the preload of the case the screw has more friction than the whole axis: the preload is fitted as well · "
-    "check the preload and the size in the case, or give --free viscosity to hold it"
+_NO_EXPONENT = "the speeds of the log do not tell an exponent of the speed · record strokes from slow to fast"
+_PRELOAD_FREED = (
+    "with the preload of the case the screw has more friction than the whole axis: the preload is fitted as well "
+    "· check the preload and the size in the case, or give --free viscosity to hold it"
 )
-_NO_FRICTION = Message("the model of the screw is not fitted: the model has no friction at some speeds of the log")
-_NO_MASS = Message(
+_NO_FRICTION = "the model of the screw is not fitted: the model has no friction at some speeds of the log"
+_NO_MASS = (
     "the model of the screw is not fitted: the log does not tell the mass or the friction that it would be fitted to"
 )
-_MODEL_OFF = Message(
-    "the screw's model does not fit: it is off by {off}, the linear one by {linear} · the screw of the case has more "
-    "friction than the whole axis: try {remedy}"
-)
-_OTHER_SIZE = Message("another size or oil")
-_TABLE_OFF = Message("the table of the screw's friction is off by up to {error} of the largest friction")
-_UNTOLD = Message("the log does not tell by itself: {names} · free fewer numbers, or give what is known")
+_OTHER_SIZE = "another size or oil"
 
 Mass = Annotated[Any, Unit("kg")]
 Drag = Annotated[Any, Unit("N s/m")]
@@ -293,17 +287,12 @@ def _equation(log: MovingLog, **options: float) -> Equation:
     name = log.source[0] if log.source else "log"
     needed = PERIODS_PER_NUMBER * len(NAMES)
     if equation.periods < needed:
-        problem = Message(
-            "moves too little above its noise: {moving} of {rows} rows are faster than {rest}, which is {periods} "
-            "periods of the filter that the noise asks for ({cutoff}), and a fit needs {needed}",
-            {
-                "moving": str(len(log) - equation.left_out.get(AT_REST, 0)),
-                "rows": str(len(log)),
-                "rest": units.shown(equation.rest, _REST, 3),
-                "periods": units.fixed(equation.periods, 1),
-                "cutoff": units.in_unit(equation.cutoff, "Hz", 2),
-                "needed": str(needed),
-            },
+        rest = units.shown(equation.rest, _REST, 3)
+        cutoff = units.in_unit(equation.cutoff, "Hz", 2)
+        problem = (
+            f"moves too little above its noise: {len(log) - equation.left_out.get(AT_REST, 0)} of {len(log)} rows "
+            f"are faster than {rest}, which is {units.fixed(equation.periods, 1)} periods of the filter that the "
+            f"noise asks for ({cutoff}), and a fit needs {needed}"
         )
         remedy = "record more rows a second, or longer strokes in both directions"
         raise InputError(Fault(name, problem, "", remedy))
@@ -407,7 +396,7 @@ def _is_off(screw: ScrewModelFit | None, linear: LinearModel) -> bool:
     return screw is not None and screw.relative_error > WORSE * linear.relative_error
 
 
-def _warning(name: str, subject: str, message: Message) -> Record:
+def _warning(name: str, subject: str, message: str) -> Record:
     return units.record(message, id=f"fit.{name}", subject=subject, severity="warning", holds=False)
 
 
@@ -416,13 +405,18 @@ def _of_screw(screw: ScrewModelFit, linear: LinearModel, free: Sequence[str]) ->
     found: list[Record] = []
     if _is_off(screw, linear):
         preload = PRELOAD in screw.friction.subject.inputs and PRELOAD not in screw.friction.names
-        remedy = Message("--free {names}", {"names": ",".join([*free, PRELOAD])}) if preload else _OTHER_SIZE
-        message = _MODEL_OFF.of(
-            off=units.percent(screw.relative_error, 1), linear=units.percent(linear.relative_error, 1), remedy=remedy
+        remedy = f"--free {','.join([*free, PRELOAD])}" if preload else _OTHER_SIZE
+        off = units.percent(screw.relative_error, 1)
+        message = (
+            f"the screw's model does not fit: it is off by {off}, the linear one by "
+            f"{units.percent(linear.relative_error, 1)} · the screw of the case has more friction than the whole "
+            f"axis: try {remedy}"
         )
         found.append(_warning("screw_model_off", "screw", message))
     if screw.table_error > _TABLE_ERROR:
-        found.append(_warning("table_error", "screw", _TABLE_OFF.of(error=units.percent(screw.table_error, 1))))
+        error = units.percent(screw.table_error, 1)
+        text = f"the table of the screw's friction is off by up to {error} of the largest friction"
+        found.append(_warning("table_error", "screw", text))
     return found
 
 
@@ -431,5 +425,7 @@ def _unidentified(estimates: Mapping[str, MotionEstimate]) -> list[Record]:
     names = [e.name for e in estimates.values() if e.model == SCREW and not (e.identified or e.at_bound or e.given)]
     if not names:
         return []
-    spoken = each_of(Named(name) for name in names)
-    return [_warning("not_identified", ",".join(names), _UNTOLD.of(names=spoken))]
+    text = (
+        f"the log does not tell by itself: {', '.join(map(spoken, names))} · free fewer numbers, or give what is known"
+    )
+    return [_warning("not_identified", ",".join(names), text)]

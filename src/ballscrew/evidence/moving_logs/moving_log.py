@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from ballscrew.basis.errors import Fault, InputError, raise_if_any, si_value
 from ballscrew.basis.quantities import Force, Info, Length, Quantity, Speed, quantities_of
-from ballscrew.basis.records import Message
 from ballscrew.files.torque_logs.log_rows import Time, within
 from ballscrew.files.torque_logs.motion import Floats
 
@@ -152,9 +151,7 @@ GAIN = Quantity("gain", "N/V", Info("g_\\tau", "force at the nut for each volt o
 
 def _check_length(name: str, rows: int) -> None:
     if rows < LEAST_ROWS:
-        remedy = Message(
-            "record {least_rows} rows or more, with several strokes in both directions", {"least_rows": str(LEAST_ROWS)}
-        )
+        remedy = f"record {LEAST_ROWS} rows or more, with several strokes in both directions"
         raise InputError(Fault(name, "is too short for a fit of a motion", f"{rows} rows", remedy))
 
 
@@ -165,9 +162,7 @@ def _missing(name: str, log: MovingLog, known: NDArray[np.bool_]) -> list[tuple[
     for begin, end in edges.reshape(-1, 2).tolist():
         if end - begin > FILLED:
             lacks = next(n for n, values in log.columns.items() if not np.isfinite(values[begin:end]).all())
-            problem = Message(
-                "has no {lacks} in {end} rows one after the other", {"lacks": lacks, "end": str(end - begin)}
-            )
+            problem = f"has no {lacks} in {end - begin} rows one after the other"
             remedy = "cut the log there, or give --keep-going, which uses the longest stretch without a fault"
             found.append((begin, Fault(f"{name} row {log.line[begin]}", problem, "", remedy)))
     return found
@@ -235,13 +230,6 @@ def _check_motion(name: str, log: MovingLog) -> None:
     resolution = float(steps[steps > 0].min()) if (steps > 0).any() else np.inf
     if float(np.ptp(path)) < _RESOLVED * resolution:
         remedy = "record strokes in both directions, with the position in finer steps"
-        raise InputError(
-            Fault(
-                name,
-                Message("does not move: its {path_column} is the same in all rows", {"path_column": log.path_column}),
-                "",
-                remedy,
-            )
-        )
+        raise InputError(Fault(name, f"does not move: its {log.path_column} is the same in all rows", "", remedy))
     if float(np.ptp(log.force)) == 0:
         raise InputError(Fault(name, "has the same force in all rows", "", "record what the motor gives"))

@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.basis.quantities import within_bounds
-from ballscrew.basis.records import Message
 from ballscrew.evidence.moving_logs.columns import (
     EMPS,
     EMPS_GAIN,
@@ -180,11 +179,7 @@ def _of_table(
             lines.append(piece.line[~empty])
             if sum(part.size for part in lines) > MOST_ROWS:
                 remedy = "cut it: a fit of a motion needs a few strokes, not days"
-                raise InputError(
-                    Fault(
-                        path.name, Message("has more than {most_rows} rows", {"most_rows": str(MOST_ROWS)}), "", remedy
-                    )
-                )
+                raise InputError(Fault(path.name, f"has more than {MOST_ROWS} rows", "", remedy))
     if not keep_going:
         raise_if_any(cells.faults)
     line = np.concatenate(lines) if lines else np.empty(0, dtype=np.int64)

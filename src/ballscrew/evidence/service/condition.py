@@ -12,7 +12,6 @@ import numpy as np
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, accepts_units, raise_if_any, renamed_keyword
 from ballscrew.basis.quantities import AngularSpeed, MomentOfInertia, Temperature
-from ballscrew.basis.records import Message
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.engine.uncertainty.distributions import Distribution, standard_normal_share
@@ -106,26 +105,16 @@ def condition(
 def _faults(baseline: Any, false_alarms: Any, tolerance: Any) -> list[Fault]:
     faults: list[Fault] = []
     if not isinstance(baseline, int) or baseline < LEAST_BASELINE:
-        remedy = Message(
-            "give {least_baseline} or more: the scatter is estimated from them; {baseline} is usual",
-            {"least_baseline": str(LEAST_BASELINE), "baseline": str(BASELINE)},
-        )
+        remedy = f"give {LEAST_BASELINE} or more: the scatter is estimated from them; {BASELINE} is usual"
         faults.append(Fault("condition.baseline", "is too short", str(baseline), remedy))
     shares = {"false_alarms": (false_alarms, 1e-4, 0.1), "tolerance": (tolerance, 0.0, 1.0)}
     for name, (value, low, high) in shares.items():
         if not isinstance(value, int | float) or not low < value < high:
-            remedy = (
-                Message("{false_alarms} is usual", {"false_alarms": str(FALSE_ALARMS)})
-                if name == "false_alarms"
-                else "0.1 is usual"
-            )
+            remedy = f"{FALSE_ALARMS} is usual" if name == "false_alarms" else "0.1 is usual"
             faults.append(
                 Fault(
                     f"condition.{name}",
-                    Message(
-                        "must lie between {low} and {high}",
-                        {"low": units.to_significant(low, 6), "high": units.to_significant(high, 6)},
-                    ),
+                    f"must lie between {units.to_significant(low, 6)} and {units.to_significant(high, 6)}",
                     str(value),
                     remedy,
                 )
@@ -136,28 +125,11 @@ def _faults(baseline: Any, false_alarms: Any, tolerance: Any) -> list[Fault]:
 def _faults_of_count(count: int, baseline: int) -> list[Fault]:
     if count > MOST_TESTS:
         remedy = "a table has a row for each test: is this a log? Of logs give several, one for each test"
-        return [
-            Fault(
-                "condition.tests",
-                Message("more than {most_tests}", {"most_tests": str(MOST_TESTS)}),
-                str(count),
-                remedy,
-            )
-        ]
+        return [Fault("condition.tests", f"more than {MOST_TESTS}", str(count), remedy)]
     if count > baseline:
         return []
-    remedy = Message(
-        "give {baseline} or more, or a shorter baseline ({least_baseline} or more)",
-        {"baseline": str(baseline + 1), "least_baseline": str(LEAST_BASELINE)},
-    )
-    return [
-        Fault(
-            "condition.tests",
-            Message("too few: the baseline alone takes {baseline}", {"baseline": str(baseline)}),
-            str(count),
-            remedy,
-        )
-    ]
+    remedy = f"give {baseline + 1} or more, or a shorter baseline ({LEAST_BASELINE} or more)"
+    return [Fault("condition.tests", f"too few: the baseline alone takes {baseline}", str(count), remedy)]
 
 
 def _judged(

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
-from ballscrew.basis.records import Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.evidence.calibration.robust import Vector
 from ballscrew.evidence.service.change_detection import OF_MAD
@@ -32,7 +32,6 @@ ONE_SPEED = 1.1
 LOAD_SHARE = 0.2
 #: The standard deviation of a median over that of a mean.
 _OF_MEDIAN = 1.2533
-_ONE_DIRECTION = Message("{log}: one direction only: a zero error of the sensor counts as friction; measure in both")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -140,7 +139,7 @@ def of_logs(subject: Configuration, logs: Sequence[Any], kind: Kind, inertia: fl
         if not (np.any(clean.forward) and np.any(clean.backward)):
             warnings.append(
                 units.record(
-                    _ONE_DIRECTION.of(log=name),
+                    f"{name}: one direction only: a zero error of the sensor counts as friction; measure in both",
                     id="condition.one_direction",
                     subject=name,
                     severity="warning",
@@ -180,10 +179,7 @@ def _faults_of_jumps(parts: Sequence[tuple[int, _Mean]], labels: Sequence[str]) 
     return [
         Fault(
             f"{labels[i]}: log",
-            Message(
-                "has {usual} times the friction of {labels}",
-                {"usual": units.to_significant(usual[i] / usual[i - 1], 3), "labels": labels[i - 1]},
-            ),
+            f"has {units.to_significant(usual[i] / usual[i - 1], 3)} times the friction of {labels[i - 1]}",
             "",
             remedy,
         )
@@ -233,10 +229,7 @@ def _means(subject: Configuration, log: TorqueLog, kind: Kind) -> tuple[list[_Me
         kept[np.concatenate(sides)] = True
         found.append(_mean(log, rows, sides, share, friction))
     if not found:
-        remedy = Message(
-            "give {least_rows} rows or more of each speed, in both directions or in one",
-            {"least_rows": str(LEAST_ROWS)},
-        )
+        remedy = f"give {LEAST_ROWS} rows or more of each speed, in both directions or in one"
         raise InputError(Fault("log", "has no speed with enough rows", "", remedy))
     return found, log.select(kept, FEW_OF_A_SPEED)
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import InputError
-from ballscrew.basis.records import Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.evidence.calibration.oil_temperature import LOGGED_TEMPERATURE, UNKNOWN_TEMPERATURE, torque_of_model
@@ -34,7 +34,7 @@ SPANS = {"a year": 365.25 * 86400, "1000 h": 3.6e6}
 OF_TESTS = ("10 tests", 10.0)
 _POINTS = 41
 _ZERO_CELSIUS = 273.15
-_OF_TESTS = Message("so in the test that starves the most")
+_OF_TESTS = "so in the test that starves the most"
 #: Causes beside each other.
 _CAUSES = {PRELOAD: "preload", CONSTANT: "constant torque", WARMER: "oil beside what was logged"}
 _NO_TEMPERATURE = (
@@ -136,7 +136,7 @@ def _of_baseline(made: Condition, means: Means, found: Reduction, graded: bool) 
         return []
     text = (
         f"the torque of the first {count} tests, reduced to one temperature, "
-        f"{units.filled(trend.message(made.per_kelvin))}. Tests colder or warmer than these may give an alarm for it, "
+        f"{trend.text(made.per_kelvin)}. Tests colder or warmer than these may give an alarm for it, "
         "or hide one: compare tests of one temperature, or take a longer baseline"
     )
     fields = {"value": trend.slope, "limit": 0.0, "unit": "1/K", "holds": False}

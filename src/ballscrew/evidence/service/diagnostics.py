@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import message_of
+from ballscrew.basis.errors import spoken
 from ballscrew.basis.quantities import Force, Quantity
-from ballscrew.basis.records import Measured, Message, Named, Record
+from ballscrew.basis.records import Record
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.evidence.calibration.fit import points_of
 from ballscrew.evidence.calibration.fit_result import Rows
@@ -24,49 +24,17 @@ from ballscrew.physics.friction.starvation import STARVED
 
 #: A difference between the temperatures of two logs that is said, K.
 TEMPERATURE_DIFFERENCE = 5.0
-_OF_LOG = Message("{log} log: {message}")
-_MISFIT = Message(
-    "with no preload does the model follow the torques, by more than the {share} that it is taken to be off: "
-    "is this the screw, and is the kind of torque right?"
+_NO_TEMPERATURE = (
+    "no temperature: it is found from how the torque goes with the speed, 10 K either way; log the temperature "
+    "of the nut"
 )
-#: By whether it is above.
-_BEYOND = {
-    True: Message(
-        "the logs ask for a {name} {score} standard deviations above what is known of it: is this the screw, or does "
-        "the model miss something?"
-    ),
-    False: Message(
-        "the logs ask for a {name} {score} standard deviations below what is known of it: is this the screw, or does "
-        "the model miss something?"
-    ),
-}
-_ABOVE_RATING = Message(
-    "{log} preload {preload} is more than {percent}% of the dynamic load rating, {limit}: "
-    "it costs life; look at the nut and the units of the log"
+_TEMPERATURE_UNUSED = (
+    "its temperatures are not used, as the oil has a viscosity and no sheet or grade that changes with it: give "
+    "[lubricant] a data sheet or a grade"
 )
-_LIFT_OFF = Message(
-    "the load takes the preload off one side in {beyond} of {rows} rows, which tell nothing of it: {left} rows do"
-)
-_NO_TEMPERATURE = Message(
-    "no temperature: it is found from how the torque goes with the speed, 10 K either way; "
-    "log the temperature of the nut"
-)
-_TEMPERATURE_UNUSED = Message(
-    "its temperatures are not used, as the oil has a viscosity and no sheet or grade that changes with it: "
-    "give [lubricant] a data sheet or a grade"
-)
-#: By whether the worn nut was hotter.
-_DIFFERENCE = {
-    True: Message("the worn log is {difference} K hotter than the new one: {graded}"),
-    False: Message("the worn log is {difference} K colder than the new one: {graded}"),
-}
-_BY_GRADE = Message("the oil's grade accounts for it")
-_WITHOUT_GRADE = Message("give [lubricant] a grade to account for it")
-_TREND = Message(
-    "the torque over that of the model {trend}; a preload by logs of other temperatures is off by as much: "
-    "compare logs of one temperature"
-)
-_ONE_DIRECTION = Message("one direction only: a zero error of the sensor counts as friction; measure in both")
+_BY_GRADE = "the oil's grade accounts for it"
+_WITHOUT_GRADE = "give [lubricant] a grade to account for it"
+_ONE_DIRECTION = "one direction only: a zero error of the sensor counts as friction; measure in both"
 #: A misfit of a log that is seldom chance, and a number so many standard deviations from what is known of it, are said.
 MISFIT_SHARE, LARGEST_SCORE = 1e-3, 2.0
 #: Warnings of the fit of the preload alone that hold whatever the other numbers are.
@@ -101,15 +69,14 @@ def warning_records(
     ]
 
 
-def _record(name: str, subject: str, text: str | Message, **more: Any) -> Record:
+def _record(name: str, subject: str, text: str, **more: Any) -> Record:
     fields: dict[str, Any] = {"severity": "warning", "holds": False, **more}
-    return units.record(message_of(text), id=f"service.{name}", subject=subject, **fields)
+    return units.record(text, id=f"service.{name}", subject=subject, **fields)
 
 
-def _log_record(name: str, label: str, subject: str, text: str | Message, **more: Any) -> Record:
+def _log_record(name: str, label: str, subject: str, text: str, **more: Any) -> Record:
     """A record of what is said of one of the logs."""
-    message = _OF_LOG.of(log=Message(label), message=message_of(text))
-    return _record(name, f"{label}.{subject}", message, **more)
+    return _record(name, f"{label}.{subject}", f"{label} log: {text}", **more)
 
 
 def _rows(one: PreloadEstimate) -> Rows:
@@ -121,12 +88,7 @@ def _of_fit(label: str, one: PreloadEstimate) -> list[Record]:
     assert one.fit is not None
     said = [record for record in one.fit.warning_records if record.id in _SAID]
     return [
-        dataclasses.replace(
-            record,
-            subject=f"{label}.{record.subject}",
-            text=_OF_LOG.of(log=label, message=record.text).filled(Measured.plain),
-            message=_OF_LOG.of(log=Message(label), message=record.message),
-        )
+        dataclasses.replace(record, subject=f"{label}.{record.subject}", text=f"{label} log: {record.text}")
         for record in said
     ]
 
@@ -144,11 +106,19 @@ def _of_numbers(found: Posterior, labels: list[str]) -> list[Record]:
     for label, one in zip(labels, found.preloads, strict=True):
         misfit = float(one.misfit[found.best])
         if misfit > limit:
-            message = _MISFIT.of(share=units.percent(MODEL_ERROR))
+            message = (
+                "with no preload does the model follow the torques, by more than the "
+                f"{units.percent(MODEL_ERROR)} that it is taken to be off: is this the screw, and is the kind of "
+                "torque right?"
+            )
             records.append(_log_record("misfit", label, "torque", message, value=misfit, limit=limit))
     for name, score in found.mean_scores().items():
         if abs(score) > LARGEST_SCORE:
-            message = _BEYOND[score > 0].of(name=Named(name), score=units.fixed(abs(score), 1))
+            message = (
+                f"the logs ask for a {spoken(name)} {units.fixed(abs(score), 1)} standard deviations "
+                f"{'above' if score > 0 else 'below'} what is known of it: is this the screw, or does the model miss "
+                "something?"
+            )
             records.append(_record("beyond_known", name, message, value=score, limit=LARGEST_SCORE))
     return records
 
@@ -164,11 +134,10 @@ def _of_ratings(
     for label, one in both.items():
         if one.preload <= limit:
             continue
-        message = _ABOVE_RATING.of(
-            log=Message(label),
-            preload=units.shown(one.preload, quantity),
-            limit=units.shown(limit, quantity),
-            percent=Measured(100 * HIGHEST_PRELOAD),
+        percent = units.number(100 * HIGHEST_PRELOAD)
+        message = (
+            f"{label} preload {units.shown(one.preload, quantity)} is more than {percent}% of the dynamic load "
+            f"rating, {units.shown(limit, quantity)}: it costs life; look at the nut and the units of the log"
         )
         found.append(
             _record("preload_above_rating", f"{label}.preload", message, value=one.preload, limit=limit, unit="N")
@@ -180,7 +149,10 @@ def _of_lift_off(label: str, one: PreloadEstimate) -> list[Record]:
     beyond, rows = one.rows_beyond_lift_off, len(_rows(one).log)
     if not beyond:
         return []
-    message = _LIFT_OFF.of(beyond=units.fixed(beyond), rows=units.fixed(rows), left=units.fixed(rows - beyond))
+    message = (
+        f"the load takes the preload off one side in {units.fixed(beyond)} of {units.fixed(rows)} rows, which "
+        f"tell nothing of it: {units.fixed(rows - beyond)} rows do"
+    )
     return [_log_record("lift_off", label, "axial_load", message, value=float(beyond), limit=0.0)]
 
 
@@ -196,8 +168,9 @@ def _of_temperatures(logs: dict[str, PreloadEstimate], subject: Configuration) -
     if len(known) == 2:
         warmer = known["worn"] - known["new"]
         if abs(warmer) > TEMPERATURE_DIFFERENCE:
-            message = _DIFFERENCE[warmer > 0].of(
-                difference=units.fixed(abs(warmer)), graded=_BY_GRADE if graded else _WITHOUT_GRADE
+            message = (
+                f"the worn log is {units.fixed(abs(warmer))} K {'hotter' if warmer > 0 else 'colder'} than the new "
+                f"one: {_BY_GRADE if graded else _WITHOUT_GRADE}"
             )
             severity = "info" if graded else "warning"
             records.append(
@@ -233,7 +206,11 @@ def _of_trend(label: str, one: PreloadEstimate) -> list[Record]:
     if trend is None or not trend.told or abs(trend.slope) * trend.temperature_range < MODEL_ERROR:
         return []
     warmer = torque_of_model(subject, points, FRICTION, one.warmer + 1.0)
-    message = _TREND.of(trend=trend.message(float(np.mean(np.log(warmer / model)))))
+    per_kelvin = float(np.mean(np.log(warmer / model)))
+    message = (
+        f"the torque over that of the model {trend.text(per_kelvin)}; a preload by "
+        "logs of other temperatures is off by as much: compare logs of one temperature"
+    )
     fields = {"value": trend.slope, "limit": 0.0, "unit": "1/K"}
     return [_log_record("temperature_trend", label, "temperature", message, **fields)]
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from ballscrew.basis.errors import ONE_BY_ONE, Fault, InputError, accepts_units, nearest, raise_if_any, renamed_keyword
 from ballscrew.basis.quantities import Force, MomentOfInertia
-from ballscrew.basis.records import Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95, default_distributions
@@ -221,19 +221,9 @@ def held_numbers(subject: Configuration, uncertain: Mapping[str, Distribution] |
 def _faults_of_options(free: Sequence[str], tolerance: Any) -> list[Fault]:
     faults: list[Fault] = []
     if isinstance(free, str) or PRELOAD not in free:
-        faults.append(
-            Fault(
-                "service.free",
-                Message("must have {preload} in it", {"preload": str(PRELOAD)}),
-                str(free),
-                Message('free=["{preload}"]', {"preload": str(PRELOAD)}),
-            )
-        )
+        faults.append(Fault("service.free", f"must have {PRELOAD} in it", str(free), f'free=["{PRELOAD}"]'))
     else:
-        remedy = Message(
-            "{names} can be fitted; a distribution of a number in the case makes it unknown, too",
-            {"names": " and ".join(FREE)},
-        )
+        remedy = f"{' and '.join(FREE)} can be fitted; a distribution of a number in the case makes it unknown, too"
         faults += [
             Fault("service.free", "is not fitted to each log", name, remedy) for name in free if name not in FREE
         ]

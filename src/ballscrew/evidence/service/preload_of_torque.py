@@ -11,7 +11,6 @@ import numpy as np
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, accepts_units, raise_if_any, renamed_keyword
 from ballscrew.basis.quantities import AngularSpeed, Temperature, Torque
-from ballscrew.basis.records import Message
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.uncertainty.default_uncertainties import NORMAL_95
 from ballscrew.engine.uncertainty.distributions import Distribution, standard_normal_quantile
@@ -95,13 +94,9 @@ def preload_of_torque(
     possible = (least < wanted) & (wanted < most)
     if np.count_nonzero(possible) < MINIMUM_SAMPLES:
         without, much = float(np.nanmedian(least)), float(np.nanmedian(most))
-        problem = Message(
-            "no preload gives it: the nut loses {without} N m without any, {much} N m at {most} times it",
-            {
-                "without": units.to_significant(without, 3),
-                "much": units.to_significant(much, 3),
-                "most": units.to_significant(MOST, 6),
-            },
+        problem = (
+            f"no preload gives it: the nut loses {units.to_significant(without, 3)} N m without any, "
+            f"{units.to_significant(much, 3)} N m at {units.to_significant(MOST, 6)} times it"
         )
         remedy = "look at the unit, and at the seals in [losses]"
         raise InputError(Fault("service.torque", problem, f"{torque:.4g} N m", remedy))

@@ -11,7 +11,6 @@ from typing import NamedTuple
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.records import Message
 from ballscrew.evidence.calibration.identifiability import long_run_covariance
 from ballscrew.evidence.calibration.oil_temperature import LOGGED_TEMPERATURE
 from ballscrew.evidence.calibration.robust import Vector, autocorrelation_lag
@@ -22,25 +21,6 @@ CHANCE = 0.01
 LEAST_RANGE = LOGGED_TEMPERATURE
 #: Half of the values beyond the interval of 95 %.
 _LEVEL = 0.95
-#: By whether the torque rises, and whether the model over-corrects.
-_WORDS = {
-    (True, True): Message(
-        "still rises by {slope} a kelvin ({low} to {high} %, 95 %): the model over-corrects, it accounts for too much "
-        "of the temperature"
-    ),
-    (True, False): Message(
-        "still rises by {slope} a kelvin ({low} to {high} %, 95 %): the model under-corrects, it accounts for too "
-        "little of the temperature"
-    ),
-    (False, True): Message(
-        "still falls by {slope} a kelvin ({low} to {high} %, 95 %): the model over-corrects, it accounts for too much "
-        "of the temperature"
-    ),
-    (False, False): Message(
-        "still falls by {slope} a kelvin ({low} to {high} %, 95 %): the model under-corrects, it accounts for too "
-        "little of the temperature"
-    ),
-}
 
 
 class TemperatureTrend(NamedTuple):
@@ -59,12 +39,15 @@ class TemperatureTrend(NamedTuple):
         """Whether it is clear, by :data:`CHANCE`."""
         return self.chance < CHANCE
 
-    def message(self, per_kelvin: float) -> Message:
+    def text(self, per_kelvin: float) -> str:
         """The trend and what it says of a model whose torque has this derivative of its logarithm, 1/K."""
         rises, over = self.slope > 0, self.slope * per_kelvin < 0
-        ends = sorted(abs(100 * end) for end in (self.low, self.high))
-        return _WORDS[rises, over].of(
-            slope=units.percent(abs(self.slope), 2), low=units.fixed(ends[0], 2), high=units.fixed(ends[1], 2)
+        low, high = (units.fixed(end, 2) for end in sorted(abs(100 * end) for end in (self.low, self.high)))
+        verb = "rises" if rises else "falls"
+        model = "over-corrects, it accounts for too much" if over else "under-corrects, it accounts for too little"
+        return (
+            f"still {verb} by {units.percent(abs(self.slope), 2)} a kelvin ({low} to {high} %, 95 %): "
+            f"the model {model} of the temperature"
         )
 
 

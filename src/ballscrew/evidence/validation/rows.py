@@ -11,9 +11,8 @@ from typing import Any
 import numpy as np
 
 from ballscrew.axis.supports.bearing import SupportBearing
-from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.errors import Fault, InputError, either
 from ballscrew.basis.quantities import Ratio, Torque, fields_of
-from ballscrew.basis.records import Message
 from ballscrew.evidence.validation.entries import RPM, Band, Conditions, OperatingPoint, Point, UpperLimitOnly, Values
 from ballscrew.files.tables.column_names import YES
 from ballscrew.physics.components.conditions import ContactConditions, Motion
@@ -255,8 +254,7 @@ def plausible_screw(model: FrictionModel, values: Values, conditions: Conditions
 
 
 def _unknown_nut(kind: str, known: Mapping[str, Any]) -> Fault:
-    remedy = Message("write {remedy}", {"remedy": " or ".join(f'"{name}"' for name in known)})
-    return Fault("row.nut", "unknown kind of preloaded nut", kind, remedy)
+    return Fault("row.nut", "unknown kind of preloaded nut", kind, f"write {either(known)}")
 
 
 def part_of_a_whole(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:

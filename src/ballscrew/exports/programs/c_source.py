@@ -13,7 +13,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.records import Message
 from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.steps import Operand, Step, choose
 
@@ -178,4 +177,4 @@ def expression(step: Step, operand: Callable[[tuple[str, Operand]], str]) -> str
     if function in CALLS:
         return f"{CALLS[function]}({', '.join(values)})"
     remedy = "write the law with functions of the C library, or take a table (--to table)"
-    raise InputError(Fault("hand_over.to", Message("C has no {function}", {"function": function.__name__}), "", remedy))
+    raise InputError(Fault("hand_over.to", f"C has no {function.__name__}", "", remedy))

@@ -21,7 +21,6 @@ from numpy.typing import NDArray
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.records import Message
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.exports.export import Export
 from ballscrew.exports.programs import interpreter
@@ -35,11 +34,6 @@ from ballscrew.exports.worst_error import Values, WorstError, worst_errors
 REGULARISATION_SPEED = 0.01
 #: From so many times that speed on the tanh is 1 to the last digit.
 _MOVING = 20.0
-_AT_REST = Message(
-    "friction passes through zero over {slow} (parameter regularisation_speed), so that below {moving} drive_torque "
-    "lacks a part of it, next to rest all, and a load at rest creeps: where holding matters, brake where "
-    "holding_torque says so"
-)
 #: The name of the model in an FMU, of its library and of its file.
 IDENTIFIER = "ballscrew"
 OPTIONS: Mapping[str, Option] = {"version": Option(2, "version of the standard, 2 or 3")}
@@ -114,7 +108,9 @@ def export(handed: HandOver) -> Export:
         units.in_unit(speed, "rad/s", 6) for speed in (REGULARISATION_SPEED, _MOVING * REGULARISATION_SPEED)
     )
     warning = units.record(
-        _AT_REST.of(slow=slow, moving=moving),
+        f"friction passes through zero over {slow} (parameter regularisation_speed), so that below {moving} "
+        "drive_torque lacks a part of it, next to rest all, and a load at rest creeps: where holding matters, "
+        "brake where holding_torque says so",
         id="hand_over.rest",
         subject="regularisation_speed",
         severity="warning",

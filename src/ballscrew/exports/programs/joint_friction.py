@@ -16,7 +16,7 @@ from scipy.optimize import linprog
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.basis.records import Measured, Message, Record, in_file
+from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.exports.programs import c99
@@ -56,29 +56,6 @@ MEASURED, FEWER, FEWER_LOADS = 499, 49, 300
 BEYOND = 1e4
 #: Loads of the table of errors, as shares of the load of the fit.
 SHARES = (0.0, 0.5, 1.0, 1.5, 2.0)
-_NO_MASS_BUT_LOAD = Message(
-    "no mass is given ({axis_mass}): the axis of the files is vertical and has {mass}, whose weight is the load of the "
-    "fit"
-)
-_NO_MASS = Message(
-    "no mass is given ({axis_mass}): the axis of the files is vertical and has {mass}, of no meaning, as there is no "
-    "load either"
-)
-_COUNTERFORCE = Message(
-    "a force of {force} along positive motion balances the weight, and the files have no place for it: "
-    "add it in the simulation"
-)
-_ERRORS = Message(
-    "The friction of the joint knows no load: over the speeds of the fit it is at most {percent} % off the model at "
-    "{load}, and over its whole range {worst} off at {at_load} and {at_speed}"
-)
-_ERRORS_AROUND = Message(
-    "The friction of the joint knows no load: over the speeds of the fit it is at most {percent} % off the model at "
-    "{load}, {near} % from {half} to {twice}, and over its whole range {worst} off at {at_load} and {at_speed}"
-)
-_ALSO_AT_REST = Message("{errors}; at rest it is {percent} % off at {load}")
-_BEYOND_RANGE = Message("{errors}; beyond its range, and below the lowest speed of the fit, it goes on as fitted")
-_FEW_VALID = Message("at {load} the model itself holds at {percent} % of the speeds of the fit; ballscrew run says why")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -182,12 +159,18 @@ class JointFriction:
         """A sentence where the mass is none of the case, and where a file does not have what balances the weight."""
         found = list[Record]()
         if math.isnan(self.given_mass):
-            message = (_NO_MASS_BUT_LOAD if self.load else _NO_MASS).of(
-                mass=units.in_unit(self.mass, "kg"), axis_mass=in_file("axis.mass")
+            use = "whose weight is the load of the fit" if self.load else "of no meaning, as there is no load either"
+            message = (
+                "no mass is given ([axis] mass): the axis of the files is vertical and has "
+                f"{units.in_unit(self.mass, 'kg')}, {use}"
             )
             found.append(_assumed("hand_over.mass", "mass", message))
         if self.counterforce and not balances:
-            message = _COUNTERFORCE.of(force=units.in_unit(self.counterforce, "N"))
+            force = units.in_unit(self.counterforce, "N")
+            message = (
+                f"a force of {force} along positive motion balances the weight, and the files have no place for "
+                "it: add it in the simulation"
+            )
             found.append(_assumed("hand_over.counterforce", "counterforce", message))
         return found
 
@@ -196,7 +179,7 @@ class JointFriction:
         return {"screw_torque": self.torque(points[OPERATION[1]])}
 
 
-def _assumed(name: str, subject: str, message: Message) -> Record:
+def _assumed(name: str, subject: str, message: str) -> Record:
     return units.record(message, id=name, subject=subject, severity="warning", holds=False)
 
 
@@ -320,33 +303,25 @@ class JointErrors(NamedTuple):
     @property
     def text(self) -> str:
         """The errors in words."""
-        return units.filled(self.message)
-
-    @property
-    def message(self) -> Message:
-        """The errors in words, as a template with its numbers."""
-        load, half, twice = (Measured(one.at[OPERATION[0]], LOAD) for one in (self.at_load, *self.by_load[1::3]))
+        load, half, twice = (units.shown(one.at[OPERATION[0]], LOAD) for one in (self.at_load, *self.by_load[1::3]))
         near = max(one.relative for one in self.by_load[1:])
-        values = {
-            "percent": _percent(self.at_load.relative),
-            "load": load,
-            "worst": units.in_unit(self.over_loads.value, "N m", 2),
-            "at_load": Measured(self.over_loads.at[OPERATION[0]], LOAD),
-            "at_speed": Measured(self.over_loads.at[OPERATION[1]], LOWEST_SPEED),
-        }
-        if units.shown(half.value, LOAD) != units.shown(twice.value, LOAD):
-            message = _ERRORS_AROUND.of(**values, near=_percent(near), half=half, twice=twice)
-        else:
-            message = _ERRORS.of(**values)
+        around = f", {_percent(near)} % from {half} to {twice}" if half != twice else ""
+        at_load = units.shown(self.over_loads.at[OPERATION[0]], LOAD)
+        at_speed = units.shown(self.over_loads.at[OPERATION[1]], LOWEST_SPEED)
+        text = (
+            "The friction of the joint knows no load: over the speeds of the fit it is at most "
+            f"{_percent(self.at_load.relative)} % off the model at {load}{around}, and over its whole range "
+            f"{units.in_unit(self.over_loads.value, 'N m', 2)} off at {at_load} and {at_speed}"
+        )
         if self.at_rest is None:
-            return message
-        return _ALSO_AT_REST.of(errors=message, percent=_percent(self.at_rest.relative), load=load)
+            return text
+        return f"{text}; at rest it is {_percent(self.at_rest.relative)} % off at {load}"
 
     def warnings(self, joint: JointFriction) -> list[Record]:
         """The errors as a warning, and one where the model itself does not hold at all speeds of the fit."""
         found = [
             units.record(
-                _BEYOND_RANGE.of(errors=self.message),
+                f"{self.text}; beyond its range, and below the lowest speed of the fit, it goes on as fitted",
                 id="hand_over.no_load",
                 subject="screw_torque",
                 severity="warning",
@@ -356,7 +331,11 @@ class JointErrors(NamedTuple):
             )
         ]
         if joint.share_valid < 1:
-            message = _FEW_VALID.of(load=Measured(joint.load, LOAD), percent=units.fixed(100 * joint.share_valid))
+            percent = units.fixed(100 * joint.share_valid)
+            message = (
+                f"at {units.shown(joint.load, LOAD)} the model itself holds at {percent} % of the speeds of the "
+                "fit; ballscrew run says why"
+            )
             found.append(
                 units.record(
                     message,

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.records import Message
 from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.steps import choose
 from ballscrew.exports.programs.two_levels import TwoLevels, two_levels
@@ -106,7 +105,7 @@ def _operation(function: Any) -> int:
     """The number of an operation of the interpreter. Raises ``InputError`` for one that it lacks."""
     if function not in OPERATIONS:
         remedy = "write the law with functions of the C library, or take a table (--to table)"
-        problem = Message("the interpreter has no {function}", {"function": function.__name__})
+        problem = f"the interpreter has no {function.__name__}"
         raise InputError(Fault("hand_over.to", problem, "", remedy))
     return OPERATIONS[function]
 

@@ -11,7 +11,6 @@ import dataclasses
 from typing import NamedTuple
 
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.records import Message
 from ballscrew.compiler.tracing.grid import Split
 from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.reductions import Stages
@@ -108,7 +107,7 @@ def _two_levels(handed: HandOver) -> TwoLevels:
         program = recorded_structure(subject, wanted, names)
         stages, cut = stages_by_ball(program, names)
     except CannotRecordError as error:
-        problem = Message("needs a model that can be recorded: {error}", {"error": str(error)})
+        problem = f"needs a model that can be recorded: {error}"
         raise InputError(Fault("hand_over.to", problem, "", _INSTEAD)) from None
     found = TwoLevels(
         tuple(handed.input_names.index(name) for name in names),
@@ -123,11 +122,7 @@ def _two_levels(handed: HandOver) -> TwoLevels:
     }
     if missing := others & (read | {*found.behind.outputs.values()}):
         what = ", ".join(OF_LOADS[i - len(names)] for i in sorted(missing))
-        raise InputError(
-            Fault(
-                "hand_over.outputs", Message("need what the solver in C has not: {what}", {"what": what}), "", _INSTEAD
-            )
-        )
+        raise InputError(Fault("hand_over.outputs", f"need what the solver in C has not: {what}", "", _INSTEAD))
     return found
 
 
@@ -136,7 +131,7 @@ def _check(handed: HandOver) -> None:
     if nut.deviations is not None or nut.bodies is None:
         problem, remedy = (
             "balls or a lead that deviate are solved in Python only",
-            Message("{instead}, or leave [deviations] out", {"instead": str(_INSTEAD)}),
+            f"{_INSTEAD}, or leave [deviations] out",
         )
         faults.append(Fault("hand_over.to", problem, "", remedy))
     if getattr(nut, "oversize", None) is not None:

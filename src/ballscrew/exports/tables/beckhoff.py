@@ -15,7 +15,7 @@ import numpy as np
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.records import Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.exports.export import Export
 from ballscrew.exports.subject import HandOver
 from ballscrew.exports.tables.friction_curve import OPTIONS as OF_CURVES
@@ -46,10 +46,8 @@ def export(handed: HandOver) -> Export:
     found = curve.export(handed, "beckhoff", _files(handed, curve, scale))
     rounding = 0.5 / scale
     share = rounding / float(curve.torques.min())
-    message = Message(
-        "torques are whole numbers of the drive: rounding adds up to {percent} % of the friction",
-        {"percent": units.to_significant(100 * share, 2)},
-    )
+    percent = units.to_significant(100 * share, 2)
+    message = f"torques are whole numbers of the drive: rounding adds up to {percent} % of the friction"
     record = units.record(
         message,
         id="hand_over.rounding",

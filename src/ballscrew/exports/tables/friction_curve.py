@@ -10,7 +10,7 @@ import numpy as np
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Force, Info, Quantity, unit_of
-from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.exports.export import Export
@@ -78,9 +78,9 @@ def friction_curve(handed: HandOver, count: int, slowest: float | None = None) -
     load, limits = float(handed.options["load"]), handed.working_range
     if not limits[OPERATION[0]][0] <= load <= limits[OPERATION[0]][1]:
         least, greatest = limits[OPERATION[0]]
-        remedy = Message(
-            "give a load from {least} N to {greatest} N, or a larger range",
-            {"least": units.to_significant(least, 6), "greatest": units.to_significant(greatest, 6)},
+        remedy = (
+            f"give a load from {units.to_significant(least, 6)} N to {units.to_significant(greatest, 6)} N, or a "
+            "larger range"
         )
         raise InputError(Fault("hand_over.load", "is beyond the range", f"{load:g} N", remedy))
     fixed = {one.name: one.value for one in handed.inputs if one.name != OPERATION[1]} | {OPERATION[0]: load}
@@ -128,11 +128,8 @@ def _widened(handed: HandOver, ends: tuple[float, float]) -> list[Record]:
     if asked == ends:
         return []
     quantity = next(one.quantity for one in handed.inputs if one.name == OPERATION[1])
-    least, greatest, slow, fast = (Measured(float(end), quantity) for end in (*asked, *ends))
-    message = Message(
-        "the curve is of both directions from rest: {slow} to {fast}, not {least} to {greatest} only",
-        {"slow": slow, "fast": fast, "least": least, "greatest": greatest},
-    )
+    least, greatest, slow, fast = (units.shown(end, quantity) for end in (*asked, *ends))
+    message = f"the curve is of both directions from rest: {slow} to {fast}, not {least} to {greatest} only"
     return [
         units.record(message, id="hand_over.both_directions", subject=OPERATION[1], severity="warning", holds=False)
     ]
@@ -148,10 +145,10 @@ def _points(handed: HandOver, fixed: Mapping[str, float], first: float, fastest:
 
 def _one_load(curve: FrictionCurve) -> Record:
     load = curve.fixed[OPERATION[0]]
-    message = Message(
-        "the curve knows one load, {load}, and one temperature; at another load of the range the friction differs by "
-        "up to {difference}",
-        {"load": units.in_unit(load, "N", 6), "difference": units.in_unit(curve.at_other_loads, "N m", 2)},
+    difference = units.in_unit(curve.at_other_loads, "N m", 2)
+    message = (
+        f"the curve knows one load, {units.in_unit(load, 'N', 6)}, and one temperature; at another load of the "
+        f"range the friction differs by up to {difference}"
     )
     return units.record(
         message,

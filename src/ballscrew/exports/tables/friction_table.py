@@ -14,7 +14,7 @@ from scipy.interpolate import RegularGridInterpolator
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.records import Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.engine.evaluation.evaluator import evaluator
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.exports.export import Export
@@ -111,13 +111,11 @@ class FrictionTable:
         tolerance = handed.options["tolerance"]
         if self.error <= tolerance:
             return []
-        message = Message(
-            "the friction between the nodes is off by up to {error} %, not {tolerance} %; a smaller range makes it "
-            'finer: --range axial_load="-5:5 kN"',
-            {
-                "error": units.to_significant(100 * self.error, 2),
-                "tolerance": units.to_significant(100 * tolerance, 2),
-            },
+        error = units.to_significant(100 * self.error, 2)
+        message = (
+            f"the friction between the nodes is off by up to {error} %, not "
+            f"{units.to_significant(100 * tolerance, 2)} %; a smaller range makes it finer: --range "
+            'axial_load="-5:5 kN"'
         )
         return [
             units.record(
@@ -185,10 +183,7 @@ def _too_many(size: int) -> Fault:
     remedy = "give a larger tolerance (--option tolerance=0.05), fewer axes or smaller ranges"
     return Fault(
         "hand_over.tolerance",
-        Message(
-            "needs a table of {size} nodes, more than {most_nodes}",
-            {"size": units.grouped(size), "most_nodes": units.grouped(MOST_NODES)},
-        ),
+        f"needs a table of {units.grouped(size)} nodes, more than {units.grouped(MOST_NODES)}",
         "",
         remedy,
     )
@@ -213,9 +208,7 @@ def no_more_axes(table: FrictionTable, what: str) -> None:
     others = [name for name in table.axes if name not in OPERATION]
     if others:
         remedy = "leave its range out, and the value of the case counts"
-        raise InputError(
-            Fault(f"hand_over.ranges.{others[0]}", Message("cannot be an axis of {what}", {"what": what}), "", remedy)
-        )
+        raise InputError(Fault(f"hand_over.ranges.{others[0]}", f"cannot be an axis of {what}", "", remedy))
 
 
 def interpolated(axes: Mapping[str, Floats], values: Floats, points: Floats) -> Floats:
@@ -301,9 +294,6 @@ def _check_finite(output: str, axes: Mapping[str, Floats], values: Floats) -> No
     bad = np.argwhere(~np.isfinite(values))
     if len(bad):
         where = ", ".join(f"{name} = {axes[name][i]:.4g}" for name, i in zip(axes, bad[0], strict=True))
-        problem = Message(
-            "{output} is no finite number at {count} nodes, the first {where} (SI)",
-            {"output": output, "count": str(len(bad)), "where": where},
-        )
+        problem = f"{output} is no finite number at {len(bad)} nodes, the first {where} (SI)"
         remedy = 'leave this output out, or give a smaller range: --range axial_load="1:5 kN"'
         raise InputError(Fault("hand_over.to", problem, "", remedy))

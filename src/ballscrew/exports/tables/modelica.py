@@ -11,7 +11,7 @@ import numpy as np
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import AngularSpeed, Info, Quantity, unit_of
-from ballscrew.basis.records import Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.exports.export import Export
 from ballscrew.exports.subject import HandOver
@@ -36,10 +36,6 @@ OPTIONS: Mapping[str, Option] = {
 }
 #: Inertia of the motor of the example, kg m².
 _ROTOR = 1e-3
-_OFF = Message("the table of a LossyGear is off by up to {error}, {percent} % of the largest friction")
-_OFF_BY_MUCH = Message(
-    "the table of a LossyGear is off by up to {error}, {percent} % of the largest friction; take the component instead"
-)
 
 _README = """\
 BallScrewFriction.mo has the component BallScrew with an example; it needs the Modelica Standard Library, version 4.
@@ -211,18 +207,19 @@ def _lossy_gear(handed: HandOver, gear: LossTable) -> str:
 
 
 def _creeps(at_rest: float) -> Record:
-    message = Message(
-        "friction is a slope through zero up to about {speed}: a load that friction holds creeps there; "
-        "do not read holding from this component",
-        {"speed": units.in_unit(at_rest, "rad/s", 6)},
+    message = (
+        f"friction is a slope through zero up to about {units.in_unit(at_rest, 'rad/s', 6)}: a load that friction "
+        "holds creeps there; do not read holding from this component"
     )
     return units.record(message, id="hand_over.at_rest", subject=DRIVE, severity="warning", holds=False, value=at_rest)
 
 
 def _gear_is_off(gear: LossTable) -> list[Record]:
     severe = gear.of_largest > LARGE
-    message = (_OFF_BY_MUCH if severe else _OFF).of(
-        error=units.in_unit(gear.error, "N m", 2), percent=units.to_significant(100 * gear.of_largest, 2)
+    percent = units.to_significant(100 * gear.of_largest, 2)
+    message = (
+        f"the table of a LossyGear is off by up to {units.in_unit(gear.error, 'N m', 2)}, {percent} % of the largest "
+        f"friction{'; take the component instead' if severe else ''}"
     )
     return [
         units.record(

@@ -13,7 +13,6 @@ import numpy as np
 import xarray as xr
 
 from ballscrew.basis.errors import Fault, InputError, nearest
-from ballscrew.basis.records import Message
 from ballscrew.exports.export import Export
 from ballscrew.exports.subject import HandOver
 from ballscrew.exports.tables import notes
@@ -57,10 +56,8 @@ def _kinds(text: str) -> list[str]:
         if kind not in KINDS:
             raise InputError(Fault("hand_over.kinds", "unknown kind of file", kind, nearest(kind, KINDS)))
         if missing[kind]:
-            remedy = Message("pip install {names}", {"names": " ".join(missing[kind])})
-            raise InputError(
-                Fault("hand_over.kinds", Message("needs {names}", {"names": " and ".join(missing[kind])}), kind, remedy)
-            )
+            remedy = f"pip install {' '.join(missing[kind])}"
+            raise InputError(Fault("hand_over.kinds", f"needs {' and '.join(missing[kind])}", kind, remedy))
     return list(dict.fromkeys(asked)) or [kind for kind in KINDS if not missing[kind]]
 
 

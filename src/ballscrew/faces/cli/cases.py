@@ -384,14 +384,11 @@ def _check_combination(
 ) -> None:
     """Raise :class:`~ballscrew.basis.errors.InputError` for options that do not go together."""
     from ballscrew.basis.errors import Fault, raise_if_any
-    from ballscrew.basis.records import Message
 
     others = {"--rows": rows, "--scheduler": scheduler}
     raise_if_any(
         [
-            Fault(
-                "--self-heating", Message("is given beside {name}", {"name": name}), str(value), "leave one of them out"
-            )
+            Fault("--self-heating", f"is given beside {name}", str(value), "leave one of them out")
             for name, value in others.items()
             if self_heating and value is not None
         ]

@@ -133,9 +133,8 @@ def _chosen(path: Path, selection: Selection, shown: Sequence[Ranked], rank: int
 
 def _no_such_rank(rank: int, candidates: int) -> InputError:
     from ballscrew.basis.errors import Fault, InputError
-    from ballscrew.basis.records import Message
 
-    remedy = Message("there are {candidates}", {"candidates": str(candidates)})
+    remedy = f"there are {candidates}"
     return InputError(Fault("--rank", "there is no such candidate", str(rank), remedy))
 
 
@@ -191,15 +190,12 @@ def _check_file(path: Path, *others: str) -> None:
     """
     from ballscrew.basis.atomic_files import check_writable
     from ballscrew.basis.errors import Fault, InputError
-    from ballscrew.basis.records import Message
     from ballscrew.questions.shared import row_tables
     from ballscrew.questions.shared.chart_files import SUFFIXES, check_picture
 
     known = (*row_tables.KINDS, *SUFFIXES, *others)
     if path.suffix.lower() not in known:
-        raise InputError(
-            Fault(_TO, "unknown kind of file", str(path), Message("end it in {names}", {"names": ", ".join(known)}))
-        )
+        raise InputError(Fault(_TO, "unknown kind of file", str(path), f"end it in {', '.join(known)}"))
     if path.suffix.lower() in others:
         check_writable(_TO, path)
     elif path.suffix.lower() in row_tables.KINDS:

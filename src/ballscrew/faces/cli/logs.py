@@ -184,9 +184,8 @@ def _fit_torques(
 def _not_written(to: str, report: FitReport) -> Fault:
     """The fault of a fit that should not be written as a calibrated case."""
     from ballscrew.basis.errors import Fault
-    from ballscrew.basis.records import Message
 
-    problem = Message("is not written: {reason}", {"reason": report.objection})
+    problem = f"is not written: {report.objection}"
     return Fault("--to", problem, to, "see the warnings of the fit, or write it all the same by --keep-going")
 
 

@@ -50,7 +50,6 @@ def report(
     only where --date says one.
     """
     from ballscrew.basis.errors import Fault, InputError
-    from ballscrew.basis.records import Message
     from ballscrew.faces.report.files import check_kind
 
     kind = check_kind(_TO, to)
@@ -59,7 +58,7 @@ def report(
     from ballscrew.faces.report.heading import Heading
 
     if len(beside or []) > _MOST_BESIDE:
-        most = Message("{most_beside} at most", {"most_beside": str(_MOST_BESIDE)})
+        most = f"{_MOST_BESIDE} at most"
         raise InputError(Fault("--beside", "too many designs", str(len(beside or [])), most))
     loaded, *others = (case_options.load(path) for path in (case, *(beside or [])))
     heading = Heading.of(options.project, options.date)
@@ -195,15 +194,10 @@ def serve(
     import webbrowser
 
     from ballscrew.basis.errors import Fault, InputError
-    from ballscrew.basis.records import Message
 
     missing = [name for name in _NEEDS if importlib.util.find_spec(name) is None]
     if missing:
-        raise InputError(
-            Fault(
-                "serve", Message("needs {names}", {"names": " and ".join(missing)}), "", 'pip install "ballscrew[web]"'
-            )
-        )
+        raise InputError(Fault("serve", f"needs {' and '.join(missing)}", "", 'pip install "ballscrew[web]"'))
     listening = _listening(host, port)
     from ballscrew.faces.web import connections, guard, server
     from ballscrew.faces.web.job_process import Forks

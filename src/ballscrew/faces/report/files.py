@@ -10,7 +10,6 @@ from typing import Literal
 
 from ballscrew.basis.atomic_files import atomic_write, check_writable
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.case import Case
 from ballscrew.faces.report import contents, several
 from ballscrew.faces.report.contents import ALL, Done
@@ -67,7 +66,7 @@ def check_kind(option: str, to: Path) -> Kind:
         raise InputError(Fault(option, "unknown kind of file", str(to), "end it in .pdf or .html"))
     missing = [name for name in _NEEDS[kind] if importlib.util.find_spec(name) is None]
     if missing:
-        problem = Message("needs {names}", {"names": " and ".join(missing)})
+        problem = f"needs {' and '.join(missing)}"
         raise InputError(Fault(option, problem, str(to), 'pip install "ballscrew[report]"'))
     check_writable(option, to)
     return _KINDS[kind]

@@ -6,7 +6,6 @@ import datetime
 from typing import NamedTuple
 
 from ballscrew.basis.errors import Fault, raise_if_any
-from ballscrew.basis.records import Message
 
 #: Letters of the name of a project.
 LONGEST = 120
@@ -28,7 +27,7 @@ class Heading(NamedTuple):
         faults: list[Fault] = []
         name, day = (project or "").strip(), (date or "").strip()
         if len(name) > LONGEST or not name.isprintable():
-            remedy = Message("one line of {longest} letters at most", {"longest": str(LONGEST)})
+            remedy = f"one line of {LONGEST} letters at most"
             faults.append(Fault("--project", "cannot stand on a report", repr(name[:40]), remedy))
         if day == "today":
             day = datetime.date.today().isoformat()

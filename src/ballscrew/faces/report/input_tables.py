@@ -6,7 +6,6 @@ import dataclasses
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ballscrew.basis import units
 from ballscrew.basis.quantities import Quantity, fields_of
 from ballscrew.cases.case_files.case_file import Case
 from ballscrew.cases.case_files.lubricants import described
@@ -136,7 +135,7 @@ def _lubricant(case: Case) -> Rows:
     if case.oil:
         of_grade = nominal_oil(oil)
         name = "grade" if "grade" in case.oil else "oil"
-        rows.append((name, units.filled(described(case.oil)), _source(case, f"lubricant.{name}", CASE)))
+        rows.append((name, described(case.oil), _source(case, f"lubricant.{name}", CASE)))
         rows += [
             (q.info.meaning, value_of(case.oil[n], q), CASE) for n, q in fields_of(DataSheet).items() if n in case.oil
         ]

@@ -7,14 +7,13 @@ from pathlib import Path
 
 from ballscrew.basis.errors import Fault, raise_if_any
 from ballscrew.basis.output.sheet import Sheet
-from ballscrew.basis.records import Message
 from ballscrew.questions.shared import chart_files, row_tables
 
 
 def check(paths: Iterable[Path]) -> None:
     """Raise :class:`~ballscrew.basis.errors.InputError` now for files that could not be written later."""
     *others, last = (*row_tables.KINDS, *chart_files.SUFFIXES)
-    remedy = Message("end it in {names} or {known}", {"names": ", ".join(others), "known": last})
+    remedy = f"end it in {', '.join(others)} or {last}"
     unknown = [path for path in paths if path.suffix.lower() not in (*others, last)]
     raise_if_any([Fault("--to", "unknown kind of file", str(path), remedy) for path in unknown])
     for path in paths:

@@ -12,7 +12,6 @@ from typing import Any, NamedTuple
 from ballscrew.basis import units
 from ballscrew.basis.arrays import where
 from ballscrew.basis.quantities import Info, Quantity, fields_of
-from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.nut_tables import RATING_SOURCES
 from ballscrew.compiler.tracing.merging import merged_program
 from ballscrew.compiler.tracing.program import Program
@@ -219,7 +218,7 @@ def contents_of_judging(judging: Judging) -> dict[str, Any]:
         "beside": {name: dict(changes) for name, changes in BESIDE.items()},
         "checked_as": dict(CHECKED_AS),
         "without": {kind: _without(kind) for kind in kinds.KINDS},
-        "given_limit": GIVEN_LIMIT.document(),
+        "given_limit": _sentence(GIVEN_LIMIT),
         "rating_sources": list(RATING_SOURCES),
         "ends": {
             one.name.lower().replace("_", "-"): {
@@ -252,11 +251,16 @@ def of_start(name: str) -> dict[str, Any]:
     rule = None if row is None else rule_of(row.make)
     return {
         "listed": {one: None if row is None else getattr(row, one) for one in LISTED},
-        "speed_limit": {"value": limit.value, "words": limit.words.document()},
+        "speed_limit": {"value": limit.value, "words": _sentence(limit.words)},
         "rule": None
         if rule is None
-        else {"torque": f"drag_by_{rule.name}", "words": {"rule": rule.label, "range": Message(rule.range).document()}},
+        else {"torque": f"drag_by_{rule.name}", "words": {"rule": rule.label, "range": _sentence(rule.range)}},
     }
+
+
+def _sentence(text: str) -> dict[str, Any]:
+    """A text as words stand in a sentence of the page."""
+    return {"template": text, "values": {}}
 
 
 def _without(kind: str) -> list[str]:

@@ -19,7 +19,6 @@ from starlette.requests import ClientDisconnect, Request
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
-from ballscrew.basis.records import Message
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case_file import Case
 from ballscrew.cases.schema.case_schema import read_table
@@ -236,7 +235,7 @@ async def content_of(request: Request, most: int) -> bytes:
     if media != "application/json":
         raise Refused(415, Fault("Content-Type", "is not application/json", media, "send JSON"))
     remedy = "send one case" if most == MOST_BYTES else "send a shorter log, or read it by the command line"
-    too_large = Refused(413, Fault("request", Message("has more than {most} bytes", {"most": str(most)}), "", remedy))
+    too_large = Refused(413, Fault("request", f"has more than {most} bytes", "", remedy))
     length = request.headers.get("content-length", "0")
     if length.isdecimal() and int(length[:10]) > most:
         raise too_large
@@ -252,9 +251,7 @@ async def content_of(request: Request, most: int) -> bytes:
             408,
             Fault(
                 "request",
-                Message(
-                    "did not arrive within {read_timeout} s", {"read_timeout": units.to_significant(READ_TIMEOUT, 6)}
-                ),
+                f"did not arrive within {units.to_significant(READ_TIMEOUT, 6)} s",
             ),
         ) from None
     except ClientDisconnect:
@@ -270,9 +267,7 @@ def _json(body: bytes) -> Any:
     except RecursionError:
         raise Refused(
             400,
-            Fault(
-                "request", "is nested too deeply", "", Message("{deepest} levels at most", {"deepest": str(DEEPEST)})
-            ),
+            Fault("request", "is nested too deeply", "", f"{DEEPEST} levels at most"),
         ) from None
     except ValueError as error:
         raise Refused(400, Fault("request", "is not JSON", str(error), "send one JSON object in UTF-8")) from None
@@ -304,15 +299,11 @@ def _count(value: Any, most: int) -> None:
     for _ in range(DEEPEST + 1):
         seen += len(level)
         if seen > most:
-            raise Refused(
-                413, Fault("request", Message("has more than {most} values", {"most": str(most)}), "", "send one case")
-            )
+            raise Refused(413, Fault("request", f"has more than {most} values", "", "send one case"))
         for item in level:
             for text in _texts(item):
                 if len(text) > LONGEST_TEXT:
-                    problem = Message(
-                        "has a text of more than {longest_text} characters", {"longest_text": str(LONGEST_TEXT)}
-                    )
+                    problem = f"has a text of more than {LONGEST_TEXT} characters"
                     raise Refused(413, Fault("request", problem, text[:40] + "…", "shorten it"))
                 if not text.isascii() and any("\ud800" <= letter <= "\udfff" for letter in text):
                     raise Refused(400, Fault("request", "has an unpaired surrogate", "", "send Unicode text"))
@@ -321,7 +312,7 @@ def _count(value: Any, most: int) -> None:
             return
     raise Refused(
         400,
-        Fault("request", "is nested too deeply", "", Message("{deepest} levels at most", {"deepest": str(DEEPEST)})),
+        Fault("request", "is nested too deeply", "", f"{DEEPEST} levels at most"),
     )
 
 
@@ -350,7 +341,7 @@ def case_of(tables: Mapping[str, Any], *, moves: bool = False, trace: Path | Non
     if case.nut is not None and case.nut.one_by_one and case.screw.loaded_balls > MOST_BALLS:
         given, remedy = (
             f"{case.screw.loaded_balls:g}",
-            Message("{most_balls} at most where balls differ or bodies are elastic", {"most_balls": str(MOST_BALLS)}),
+            f"{MOST_BALLS} at most where balls differ or bodies are elastic",
         )
         raise InputError(Fault("screw.loaded_balls", "too many to compute one by one", given, remedy))
     check_motion(case)

@@ -13,7 +13,6 @@ from fastapi import FastAPI
 from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
 
 from ballscrew.basis.errors import Fault
-from ballscrew.basis.records import Message
 from ballscrew.faces.web import problems
 from ballscrew.faces.web.bodies import READ_TIMEOUT
 from ballscrew.faces.web.guard import HEADERS
@@ -95,7 +94,7 @@ class _TimeoutProtocol(H11Protocol):
                 "request",
                 "is not HTTP, or its head is too long",
                 "",
-                Message("{longest_head} bytes at most", {"longest_head": str(LONGEST_HEAD)}),
+                f"{LONGEST_HEAD} bytes at most",
             )
             found = problems.response(400, [fault])
             # no middleware sees this response

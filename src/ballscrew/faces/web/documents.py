@@ -8,8 +8,6 @@ from collections import OrderedDict
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ballscrew.basis import units
-from ballscrew.basis.records import Message
 from ballscrew.cases.case_files import case_file, descriptions
 from ballscrew.questions.band import compute as bands
 from ballscrew.questions.band import document as band_documents
@@ -51,14 +49,9 @@ def run(found: runs.Run) -> dict[str, Any]:
             "verdicts": [record["text"] for record in document["verdicts"]],
             "assumed": descriptions.assumed(case, found.ball_to_ball_force),
             "rigidity": list(rigidity),
-            "rules": texts(makers.messages(case, found.nut)),
+            "rules": makers.messages(case, found.nut),
         },
     }
-
-
-def texts(said: Sequence[Message]) -> list[str]:
-    """Messages as the command line prints them."""
-    return [units.filled(one) for one in said]
 
 
 def check(found: runs.Run, notes: Sequence[str] = ()) -> dict[str, Any]:
@@ -80,6 +73,6 @@ def band(case: case_file.Case, found: bands.BandReport) -> dict[str, Any]:
         **band_documents.document(runs.run(case), found),
         "words": {
             "sentences": [verdict.text for verdict in band_documents.verdicts(case, found)],
-            "inputs": units.filled(input_counts(found)),
+            "inputs": input_counts(found),
         },
     }

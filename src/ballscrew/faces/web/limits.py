@@ -12,7 +12,6 @@ from typing import Any
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
-from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.case_file import (
     Case,
 )
@@ -80,7 +79,7 @@ def check_size(vary: Mapping[str, str], outputs: int, *, banded: bool = False) -
                 "sweep",
                 "too many axes",
                 str(len(vary)),
-                Message("{most_axes} at most here", {"most_axes": str(MOST_AXES)}),
+                f"{MOST_AXES} at most here",
             )
         )
     elif points > MOST_POINTS:
@@ -91,7 +90,7 @@ def check_size(vary: Mapping[str, str], outputs: int, *, banded: bool = False) -
                 "sweep",
                 "too many values",
                 f"{values:,}",
-                Message("{most_returned} at most here", {"most_returned": units.grouped(MOST_RETURNED)}),
+                f"{units.grouped(MOST_RETURNED)} at most here",
             )
         )
     raise_if_any(faults)
@@ -112,7 +111,7 @@ def check_sweep(case: Case, plan: sweeps.Plan) -> None:
                 "sweep",
                 "too many values",
                 number,
-                Message("{most_returned} at most here", {"most_returned": units.grouped(MOST_RETURNED)}),
+                f"{units.grouped(MOST_RETURNED)} at most here",
             )
         )
     raise_if_any(faults)
@@ -137,10 +136,7 @@ def check_warm_up(case: Case, samples: int | None) -> None:
         remedy = "fewer segments, or a nut whose balls are alike; the rest by ballscrew warm-up"
         faults.append(Fault("motion", "has too many states to map their friction", f"{states:,}", remedy))
     if samples is not None and samples > MOST_TRANSIENTS:
-        remedy = Message(
-            "{most_transients} at most here; the rest by ballscrew warm-up",
-            {"most_transients": units.grouped(MOST_TRANSIENTS)},
-        )
+        remedy = f"{units.grouped(MOST_TRANSIENTS)} at most here; the rest by ballscrew warm-up"
         faults.append(Fault("--samples", "too many", f"{samples:,}", remedy))
     raise_if_any(faults)
 
@@ -169,10 +165,7 @@ def check_ripple(case: Case, options: RippleOptions) -> None:
     faults = len(ripples.ALL) + len(options.fault) if "all" in options.fault else len(options.fault)
     nuts = faults + max(1, options.seeds)
     if nuts > MOST_NUTS_OF_RIPPLE:
-        remedy = Message(
-            "{most} at most here with faults and seeds; the rest by ballscrew ripple",
-            {"most": str(MOST_NUTS_OF_RIPPLE)},
-        )
+        remedy = f"{MOST_NUTS_OF_RIPPLE} at most here with faults and seeds; the rest by ballscrew ripple"
         raise InputError(Fault("--seeds", "takes too many nuts", f"{nuts:,}", remedy))
     given = ripples.given_of(case, options)
     for name in options.fault:
@@ -199,9 +192,7 @@ def check_need(need: Need) -> Need:
     """The need, unless it has more choices for each row than are computed here."""
     choices = max(1, len(need.nuts)) * max(1, len(need.preloads)) * len(need.oils)
     if choices > MOST_CHOICES:
-        remedy = Message(
-            "{most_choices} at most here; the rest by ballscrew select", {"most_choices": str(MOST_CHOICES)}
-        )
+        remedy = f"{MOST_CHOICES} at most here; the rest by ballscrew select"
         raise InputError(Fault("need", "has too many choices of nut, preload and oil", str(choices), remedy))
     return need
 
@@ -221,7 +212,7 @@ def samples_of_sensitivity(case: Case, options: SensitivityOptions) -> int | Non
     total = MOST_BALLS_OF_SENSITIVITY // balls if balls else MOST_SAMPLES_OF_SWEEP
     most = 2 ** int(math.log2(max(1, total // sets)))
     if options.samples is not None and options.samples > most:
-        remedy = Message("{most} at most here; the rest by ballscrew sensitivity", {"most": units.grouped(most)})
+        remedy = f"{units.grouped(most)} at most here; the rest by ballscrew sensitivity"
         raise InputError(Fault("--samples", "too many", f"{options.samples:,}", remedy))
     return options.samples or (most if usual > most else None)
 
@@ -234,18 +225,17 @@ def check_search(need: Need, options: OptimiseOptions) -> None:
         with contextlib.suppress(TypeError, ValueError):  # what is no number is refused where it is read
             value = float(value)  # a file may have a number as a text
         if isinstance(value, int | float) and value > MOST_IN_A_GENERATION:
-            remedy = Message(
-                "{most} at most here; the rest by ballscrew optimise", {"most": units.grouped(MOST_IN_A_GENERATION)}
-            )
+            most = units.grouped(MOST_IN_A_GENERATION)
+            remedy = f"{most} at most here; the rest by ballscrew optimise"
             raise InputError(Fault(f"optimise.{name}", "too many", f"{value:,.0f}", remedy))
 
 
 def check_plan(plan: Plan) -> None:
     """Refuse a search that takes long by its plan."""
     if plan.seconds > MOST_SECONDS_OF_SEARCH:
-        remedy = Message(
-            "{most} s at most here: fewer designs, generations or members; the rest by ballscrew optimise",
-            {"most": str(MOST_SECONDS_OF_SEARCH)},
+        remedy = (
+            f"{MOST_SECONDS_OF_SEARCH} s at most here: fewer designs, generations or members; the rest by "
+            "ballscrew optimise"
         )
         raise InputError(Fault("optimise", "takes too many seconds of a processor", f"{plan.seconds:,.0f}", remedy))
 
@@ -259,7 +249,7 @@ def check_columns(name: str, content: bytes) -> None:
                 name,
                 "has too many columns",
                 f"{widest + 1:,}",
-                Message("{most_columns} at most here", {"most_columns": units.grouped(MOST_COLUMNS)}),
+                f"{units.grouped(MOST_COLUMNS)} at most here",
             )
         )
 
@@ -268,7 +258,7 @@ def check_hand_over(case: Case, *lists: Sequence[str]) -> Case:
     """The case, unless more inputs, outputs or derivatives are asked for than are made here."""
     asked = sum(map(len, lists))
     if asked > MOST_MORE:
-        remedy = Message("{most_more} at most here; the rest by ballscrew hand-over", {"most_more": str(MOST_MORE)})
+        remedy = f"{MOST_MORE} at most here; the rest by ballscrew hand-over"
         raise InputError(Fault("hand_over", "has too many parameters, outputs and derivatives", str(asked), remedy))
     return case
 
@@ -291,11 +281,7 @@ def samples_of(case: Case, requested: int | None = None) -> int | None:
     if requested is None:
         return most if _default_samples(case) > most else None
     if requested > most:
-        raise InputError(
-            Fault(
-                "--samples", "too many", f"{requested:,}", Message("{most} at most here", {"most": units.grouped(most)})
-            )
-        )
+        raise InputError(Fault("--samples", "too many", f"{requested:,}", f"{units.grouped(most)} at most here"))
     return requested
 
 
@@ -311,11 +297,7 @@ def samples_of_sweep(case: Case, plan: sweeps.Plan, requested: int | None = None
     if most < FEWEST_SAMPLES:
         raise InputError(_too_many_points(points, total // FEWEST_SAMPLES))
     if requested is not None and requested > most:
-        raise InputError(
-            Fault(
-                "--samples", "too many", f"{requested:,}", Message("{most} at most here", {"most": units.grouped(most)})
-            )
-        )
+        raise InputError(Fault("--samples", "too many", f"{requested:,}", f"{units.grouped(most)} at most here"))
     usual = NUT_SAMPLES if case.screw.nut.one_by_one else SAMPLES
     return requested or min(usual, 2 ** int(math.log2(most)))
 
@@ -349,5 +331,5 @@ def _too_many_points(points: int, most: int) -> Fault:
         "sweep",
         "too many points",
         f"{points:,}",
-        Message("{most} at most here; the rest by ballscrew sweep", {"most": units.grouped(most)}),
+        f"{units.grouped(most)} at most here; the rest by ballscrew sweep",
     )

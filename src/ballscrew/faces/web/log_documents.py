@@ -13,7 +13,6 @@ from typing import Any
 from ballscrew.cases.case_files import fitted_case
 from ballscrew.cases.case_files.case import Case
 from ballscrew.exports.export import Export
-from ballscrew.faces.web.documents import texts
 from ballscrew.questions.fit import answer as fit_documents
 from ballscrew.questions.fit.compute import FitReport
 from ballscrew.questions.hand_over import document as hand_over_documents
@@ -35,7 +34,7 @@ def hand_over(case: Case, export: Export) -> dict[str, Any]:
     ranges = [line for heading, entries in hand_over_text.blocks(export) for line in (heading, *entries)]
     return {
         **hand_over_documents.document(export, case, names),
-        "words": {"lines": hand_over_text.lines(export), "ranges": texts(ranges)},
+        "words": {"lines": hand_over_text.lines(export), "ranges": ranges},
         "file": _file(export),
     }
 

@@ -75,6 +75,5 @@ def _without_folders(fault: Fault, paths: Mapping[str, Path]) -> Fault:
             text = text.replace(f"{path.parent}{os.sep}", "")
         return text
 
-    given = plain(fault.given) if isinstance(fault.given, str) else fault.given
-    found = fault.changed(lambda value: plain(value) if isinstance(value, str) else value)
-    return dataclasses.replace(found, where=plain(fault.where), given=given)
+    texts = {name: plain(getattr(fault, name)) for name in ("where", "problem", "given", "remedy")}
+    return dataclasses.replace(fault, **texts)

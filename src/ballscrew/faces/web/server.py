@@ -13,7 +13,6 @@ from starlette.responses import Response
 from starlette.types import ASGIApp
 
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.records import Message
 from ballscrew.basis.version import __version__
 from ballscrew.faces.web import api, files, memory, openapi, problems, vocabulary
 from ballscrew.faces.web.bodies import case_of
@@ -77,7 +76,7 @@ async def _input_error(_: Request, error: Exception) -> Response:
 
 async def _http_error(_: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)
-    found = problems.response(error.status_code, [Fault("request", Message("{reason}", {"reason": str(error.detail)}))])
+    found = problems.response(error.status_code, [Fault("request", str(error.detail))])
     found.headers.update(error.headers or {})
     return found
 
@@ -85,10 +84,7 @@ async def _http_error(_: Request, error: Exception) -> Response:
 async def _invalid(_: Request, error: Exception) -> Response:
     """Parts of an address that are no numbers, or too large."""
     assert isinstance(error, RequestValidationError)
-    faults = [
-        Fault(f"?{one['loc'][-1]}", Message("{reason}", {"reason": str(one["msg"])}), str(one["input"])[:40])
-        for one in error.errors()
-    ]
+    faults = [Fault(f"?{one['loc'][-1]}", str(one["msg"]), str(one["input"])[:40]) for one in error.errors()]
     return problems.response(422, faults)
 
 

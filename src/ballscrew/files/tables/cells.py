@@ -8,15 +8,11 @@ from typing import Any
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, as_float, fault_of
-from ballscrew.basis.records import Measured, Message, Value
 from ballscrew.files.tables import decimals
 from ballscrew.files.tables.headings import PERCENT, Heading
 
 #: The kind of fault of a cell that is a word where a number is to stand.
 NOT_A_NUMBER = "not_a_number"
-#: The remedies of a number without its unit.
-_OF_TABLE = Message('write "{text} {shown_in}"{share}, or the unit in the heading')
-_OF_ONE_NUMBER = Message('write "{text} {shown_in}"{share}')
 #: Marks of a number, at the begin of a cell.
 _DIGITS = tuple("0123456789.,+-−")
 _PRODUCT = re.compile(r"([\d.,]+)\s*[x×*]\s*([\d.,]+)", re.IGNORECASE)
@@ -50,7 +46,7 @@ def value_of(where: str, cell: Any, text: str, heading: Heading, decimal: frozen
     fault = value if isinstance(value, Fault) else fault_of("", quantity, value)
     if fault is not None:
         if heading.unit == PERCENT:
-            fault = fault.changed(_in_percent)
+            fault = _in_percent(fault, quantity.unit)
         fault = units.in_display_units(fault, quantity, fault.given if fault is value else text)
         return dataclasses.replace(fault, where=where, given=text)
     assert not isinstance(value, Fault)
@@ -59,8 +55,9 @@ def value_of(where: str, cell: Any, text: str, heading: Heading, decimal: frozen
     return int(value) if quantity.info.whole else value
 
 
-def _in_percent(value: Value) -> Value:
-    return f"{100 * value.value:g} %" if isinstance(value, Measured) and value.value else value
+def _in_percent(fault: Fault, unit: str) -> Fault:
+    """The fault of a share with its bound in per cent."""
+    return fault.with_bound(unit, f"{100 * fault.bound:g} %") if fault.bound else fault
 
 
 def _of_cell(text: str, heading: Heading) -> Heading:
@@ -89,11 +86,7 @@ def text_of(where: str, text: str, heading: Heading) -> str | Fault:
     words = heading.column.words
     known = ", ".join(f'"{word}"' for word in dict.fromkeys(words.values()))
     found = words.get(text.casefold()) if words else text
-    return (
-        Fault(where, "is not a word that is known", text, Message("write one of {known}", {"known": known}))
-        if found is None
-        else found
-    )
+    return Fault(where, "is not a word that is known", text, f"write one of {known}") if found is None else found
 
 
 def _unit_behind(text: str) -> str:
@@ -101,11 +94,11 @@ def _unit_behind(text: str) -> str:
     return text.lstrip("".join(_DIGITS)).strip() if text.startswith(_DIGITS) else ""
 
 
-def _of_words(heading: Heading) -> Message:
+def _of_words(heading: Heading) -> str:
     quantity = heading.column.quantity
     assert quantity is not None
     known = ", ".join(f'"{word}"' for word in dict.fromkeys(heading.column.words.values()))
-    return Message("write {example}, or {known}", {"example": units.example_of(quantity), "known": known})
+    return f"write {units.example_of(quantity)}, or {known}"
 
 
 def _parsed(where: str, text: str, heading: Heading, decimal: frozenset[str]) -> float | Fault:
@@ -124,9 +117,7 @@ def _parsed(where: str, text: str, heading: Heading, decimal: frozenset[str]) ->
     if units.unit_in(plain):
         return units.parse(where, plain, quantity)
     remedy = (
-        "write a plain number"
-        if quantity.unit == "1"
-        else Message("write a number in {value}", {"value": heading.unit or quantity.shown_in})
+        "write a plain number" if quantity.unit == "1" else f"write a number in {heading.unit or quantity.shown_in}"
     )
     return Fault(where, "is not a number", text, remedy, id=NOT_A_NUMBER)
 
@@ -135,7 +126,6 @@ def _converted(where: str, number: float, text: str, heading: Heading) -> float 
     quantity = heading.quantity
     if quantity is not None and quantity.unit != "1" and not heading.unit:
         share = "" if heading.column.share is None else f' or "{text} {PERCENT}"'
-        remedy = _OF_TABLE if heading.in_table else _OF_ONE_NUMBER
-        remedy = remedy.of(text=text, shown_in=quantity.shown_in, share=share)
-        return Fault(where, "needs a unit", text, remedy)
+        of_table = ", or the unit in the heading" if heading.in_table else ""
+        return Fault(where, "needs a unit", text, f'write "{text} {quantity.shown_in}"{share}{of_table}')
     return heading.offset + heading.scale * number

@@ -6,7 +6,6 @@ import re
 from collections.abc import Iterable
 
 from ballscrew.basis.errors import Fault
-from ballscrew.basis.records import Message
 
 _NUMBER = re.compile(r"[-+]?[\d.,]*\d[\d.,]*")
 _THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}(?:[.,]\d{3})+")
@@ -43,7 +42,7 @@ def with_point(where: str, text: str, decimal: frozenset[str]) -> str | Fault:
     spaced = _SPACED.match(text)
     if spaced is not None:
         plain = re.sub(r"[^\d+-]", "", spaced[0]) + text[spaced.end() :]
-        return Fault(where, "has a separator of thousands", text, Message("write {plain}", {"plain": plain}))
+        return Fault(where, "has a separator of thousands", text, f"write {plain}")
     number = _NUMBER.match(text)
     if number is None:
         return text
@@ -56,9 +55,6 @@ def with_point(where: str, text: str, decimal: frozenset[str]) -> str | Fault:
     # without evidence a point is a decimal mark, and a comma may be either
     alone = decimal == frozenset(marks) or (not decimal and marks[0] == ".")
     if _THOUSANDS.fullmatch(digits) and not alone:
-        remedy = Message(
-            "write {digits} for thousands, {fraction} for a decimal",
-            {"digits": digits.replace(marks[0], ""), "fraction": _fraction(digits, decimal)},
-        )
+        remedy = f"write {digits.replace(marks[0], '')} for thousands, {_fraction(digits, decimal)} for a decimal"
         return Fault(where, "may have a separator of thousands", text, remedy)
     return digits.replace(",", ".") + rest

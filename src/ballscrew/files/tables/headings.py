@@ -19,7 +19,6 @@ from typing import Any
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.basis.quantities import Quantity
-from ballscrew.basis.records import Message
 from ballscrew.files.tables.sheets import HEADINGS_WITHIN, MOST_COLUMNS, Record
 
 #: Kinds of faults of headings.
@@ -218,9 +217,7 @@ def headings_in(
     if not found:
         raise InputError(Fault(str(path), "is empty", "", "give a table with headings and rows"))
     if (widest := max(len(record.cells) for record in found)) > MOST_COLUMNS:
-        remedy = Message(
-            "{most_columns} at most: keep those that are needed", {"most_columns": units.grouped(MOST_COLUMNS)}
-        )
+        remedy = f"{units.grouped(MOST_COLUMNS)} at most: keep those that are needed"
         raise InputError(Fault(str(path), "has too many columns", f"{widest:,}", remedy))
     best: tuple[int, list[Heading]] = (0, [])
     for number, record in enumerate(found[:within]):
@@ -236,7 +233,7 @@ def headings_in(
                 str(path),
                 "has no heading that is known",
                 ", ".join(f'"{cell}"' for cell in row.cells if cell != ""),
-                Message("begin with a row like: {needed}", {"needed": needed}),
+                f"begin with a row like: {needed}",
             )
         )
     return best
@@ -274,7 +271,7 @@ def checked(
 def _twice(where: str, heading: Heading, twin: Heading) -> Fault:
     """The fault of a heading beside a twin of the same column."""
     name = heading.column.name
-    problem = Message('means the same as "{written}"', {"written": twin.written})
+    problem = f'means the same as "{twin.written}"'
     return Fault(where, problem, name.replace("_", " "), "leave out one of the two", id=SAME_MEANING, column=name)
 
 
@@ -292,7 +289,7 @@ def _scaled(where: str, heading: Heading, body: Sequence[Record]) -> Heading | F
         return scale if isinstance(scale, Fault) else dataclasses.replace(heading, offset=scale[0], scale=scale[1])
     if _cells_tell_unit(heading, body):
         return heading
-    remedy = Message('write "{written} [{shown_in}]"', {"written": heading.written, "shown_in": quantity.shown_in})
+    remedy = f'write "{heading.written} [{quantity.shown_in}]"'
     return Fault(where, "needs a unit", "", remedy, id=NEEDS_UNIT, column=column.name)
 
 
@@ -320,19 +317,8 @@ def _missing(path: Path, column: Column, headings: Sequence[Heading], first: Rec
     }
     names = [bare(name) for name in (column.name, *column.aliases)]
     alike = [other for name in names for other in difflib.get_close_matches(name, others, n=1, cutoff=0.7)]
-    guess = (
-        Message('write it for "{others}"', {"others": others[alike[0]]})
-        if alike
-        else Message("it may also be called {names}", {"names": ", ".join(column.aliases[:3])})
-    )
-    return Fault(
-        path.name,
-        Message('has no column "{example}"', {"example": column.example}),
-        "",
-        guess,
-        id=NO_COLUMN,
-        column=column.name,
-    )
+    guess = f'write it for "{others[alike[0]]}"' if alike else f"it may also be called {', '.join(column.aliases[:3])}"
+    return Fault(path.name, f'has no column "{column.example}"', "", guess, id=NO_COLUMN, column=column.name)
 
 
 def unused(first: Record, headings: Sequence[Heading], body: Sequence[Record]) -> list[str]:

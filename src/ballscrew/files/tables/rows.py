@@ -15,7 +15,6 @@ from typing import Any, TypeVar
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
-from ballscrew.basis.records import Message
 from ballscrew.files.tables import decimals
 from ballscrew.files.tables.cells import shown, text_of, value_of
 from ballscrew.files.tables.headings import NOTHING, Column, Heading, checked, headings_in, known_heading_of, unused
@@ -124,9 +123,7 @@ def _row(table: Table, record: Record, first: Sequence[Any], decimal: frozenset[
     """A row in SI, or all its faults."""
     needed = max(place for place, cell in enumerate(first) if cell != "") + 1
     if len(record.cells) < needed or any(cell != "" for cell in record.cells[len(first) :]):
-        problem = Message(
-            "has {count} cells, the headings {needed}", {"count": str(len(record.cells)), "needed": str(needed)}
-        )
+        problem = f"has {len(record.cells)} cells, the headings {needed}"
         remedy = "give every column a cell, be it empty; put quotes around text that holds a delimiter"
         return [Fault(f"{table.file} row {record.line}", problem, "", remedy)]
     values: dict[str, Any] = {}

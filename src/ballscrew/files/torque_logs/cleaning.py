@@ -9,10 +9,9 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, fault_of
 from ballscrew.basis.quantities import within_bounds
-from ballscrew.basis.records import Measured, Message, Named
-from ballscrew.basis.units import filled_text
 from ballscrew.files.torque_logs.log_rows import INERTIA, REQUIRED, LogRows, quantities
 from ballscrew.files.torque_logs.motion import CLEAR, Floats, motion_of, runs_in
 from ballscrew.files.torque_logs.repeats import repeated_rows
@@ -63,10 +62,8 @@ def cleaned(log: Log, inertia: float | None, most: int) -> Log:
     log = thinned(log, most)
     if len(log) < LEAST_ROWS:
         told = "; ".join(f"{reason}: {count}" for reason, count in log.left_out.items())
-        remedy = Message("a fit needs {least_rows} rows or more at steady speed", {"least_rows": str(LEAST_ROWS)})
-        raise InputError(
-            Fault("log", Message("has {count} rows that can be used", {"count": str(len(log))}), told, remedy)
-        )
+        remedy = f"a fit needs {LEAST_ROWS} rows or more at steady speed"
+        raise InputError(Fault("log", f"has {len(log)} rows that can be used", told, remedy))
     return dataclasses.replace(log.with_notes(*data_warnings(log)), is_clean=True, keys=None, motion=None)
 
 
@@ -82,11 +79,9 @@ def without_gaps(log: Log, names: Collection[str]) -> Log:
     for name in empty:
         if name in REQUIRED:
             remedy = "give a column with numbers in it"
-            raise InputError(
-                Fault("log", Message("has no {name} in any row", {"name": name.replace("_", " ")}), "", remedy)
-            )
+            raise InputError(Fault("log", f"has no {name.replace('_', ' ')} in any row", "", remedy))
     log = dataclasses.replace(log, **dict.fromkeys(empty))
-    notes = (filled_text("no row has a {name}: the column is not used", name=Named(name, name)) for name in empty)
+    notes = (f"no row has a {name}: the column is not used" for name in empty)
     log = log.with_notes(*notes)
     return log.select(complete_rows(columns, len(log)), GAPS)
 
@@ -107,10 +102,9 @@ def without_repeats(log: Log) -> Log:
     again = repeated_rows([values for name, values in log.columns.items() if name != "time"], log.time)
     if not again.any():
         return log
-    note = filled_text(
-        "{again} of {rows} rows repeat earlier ones, one after the other: counted once",
-        again=Measured(int(np.count_nonzero(again))),
-        rows=Measured(len(log)),
+    note = (
+        f"{units.number(int(np.count_nonzero(again)))} of {units.number(len(log))} rows repeat earlier ones, one "
+        "after the other: counted once"
     )
     return log.select(~again, REPEATED).with_notes(note)
 
@@ -143,11 +137,7 @@ def of_settings(log: Log) -> Log:
 
 def describe_runs(runs: int) -> str:
     """The note on a log whose time begins anew."""
-    return filled_text(
-        "time begins anew {times} times: read as {runs} logs, one after the other",
-        times=Measured(runs - 1),
-        runs=Measured(runs),
-    )
+    return f"time begins anew {units.number(runs - 1)} times: read as {units.number(runs)} logs, one after the other"
 
 
 def moving(log: LogRows) -> NDArray[np.bool_]:
@@ -219,14 +209,14 @@ def thinned(log: Log, most: int) -> Log:
 
 def describe_thinning(most: int) -> str:
     """The note on a log that is too long."""
-    return filled_text("longer than {most} rows: thinned evenly at random", most=Measured(most))
+    return f"longer than {units.number(most)} rows: thinned evenly at random"
 
 
 def data_warnings(log: LogRows) -> list[str]:
     """Warnings about effects that a log cannot identify."""
     found: list[str] = []
     if len(log) < FEW_ROWS:
-        found.append(filled_text("{rows} rows are few: expect wide intervals, or none", rows=Measured(len(log))))
+        found.append(f"{units.number(len(log))} rows are few: expect wide intervals, or none")
     if _one_setting(np.abs(log.axial_load)):
         found.append("one axial load only: what depends on the load cannot be told")
     if _one_setting(np.abs(log.screw_speed)):

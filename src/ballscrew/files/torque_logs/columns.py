@@ -14,9 +14,8 @@ from pathlib import Path
 from typing import Any
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, InputError, message_of, nearest, raise_if_any
+from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.basis.records import Message, UnitName, Value
 from ballscrew.files.tables import decimals
 from ballscrew.files.tables.headings import (
     NEEDS_UNIT,
@@ -89,13 +88,11 @@ TEMPERATURE, LOAD = "temperature", "axial_load"
 
 def columns_not_used(names: Iterable[str]) -> str:
     """The note on columns of a table that nothing takes."""
-    return units.filled_text("columns not used: {names}", names=", ".join(names))
+    return f"columns not used: {', '.join(names)}"
 
 
 #: The note on a log without a column of the load.
-NO_LOAD = units.filled_text(
-    'no column of the load: 0 N in every row; give --column axial_load="your heading [N]" if there is one'
-)
+NO_LOAD = 'no column of the load: 0 N in every row; give --column axial_load="your heading [N]" if there is one'
 #: The columns that a torque may be in, the one that says most first, and what the torque then is.
 TORQUES: Mapping[str, Kind] = {
     "friction_torque": "friction", "drive_torque": "drive", "torque": "unknown", "current": "drive",
@@ -425,15 +422,6 @@ def texts_in(headings: Sequence[Heading], body: Sequence[Record]) -> list[str]:
     return [cell for cell in cells if isinstance(cell, str)]
 
 
-_NAMED = Message('{remedy}, or name it: --column {name}="your heading [{unit}]"; headings of the file: {headings}')
-_NAMED_OR_CONSTANT = Message(
-    '{remedy}, or name it: --column {name}="your heading [{unit}]"; '
-    'if it is the same in every row, --column {name}="0 {unit}"; headings of the file: {headings}'
-)
-_WITH_UNIT = Message('{remedy}, or give --column {name}="{heading} [{unit}]"')
-_CHOSEN = Message('give --column {name}="{heading}" for the one that is meant')
-
-
 def with_option(
     fault: Fault,
     headings: Sequence[Heading],
@@ -451,13 +439,16 @@ def with_option(
         return fault
     name, unit = column.name, column.quantity.shown_in
     heading = next((one for one in headings if fault.where.endswith(f'column "{one.written}"')), None)
-    remedy, common = message_of(fault.remedy), dict[str, Value](name=name, unit=UnitName(unit))
+    remedy = fault.remedy
     if fault.id == NO_COLUMN:
-        constant = constants and name != "torque"
-        remedy = (_NAMED_OR_CONSTANT if constant else _NAMED).of(remedy=remedy, headings=", ".join(there), **common)
+        remedy = f'{remedy}, or name it: --column {name}="your heading [{unit}]"'
+        if constants and name != "torque":
+            remedy += f'; if it is the same in every row, --column {name}="0 {unit}"'
+        remedy += f"; headings of the file: {', '.join(there)}"
     elif heading is not None and fault.id == NEEDS_UNIT:
         parts = BRACKETS.fullmatch(heading.written)
-        remedy = _WITH_UNIT.of(remedy=remedy, heading=parts["name"] if parts else heading.written, **common)
+        bare_heading = parts["name"] if parts else heading.written
+        remedy = f'{remedy}, or give --column {name}="{bare_heading} [{unit}]"'
     elif heading is not None and fault.id == SAME_MEANING:
-        remedy = _CHOSEN.of(heading=heading.written, **common)
+        remedy = f'give --column {name}="{heading.written}" for the one that is meant'
     return dataclasses.replace(fault, remedy=remedy)

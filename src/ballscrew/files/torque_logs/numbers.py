@@ -12,7 +12,6 @@ import pandas
 from numpy.typing import NDArray
 
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.records import Message, message_of
 from ballscrew.files.tables.cells import NOT_A_NUMBER, shown, value_of
 from ballscrew.files.tables.number_columns import column_numbers, is_missing
 from ballscrew.files.tables.sheets import is_error
@@ -108,7 +107,7 @@ class NumberReader:
         """A fault of a word among the numbers, with the option that leaves its row out."""
         if fault.id != NOT_A_NUMBER or self.keep_going or not self.may_keep_going:
             return fault
-        remedy = Message("{remedy}, or leave such rows out: --keep-going", {"remedy": message_of(fault.remedy)})
+        remedy = f"{fault.remedy}, or leave such rows out: --keep-going"
         return dataclasses.replace(fault, remedy=remedy)
 
     def _of_words(

@@ -14,9 +14,8 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
+from ballscrew.basis import units
 from ballscrew.basis.errors import LINES_AT_MOST, Fault, InputError, raise_if_any
-from ballscrew.basis.records import Measured, Message
-from ballscrew.basis.units import filled_text
 from ballscrew.files.tables.sheets import unreadable
 from ballscrew.files.torque_logs.cleaning import HELD
 from ballscrew.files.torque_logs.columns import (
@@ -94,41 +93,22 @@ def _read(
     notes = [columns_not_used(place.unused)] if place.unused else []
     notes += [NO_LOAD] if place.assumes_no_load else []
     if TEMPERATURE not in place.headings and (others := temperatures_among(place.unused)):
-        notes.append(
-            filled_text(
-                "if {column} is the temperature of the oil, give --column temperature={column}", column=others[0]
-            )
-        )
+        notes.append(f"if {others[0]} is the temperature of the oil, give --column temperature={others[0]}")
     if numbers.errors:
         kinds, count = ", ".join(sorted(numbers.errors)), sum(numbers.errors.values())
-        notes.append(
-            filled_text(
-                "{count} cells hold errors of a spreadsheet ({kinds}): they count as missing",
-                count=Measured(count),
-                kinds=kinds,
-            )
-        )
+        notes.append(f"{units.number(count)} cells hold errors of a spreadsheet ({kinds}): they count as missing")
     if rates is not None:
-        through = Measured(2 * rates.lines.half_width + 1)
+        through = units.number(2 * rates.lines.half_width + 1)
         notes.append(
-            filled_text(
-                "the speed is that of the position over the time, from straight lines through {through} rows, "
-                "as the noise in the first {held} allows",
-                through=through,
-                held=Measured(held),
+            (
+                f"the speed is that of the position over the time, from straight lines through {through} rows, as the "
+                f"noise in the first {units.number(held)} allows"
             )
             if rates.rows > held
-            else filled_text(
-                "the speed is that of the position over the time, from straight lines through {through} rows",
-                through=through,
-            )
+            else f"the speed is that of the position over the time, from straight lines through {through} rows"
         )
     if source.empty_bytes:
-        notes.append(
-            filled_text(
-                "the file ends with {count} empty bytes, which are left out", count=Measured(source.empty_bytes)
-            )
-        )
+        notes.append(f"the file ends with {units.number(source.empty_bytes)} empty bytes, which are left out")
     if done is not None:
         size = size_of(file)
         done(size, size)
@@ -145,7 +125,7 @@ def _check_factors(place: Layout, torque_constant: float | None, lead: float | N
     ):
         if (where := _place_of(name, place)) and factor is None:
             needs = "torque constant" if name == "current" else "lead"
-            faults.append(Fault(where, Message("needs the {needs}", {"needs": needs}), "", option))
+            faults.append(Fault(where, f"needs the {needs}", "", option))
     if (where := _place_of("position", place)) and not _place_of("time", place):
         faults.append(Fault(where, "gives no speed without the time", "", "give a column with the time, or the speed"))
     raise_if_any(faults)

@@ -13,8 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ballscrew.basis.records import Measured
-from ballscrew.basis.units import filled_text
+from ballscrew.basis import units
 from ballscrew.files.torque_logs import cleaning
 from ballscrew.files.torque_logs.log_rows import REQUIRED, Kind
 from ballscrew.files.torque_logs.motion import SCALES, SHORTEST_RUN, Floats, Motion, joined, motion_of
@@ -103,10 +102,8 @@ class ReservoirSampler:
         motion = found.motion
         if self._out_of_order or (self._runs > 1 and self.rows < SHORTEST_RUN * self._runs):
             notes.append(
-                filled_text(
-                    "rows are not in the order of time, and too many to sort (over {held}): sort the file",
-                    held=Measured(self._held),
-                )
+                f"rows are not in the order of time, and too many to sort (over {units.number(self._held)}): sort "
+                "the file"
             )
             columns.pop("time")
             motion = None

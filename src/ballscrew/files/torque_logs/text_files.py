@@ -15,7 +15,6 @@ import pandas
 from numpy.typing import NDArray
 
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.records import Message
 from ballscrew.files.tables.number_columns import COMMA, MISSING
 from ballscrew.files.tables.sheets import Record, delimiter_of, encoding_of, in_text, is_error
 from ballscrew.files.torque_logs.columns import WITHIN, Layout, is_heading
@@ -168,7 +167,7 @@ class TextLog:
         if beyond.size:
             where, problem = (
                 f"{layout.file} row {line[beyond[0]]}",
-                Message("has more cells than the headings, {width}", {"width": str(layout.width)}),
+                f"has more cells than the headings, {layout.width}",
             )
             raise InputError(Fault(where, problem, "", "put quotes around text that holds a delimiter"))
         keep = _not_comments(cells[0])

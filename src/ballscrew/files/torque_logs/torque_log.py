@@ -12,7 +12,6 @@ import numpy as np
 
 from ballscrew.basis.errors import Fault, InputError, accepts_units, closest, nearest, raise_if_any, without_unit
 from ballscrew.basis.quantities import MomentOfInertia
-from ballscrew.basis.records import Message
 from ballscrew.files.torque_logs import cleaning
 from ballscrew.files.torque_logs.columns import columns_not_used
 from ballscrew.files.torque_logs.log_rows import (
@@ -108,7 +107,7 @@ class _Named:
         """The faults of columns that are missing, and of torques beside each other."""
         there = {*self.known, *(["torque"] if self.torques else []), *(["axial_load"] if self.without_load else [])}
         faults = [
-            Fault("data", Message('has no column "{name}"', {"name": name}), "", _hint(name, self.others))
+            Fault("data", f'has no column "{name}"', "", _hint(name, self.others))
             for name in REQUIRED
             if name not in there
         ]
@@ -144,10 +143,10 @@ def _raw(data: Any, names: list[str]) -> dict[str, Any]:
     return {name: array.to_numpy().reshape(-1) for name, array in zip(names, arrays, strict=True)}
 
 
-def _hint(name: str, others: list[str]) -> Message:
+def _hint(name: str, others: list[str]) -> str:
     if closest(name, others):
         return nearest(name, others)
-    return Message("give an array in {unit}", {"unit": quantities()[name].unit})
+    return f"give an array in {quantities()[name].unit}"
 
 
 def _numbers(name: str, values: Any) -> Floats | Fault:

@@ -18,7 +18,6 @@ import numpy as np
 
 from ballscrew.basis.errors import Fault, InputError, raise_if_any, si_value, without_unit
 from ballscrew.basis.quantities import AngularSpeed, Info, Quantity, Temperature, Torque, Unit, fields_of, quantities_of
-from ballscrew.basis.records import Message
 from ballscrew.files.tables import rows as tables
 from ballscrew.files.tables.headings import Column
 from ballscrew.files.torque_logs.log_rows import within
@@ -93,7 +92,7 @@ class TorqueSeries:
         faults = [
             Fault(
                 f"{self._where(int(i) + 1)}, time",
-                Message("runs back from {labels}", {"labels": self.labels[int(i)]}),
+                f"runs back from {self.labels[int(i)]}",
                 self.labels[int(i) + 1],
                 "put the tests in the order of their dates, and check the order of day and month",
             )
@@ -118,9 +117,9 @@ class TorqueSeries:
         return [
             Fault(
                 f"{self._where(at)}, torque",
-                Message("is {times} the tests before: the unit changes midway", {"times": times}),
+                f"is {times} the tests before: the unit changes midway",
                 f"{torque[at]:.4g} N m",
-                Message('{guess}write all in one unit, or the unit behind each number, "0.41 N m"', {"guess": guess}),
+                f'{guess}write all in one unit, or the unit behind each number, "0.41 N m"',
             )
         ]
 
@@ -130,14 +129,7 @@ class TorqueSeries:
             return []
         remedy = "give each nut a table of its own: what another nut loses says nothing of the wear of this one"
         first = others[0]
-        return [
-            Fault(
-                f"{self._where(first)}, nut",
-                Message("is another than {nuts}", {"nuts": self.nuts[0]}),
-                self.nuts[first],
-                remedy,
-            )
-        ]
+        return [Fault(f"{self._where(first)}, nut", f"is another than {self.nuts[0]}", self.nuts[first], remedy)]
 
     @classmethod
     def of(cls, data: Any) -> TorqueSeries:
@@ -161,14 +153,7 @@ _NAMES = ("torque", "torque_forward", "torque_backward", "time", "number", "temp
 def _of_arrays(data: Any) -> TorqueSeries:
     names = [str(name) for name in data]
     unknown = [name for name in names if name not in _NAMES]
-    raise_if_any(
-        [
-            Fault(
-                "series", "has a column that is not known", n, Message("known: {names}", {"names": ", ".join(_NAMES)})
-            )
-            for n in unknown
-        ]
-    )
+    raise_if_any([Fault("series", "has a column that is not known", n, f"known: {', '.join(_NAMES)}") for n in unknown])
     found: dict[str, Any] = {}
     faults: list[Fault] = []
     per, labels = "test", ()
@@ -236,12 +221,7 @@ def _columns(aliases: Mapping[str, str]) -> list[Column]:
     ]  # fmt: skip
     unknown = [name for name in aliases if name not in {column for column, _, _ in known}]
     names = ", ".join(column for column, _, _ in known)
-    raise_if_any(
-        [
-            Fault(f"--column {name}", "unknown column", "", Message("known: {names}", {"names": names}))
-            for name in unknown
-        ]
-    )
+    raise_if_any([Fault(f"--column {name}", "unknown column", "", f"known: {names}") for name in unknown])
     # a column that is given by hand has that heading only
     return [Column(name, quantity, (aliases[name],) if name in aliases else others) for name, quantity, others in known]
 

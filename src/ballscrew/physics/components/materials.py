@@ -32,7 +32,6 @@ from ballscrew.basis.quantities import (
     Viscosity,
     fields_of,
 )
-from ballscrew.basis.records import Message
 from ballscrew.basis.usual_ranges import warn_at_once
 from ballscrew.physics.components.data_sheet import AT_40, AT_100, SHEET_TEMPERATURE, DataSheet, viscosity_index
 from ballscrew.physics.components.oil_grades import (
@@ -178,9 +177,8 @@ class Lubricant(ByValue):
             faults.append(Fault("lubricant.sheet", "contradicts the grade", str(self.grade), "give one of the two"))
         elif (self.grade is None and self.sheet is None) != (temperature is None):
             given = "temperature" if temperature is not None else "grade" if self.grade is not None else "sheet"
-            problem = Message(
-                "needs a {words}", {"words": "grade or a data sheet" if given == "temperature" else "temperature"}
-            )
+            words = "grade or a data sheet" if given == "temperature" else "temperature"
+            problem = f"needs a {words}"
             faults.append(Fault(f"lubricant.{given}", problem, str(getattr(self, given)), _HOW_TO_MAKE))
         raise_if_any(faults)
         object.__setattr__(self, "temperature", temperature)

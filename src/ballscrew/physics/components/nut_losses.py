@@ -18,7 +18,6 @@ from typing import Annotated, NamedTuple, Protocol
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, InputError, accepts_units, faults_of, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, Count, Density, Force, Info, Length, Ratio, Speed, Torque
-from ballscrew.basis.records import Message
 from ballscrew.physics.components.chain_force import WALL_FACTOR
 from ballscrew.physics.components.frame import helix_frame
 from ballscrew.physics.components.materials import GRAVITY, STEEL_DENSITY, Lubricant
@@ -183,14 +182,7 @@ class Seals(ByValue):
         found = min(seal_table(), key=lambda row: row.distance(nominal_diameter, lead))
         if not all(distance <= SAME_SIZE for distance in found.distance(nominal_diameter, lead)):
             given = f"{nominal_diameter * 1e3:g} mm, lead {lead * 1e3:g} mm"
-            raise InputError(
-                Fault(
-                    "losses.seals",
-                    "not in the table of seal torques",
-                    given,
-                    Message("nearest: {found}", {"found": str(found)}),
-                )
-            )
+            raise InputError(Fault("losses.seals", "not in the table of seal torques", given, f"nearest: {found}"))
         return cls(seal_torque=found.torque)
 
     def __call__(self, screw: BallScrew, lubricant: Lubricant, screw_speed: AngularSpeed) -> Torque:

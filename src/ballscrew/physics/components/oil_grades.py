@@ -24,7 +24,6 @@ from ballscrew.basis.quantities import (
     Viscosity,
     within_bounds,
 )
-from ballscrew.basis.records import Message
 from ballscrew.physics.components.data_sheet import ROUNDING, SHEET_TEMPERATURE, DataSheet
 from ballscrew.physics.equations import rheology, viscosity_temperature
 
@@ -158,22 +157,19 @@ def oil_of_grade(grade: str, temperature: Temperature) -> OilState:
     )
 
 
-_OF_GREASE = Message(
-    'that is the consistency of a grease, and friction follows its base oil: see "ballscrew oils list {grade}", '
-    'and write {lubricant.oil}"…", or its kinematic_viscosity_40 and kinematic_viscosity_100'
-)
-
-
-def _nearest_grade(grade: str, oils: Iterable[str]) -> Message:
+def _nearest_grade(grade: str, oils: Iterable[str]) -> str:
     """A remedy with the grade whose number is nearest, by their ratio; by its letters where there is no number."""
     if _grade_key(grade).startswith("nlgi"):
-        return _OF_GREASE.of(grade=grade)
+        return (
+            'that is the consistency of a grease, and friction follows its base oil: see "ballscrew oils list '
+            f'{grade}", and write oil = "…", or its kinematic_viscosity_40 and kinematic_viscosity_100'
+        )
     number = re.fullmatch(r"(?:iso)?(?:vg)?0*([1-9]\d{0,5})", _grade_key(grade))
     numbers = {float(name.rpartition(" ")[2]): name for name in oils if name.startswith("ISO VG ")}
     if number is None or not numbers:
         return nearest(grade, oils)
     found = numbers[min(numbers, key=lambda n: abs(math.log(n / float(number[1]))))]
-    return Message('did you mean "{word}"?', {"word": found})
+    return f'did you mean "{found}"?'
 
 
 def grades() -> list[str]:

@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.records import Message
 from ballscrew.physics.components.conditions import HertzShape
 from ballscrew.physics.components.frame import Frame
 from ballscrew.physics.components.laws import BallChain, InletFactors, RaceTorques
@@ -67,17 +66,17 @@ class _Checked:
         return found
 
     @property
-    def _remedy(self) -> str | Message:
+    def _remedy(self) -> str:
         if self.returns is None:
             return "return a number, or an array in the shape of what the law is given"
-        return Message("return {kind}", {"kind": f"{self.returns.__module__}.{self.returns.__qualname__}"})
+        return f"return {self.returns.__module__}.{self.returns.__qualname__}"
 
-    def _problem(self, found: Any, arguments: tuple[Any, ...]) -> str | Message | None:
+    def _problem(self, found: Any, arguments: tuple[Any, ...]) -> str | None:
         """Defect of a returned value; None if there is none."""
         values = (found,)
         if self.returns is not None:
             if not isinstance(found, self.returns):
-                return Message("must return a {kind}", {"kind": self.returns.__name__})
+                return f"must return a {self.returns.__name__}"
             values = found if isinstance(found, tuple) else ()
         for value in values:
             if not _is_number(value):

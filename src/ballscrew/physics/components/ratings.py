@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
+from ballscrew.basis import units
 from ballscrew.basis.arrays import as_array, namespace
-from ballscrew.basis.errors import shown_in_si
 from ballscrew.basis.quantities import Angle, Count, Force, Info, Length, Mask, Quantity, Ratio
-from ballscrew.basis.records import Measured, Message, Record
-from ballscrew.basis.usual_ranges import IMPLAUSIBLE
+from ballscrew.basis.records import Record
+from ballscrew.basis.usual_ranges import IMPLAUSIBLE, Written
 from ballscrew.physics.components.nut import PRELOAD
 from ballscrew.physics.equations import geometry, rating
 
@@ -20,10 +20,6 @@ RATING_CONFORMITY = 0.52
 #: ends leave room for the lightest classes, and for ratings of a geometry that is known roughly.
 PRELOAD_SHARES = (1e-3, 1.0)
 _RATING = Quantity("dynamic_load_rating", "N", Info("C_a", "dynamic load rating", "kN"))
-_ODD = Message(
-    "preload {preload} is {percent} % of the dynamic load rating {rating}, computed from the geometry; "
-    "nuts have 2 % to 10 %: check the number and its unit"
-)
 _PRELOAD = Quantity("preload", "N", PRELOAD)
 
 
@@ -61,7 +57,7 @@ def is_odd_preload(preload: Force, rating: Force) -> Mask:
     return (preload > 0) & namespace(share).isfinite(share) & ((share < low) | (share > high))
 
 
-def odd_preload(screw: Any) -> list[Record]:
+def odd_preload(screw: Any, written: Written = units.shown) -> list[Record]:
     """A warning of a preload that no nut with the dynamic load rating of a ball screw has; of arrays the farthest out.
 
     No preload at all is fine.
@@ -78,20 +74,19 @@ def odd_preload(screw: Any) -> list[Record]:
             return []
         at = int(np.argmax(np.where(odd, np.maximum(low / shares, shares / high), 0.0)))
     share = float(shares.flat[at])
-    message = _ODD.of(
-        preload=Measured(float(preloads.flat[at]), _PRELOAD),
-        percent=Measured(100 * share, digits=2),
-        rating=Measured(float(ratings.flat[at]), _RATING),
+    message = (
+        f"preload {written(preloads.flat[at], _PRELOAD)} is {units.number(100 * share, 2)} % of the dynamic load "
+        f"rating {written(ratings.flat[at], _RATING)}, computed from the geometry; nuts have 2 % to 10 %: check the "
+        "number and its unit"
     )
     return [
         Record(
             id=IMPLAUSIBLE,
             subject="nut.preload",
-            text=message.filled(shown_in_si),
+            text=message,
             severity="warning",
             holds=False,
             value=share,
             limit=high if share > high else low,
-            message=message,
         )
     ]

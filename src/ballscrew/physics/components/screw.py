@@ -7,9 +7,8 @@ import math
 from typing import Annotated, Any, cast
 
 from ballscrew.basis.arrays import ByValue, namespace
-from ballscrew.basis.errors import Fault, faults_of, is_concrete, measured, names_keywords, raise_if_any, shown
+from ballscrew.basis.errors import Fault, faults_of, is_concrete, names_keywords, raise_if_any, shown
 from ballscrew.basis.quantities import Angle, Count, Info, Length, Mask, Pressure, Ratio
-from ballscrew.basis.records import Message
 from ballscrew.basis.usual_ranges import warn_at_once
 from ballscrew.physics.components.materials import Material
 from ballscrew.physics.components.nut import Nut, NutParts, SingleNut
@@ -178,12 +177,12 @@ class BallScrew(ByValue):
         where, given = "screw.ball_diameter", shown(self.ball_diameter, "m")
         if self.ball_diameter < self._room_in_the_circle:
             problem = "too big for the lead: balls of neighbouring turns overlap"
-            room = measured(self._room_in_the_lead, "m")
-            remedy = Message("keep it below lead · cos(lead angle) / starts = {bound}", {"bound": room})
-            return [Fault(where, problem, given, remedy)]
-        room = measured(self._room_in_the_circle, "m")
-        remedy = Message("keep it below half the pitch circle diameter, {bound}", {"bound": room})
-        return [Fault(where, "too big for the pitch circle", given, remedy)]
+            room = float(self._room_in_the_lead)
+            remedy = f"keep it below lead · cos(lead angle) / starts = {shown(room, 'm')}"
+            return [Fault(where, problem, given, remedy, bound=room)]
+        room = float(self._room_in_the_circle)
+        remedy = f"keep it below half the pitch circle diameter, {shown(room, 'm')}"
+        return [Fault(where, "too big for the pitch circle", given, remedy, bound=room)]
 
     @property
     def materials(self) -> tuple[Material, Material, Material]:

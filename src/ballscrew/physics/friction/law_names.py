@@ -12,7 +12,6 @@ from typing import Any
 
 from ballscrew.basis.errors import Fault, nearest
 from ballscrew.basis.quantities import Quantity, fields_of
-from ballscrew.basis.records import Message
 from ballscrew.physics.components import chain_force, film_laws, frame, laws, mixed_friction, rolling_laws
 from ballscrew.physics.solvers.ellipse_slip import ellipse_slip
 from ballscrew.physics.solvers.line_slip import line_slip
@@ -82,21 +81,13 @@ def fault_of_law(slot: str, law: Any) -> Fault | None:
     if law is None and None in known.values():
         return None
     if isinstance(law, type):
-        return Fault(
-            where,
-            "must be a law",
-            f"the class {law.__name__}",
-            Message("make one of it: {law}(…)", {"law": law.__name__}),
-        )
+        return Fault(where, "must be a law", f"the class {law.__name__}", f"make one of it: {law.__name__}(…)")
     if not isinstance(law, str):
         return Fault(where, "must be a law", repr(law), "give a function, or a frozen dataclass with __call__")
     named = known.get(law)
     if named is None:
-        remedy = Message("{nearest} in a case file; in Python give the law itself", {"nearest": nearest(law, known)})
+        remedy = f"{nearest(law, known)} in a case file; in Python give the law itself"
     else:
         made = f"{named.__name__}()" if isinstance(named, type) else named.__name__
-        remedy = Message(
-            "from {module} import {named}, and give {slot}={made}",
-            {"module": named.__module__, "named": named.__name__, "slot": slot, "made": made},
-        )
+        remedy = f"from {named.__module__} import {named.__name__}, and give {slot}={made}"
     return Fault(where, "must be a law, not its name", law, remedy)

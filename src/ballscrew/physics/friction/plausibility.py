@@ -10,27 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.basis.errors import shown_in_si
-from ballscrew.basis.records import Measured, Message, Record, in_file
+from ballscrew.basis import units
+from ballscrew.basis.records import Record
 from ballscrew.basis.usual_ranges import IMPLAUSIBLE as IMPLAUSIBLE
 from ballscrew.basis.usual_ranges import unusual
 from ballscrew.physics.components.data_sheet import SHEET_TEMPERATURE, DataSheet
 from ballscrew.physics.components.ratings import odd_preload
 from ballscrew.physics.components.screw import MATERIALS, BallScrew
 
-_BELOW_POUR_POINT = Message(
-    "oil at {value}, below its pour point {limit}: it does not flow by itself, and its viscosity is a guess; "
-    "at the start it is more"
-)
-_BELOW = Message("lubricant at {value}, below the {limit} that its maker states: its viscosity is a guess")
-_ABOVE = Message("lubricant at {value}, above the {limit} that its maker states: it does not last")
-_EXTRAPOLATED_COLD = Message(
-    "oil at {value}: its viscosity is extrapolated far from the two points of its data sheet; give its pour_point"
-)
-_EXTRAPOLATED_HOT = Message(
-    "oil at {value}: its viscosity is extrapolated far from the two points of its data sheet; "
-    "give its highest_temperature"
-)
 #: Constant of replenishment of a track with grease (SKF2018).
 GREASE_REPLENISHMENT = 6e-8
 #: Without a pour point or a range on the sheet, temperatures as far from 40 and 100 °C as this are extrapolated, K.
@@ -90,17 +77,36 @@ def beyond_data_sheet(lubricant: Any) -> list[Record]:
     numbers = np.asarray(lubricant.temperature, dtype=float)
     numbers = numbers[np.isfinite(numbers)]
     coldest, hottest = float(numbers.min(initial=np.inf)), float(numbers.max(initial=-np.inf))
+
+    def shown(temperature: float) -> str:
+        return units.shown(temperature, SHEET_TEMPERATURE)
+
+    extrapolated = "its viscosity is extrapolated far from the two points of its data sheet"
     records: list[Record] = []
     if sheet.pour_point is not None and coldest < sheet.pour_point:
-        records.append(_of_sheet("below_pour_point", _BELOW_POUR_POINT, coldest, float(sheet.pour_point)))
+        text = (
+            f"oil at {shown(coldest)}, below its pour point {shown(sheet.pour_point)}: it does not flow "
+            "by itself, and its viscosity is a guess; at the start it is more"
+        )
+        records.append(_of_sheet("below_pour_point", text, coldest, float(sheet.pour_point)))
     elif sheet.lowest_temperature is not None and coldest < sheet.lowest_temperature:
-        records.append(_of_sheet("below_range", _BELOW, coldest, float(sheet.lowest_temperature)))
+        text = (
+            f"lubricant at {shown(coldest)}, below the {shown(sheet.lowest_temperature)} that its maker "
+            "states: its viscosity is a guess"
+        )
+        records.append(_of_sheet("below_range", text, coldest, float(sheet.lowest_temperature)))
     elif sheet.pour_point is None and sheet.lowest_temperature is None and coldest < _COLD:
-        records.append(_of_sheet("extrapolated_cold", _EXTRAPOLATED_COLD, coldest, _COLD))
+        text = f"oil at {shown(coldest)}: {extrapolated}; give its pour_point"
+        records.append(_of_sheet("extrapolated_cold", text, coldest, _COLD))
     if sheet.highest_temperature is not None and hottest > sheet.highest_temperature:
-        records.append(_of_sheet("above_range", _ABOVE, hottest, float(sheet.highest_temperature)))
+        text = (
+            f"lubricant at {shown(hottest)}, above the {shown(sheet.highest_temperature)} that its maker "
+            "states: it does not last"
+        )
+        records.append(_of_sheet("above_range", text, hottest, float(sheet.highest_temperature)))
     elif sheet.highest_temperature is None and hottest > _HOT:
-        records.append(_of_sheet("extrapolated_hot", _EXTRAPOLATED_HOT, hottest, _HOT))
+        text = f"oil at {shown(hottest)}: {extrapolated}; give its highest_temperature"
+        records.append(_of_sheet("extrapolated_hot", text, hottest, _HOT))
     return records
 
 
@@ -113,34 +119,31 @@ def _grease_as_oil(lubricant: Any, inlet: Any) -> list[Record]:
     least = float(np.min(constant))
     if least >= GREASE_REPLENISHMENT * (1 - 1e-9):
         return []
-    message = Message(
-        "grease computed as oil of a bath: its constant of replenishment is 6e-8; write {constant} = 6e-8",
-        {"constant": in_file("model.inlet.replenishment_constant")},
+    message = (
+        "grease computed as oil of a bath: its constant of replenishment is 6e-8; write [model] "
+        "inlet.replenishment_constant = 6e-8"
     )
     return [
         Record(
             id="lubricant.grease_as_oil",
             subject="model.inlet.replenishment_constant",
-            text=message.filled(shown_in_si),
+            text=message,
             severity="warning",
             holds=False,
             value=least,
             limit=GREASE_REPLENISHMENT,
-            message=message,
         )
     ]
 
 
-def _of_sheet(name: str, template: Message, value: float, limit: float) -> Record:
-    message = template.of(value=Measured(value, SHEET_TEMPERATURE), limit=Measured(limit, SHEET_TEMPERATURE))
+def _of_sheet(name: str, text: str, value: float, limit: float) -> Record:
     return Record(
         id=f"lubricant.{name}",
         subject="lubricant.temperature",
-        text=message.filled(shown_in_si),
+        text=text,
         severity="warning",
         holds=False,
         value=value,
         limit=limit,
         unit="K",
-        message=message,
     )

@@ -13,10 +13,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ballscrew.basis import units
 from ballscrew.basis.arrays import as_array
-from ballscrew.basis.errors import shown_to_digits
 from ballscrew.basis.quantities import Quantity
-from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import rolling
 
@@ -30,15 +30,12 @@ LARGEST_DIFFERENCE = 0.1
 #: the torque that force, it would grow by 1/0.92, that is by less than what counts.
 NEARLY_ALL = 0.92
 
-#: The sentence of an answer that has one number.
-OF_ONE_NUMBER = Message(
-    "starvation: friction is {given} if oil this thick comes back into the track too late, as formulas for bearings "
-    "say, and {flooded} in a full bath of oil; no measurement on a ball screw decides between them"
-)
-_SEVERAL = Message(
+_SENTENCE = (
     "starvation: {given} if oil this thick comes back into the track too late, as formulas for bearings say, and "
     "{flooded} in a full bath of oil; no measurement on a ball screw decides between them"
 )
+#: The sentence of an answer that has one number, with places for it.
+OF_ONE_NUMBER = _SENTENCE.replace("{given}", "friction is {given}")
 
 
 class BothTorques(NamedTuple):
@@ -89,40 +86,35 @@ def least_replenished(model: Any, screw: BallScrew, lubricant: Any, screw_speed:
     return float(np.min(left, initial=1.0, where=np.isfinite(left)))
 
 
-def records(numbers: Sequence[BothTorques], remark: Message | None = None) -> list[Record]:
+def records(numbers: Sequence[BothTorques], remark: str | None = None) -> list[Record]:
     """The record of an answer that is starved; the first of the numbers is its value, in a full bath.
 
     The limit of the record is that number with the inlet as it is given. A ``remark`` ends the sentence.
     """
     first = numbers[0]
-    given = [Measured(one.given, one.quantity) for one in numbers]
-    flooded = [Measured(one.flooded, one.quantity) for one in numbers]
+    given = [units.shown(one.given, one.quantity) for one in numbers]
+    flooded = [units.shown(one.flooded, one.quantity) for one in numbers]
     if len(numbers) == 1:
-        message = OF_ONE_NUMBER.of(given=given[0], flooded=flooded[0])
+        as_given = f"friction is {given[0]}"
     else:
-        named = [
-            Message("{meaning} {value}", {"meaning": Message(one.quantity.info.meaning), "value": value})
-            for one, value in zip(numbers, given, strict=True)
-        ]
-        message = _SEVERAL.of(
-            given=_listed(named), flooded=_listed([Message("{value}", {"value": v}) for v in flooded])
+        as_given = _listed(
+            [f"{one.quantity.info.meaning} {torque}" for one, torque in zip(numbers, given, strict=True)]
         )
-    if remark is not None:
-        message = Message("{starved}; {remark}", {"starved": message, "remark": remark})
+    text = _SENTENCE.format(given=as_given, flooded=_listed(flooded))
     return [
         Record(
             id=STARVED,
             subject=first.quantity.name,
-            text=message.filled(shown_to_digits),
+            text=f"{text}; {remark}" if remark else text,
             severity="warning",
             holds=False,
             value=first.flooded,
             limit=first.given,
             unit=first.quantity.unit,
-            message=message,
         )
     ]
 
 
-def _listed(parts: Sequence[Message]) -> Message:
-    return Message("{others} and {last}", {"others": parts[:-1], "last": parts[-1]})
+def _listed(parts: Sequence[str]) -> str:
+    *others, last = parts
+    return f"{', '.join(others)} and {last}" if others else last

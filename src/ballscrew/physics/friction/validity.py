@@ -12,7 +12,7 @@ from ballscrew.basis.arrays import namespace
 from ballscrew.basis.errors import is_concrete
 from ballscrew.basis.judgements import Judgement, Sentence, Shown
 from ballscrew.basis.quantities import Mask, Ratio, Torque, fields_of, within_bounds
-from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.physics.components.contact import Contact, RaceState
 from ballscrew.physics.components.screw import BallScrew
 
@@ -35,85 +35,70 @@ SMALLEST_INLET_FACTOR = 0.5
 
 @dataclasses.dataclass(frozen=True, slots=True)
 class Condition:
-    """A condition of the model: the quantity it concerns and the message shown where it fails.
+    """A condition of the model: the quantity it concerns and the text shown where it fails.
 
     Where it compares one number of each contact with one limit: ``quantity`` (its name there), ``limit`` and ``unit``.
     """
 
     subject: str
-    message: Message
+    text: str
     quantity: str = ""
     limit: float | None = None
     unit: str = "1"
     #: The limit is the greatest allowed value, not the least.
     upper: bool = False
 
-    @property
-    def text(self) -> str:
-        """The message in English."""
-        return self.message.filled(Measured.plain)
-
 
 CONDITIONS: Mapping[str, Condition] = {
     "inputs": Condition(
-        "inputs",
-        Message(
-            "inputs must be finite and within their bounds, the balls must fit, and the torque must be finite"
-        ),
+        "inputs", "inputs must be finite and within their bounds, the balls must fit, and the torque must be finite"
     ),
     "skid": Condition(
         "friction_coefficient",
-        Message(
-            "the sliding force exceeds friction coefficient times load at a contact: the ball skids; "
-            "more load or less speed ends it"
-        ),
+        "the sliding force exceeds friction coefficient times load at a contact: the ball skids; "
+        "more load or less speed ends it",
     ),
     "pure_rolling_offset": Condition(
         "pure_rolling_offset",
-        Message(
-            "the lines of pure rolling lie outside 0 <= Y < {limit}, where (15) holds",
-            {"limit": Measured(LARGEST_PURE_ROLLING_OFFSET)},
-        ),
+        f"the lines of pure rolling lie outside 0 <= Y < {LARGEST_PURE_ROLLING_OFFSET}, where (15) holds",
     ),
     "radii_ratio": Condition(
         "semi_major_axis",
-        Message("the radii ratio k is outside the range of the Hertz law (k >= 1, and a largest k of each law)"),
+        "the radii ratio k is outside the range of the Hertz law (k >= 1, and a largest k of each law)",
     ),
     "contact_pressure": Condition(
         "maximum_pressure",
-        Message(
-            "the maximum pressure exceeds {limit} GPa: the contact yields (ISO 76)",
-            {"limit": Measured(LARGEST_PRESSURE / 1e9)},
-        ),
-        "maximum_pressure", LARGEST_PRESSURE, "Pa", upper=True,
+        f"the maximum pressure exceeds {LARGEST_PRESSURE / 1e9:g} GPa: the contact yields (ISO 76)",
+        "maximum_pressure",
+        LARGEST_PRESSURE,
+        "Pa",
+        upper=True,
     ),
     "elastic_regime": Condition(
         "minimum_film_thickness",
-        Message(
-            "the load is too light for the film law (M < {limit}): "
-            "film and friction are estimates; more load or less speed leads back",
-            {"limit": Measured(SMALLEST_ELASTIC_REGIME_PARAMETER)},
-        ),
-        "elastic_regime_parameter", SMALLEST_ELASTIC_REGIME_PARAMETER,
+        f"the load is too light for the film law (M < {SMALLEST_ELASTIC_REGIME_PARAMETER}): "
+        "film and friction are estimates; more load or less speed leads back",
+        "elastic_regime_parameter",
+        SMALLEST_ELASTIC_REGIME_PARAMETER,
     ),
     "inlet_heating": Condition(
         "minimum_film_thickness",
-        Message("the heat of the inlet takes more than half of the film: too fast for its factor to be trusted"),
-        "inlet_film_factor", SMALLEST_INLET_FACTOR,
+        "the heat of the inlet takes more than half of the film: too fast for its factor to be trusted",
+        "inlet_film_factor",
+        SMALLEST_INLET_FACTOR,
     ),
     "material_parameter": Condition(
         "minimum_film_thickness",
-        Message(
-            "G is outside {low} to {high}, the materials and oils behind the film regression (26)",
-            {name: Measured(end) for name, end in zip(("low", "high"), MATERIAL_PARAMETER_RANGE, strict=True)},
+        "G is outside {:g} to {:g}, the materials and oils behind the film regression (26)".format(
+            *MATERIAL_PARAMETER_RANGE
         ),
     ),
-    "equilibrium": Condition("equilibrium", Message("the slip of the ball did not converge")),
-}  # fmt: skip
+    "equilibrium": Condition("equilibrium", "the slip of the ball did not converge"),
+}
 #: The conditions of a ball, and those of a nut.
 NUT_CONDITIONS: Mapping[str, Condition] = {
     **CONDITIONS,
-    "load_distribution": Condition("load_distribution", Message("the loads of the balls did not converge")),
+    "load_distribution": Condition("load_distribution", "the loads of the balls did not converge"),
 }
 #: The texts alone, by reason.
 NUT_REASONS: Mapping[str, str] = {reason: condition.text for reason, condition in NUT_CONDITIONS.items()}
@@ -142,19 +127,15 @@ IMBALANCE = Judgement(
     holds=False,
     sentences=(
         Sentence(
-            Message(
-                "the power of the torque differs by up to {percent}% from what the parts dissipate, and the torque on "
-                "the nut falls below zero: the reactions of the model do not balance; "
-                "the model corrected has them in balance"
-            ),
+            "the power of the torque differs by up to {percent}% from what the parts dissipate, and the torque "
+            "on the nut falls below zero: the reactions of the model do not balance; the model corrected has "
+            "them in balance",
             "is_below_zero",
             _PERCENT,
         ),
         Sentence(
-            Message(
-                "the power of the torque differs by up to {percent}% from what the parts dissipate: "
-                "the reactions of the model do not balance; the model corrected has them in balance"
-            ),
+            "the power of the torque differs by up to {percent}% from what the parts dissipate: the reactions "
+            "of the model do not balance; the model corrected has them in balance",
             places=_PERCENT,
         ),
     ),
@@ -178,16 +159,12 @@ def _judgement(reason: str, condition: Condition) -> Judgement:
         severity="warning",
         holds=False,
         unit=condition.unit,
-        sentences=(Sentence(condition.message, places=condition.message.values),),
+        sentences=(Sentence(condition.text),),
     )
 
 
 #: The warnings of all conditions.
 VALIDITY: tuple[Judgement, ...] = tuple(_judgement(*one) for one in NUT_CONDITIONS.items())
-
-
-def _in_si(message: Message) -> str:
-    return message.filled(Measured.plain)
 
 
 def imbalance_records(power_imbalance: Ratio, nut_torque: Torque) -> list[Record]:
@@ -196,7 +173,7 @@ def imbalance_records(power_imbalance: Ratio, nut_torque: Torque) -> list[Record
     largest = np.max(np.abs(shares), initial=0.0, where=np.isfinite(shares))
     least = np.min(torques, initial=0.0, where=torques < 0)
     found = IMBALANCE.finds({"power_imbalance": largest, "nut_torque": least})
-    record = None if found is None else IMBALANCE.record(found, {}, _in_si)
+    record = None if found is None else IMBALANCE.record(found, {})
     return [] if record is None else [record]
 
 
@@ -217,7 +194,7 @@ def _record(reason: str, condition: Condition, contacts: Sequence[Contact]) -> R
     found = dict(row.finds({f"validity_{reason}": False}) or {})
     if condition.quantity:
         found["value"] = _worst(condition, contacts)
-    record = row.record(found, {}, _in_si)
+    record = row.record(found, {})
     assert record is not None, "a condition that fails is said"
     return record
 

@@ -18,10 +18,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from ballscrew.basis import units
 from ballscrew.basis.arrays import namespace
 from ballscrew.basis.judgements import Judgement, Sentence, Shown, Words, is_nan
 from ballscrew.basis.quantities import Force, Info, Mask, Quantity, fields_of, quantities_of
-from ballscrew.basis.records import Measured, Message
 from ballscrew.physics.components.nut import PRELOAD
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.friction import directions, starvation
@@ -81,10 +81,10 @@ def _quadrant(of: Mapping[str, Any]) -> Mapping[str, Any]:
 
 
 _WORDS_OF_QUADRANT = (
-    Sentence(Message("drives forward"), "drives_forward"),
-    Sentence(Message("is back-driven in reverse"), "is_back_driven_in_reverse"),
-    Sentence(Message("drives in reverse"), "drives_in_reverse"),
-    Sentence(Message("is back-driven forward"), "is_back_driven_forward"),
+    Sentence("drives forward", "drives_forward"),
+    Sentence("is back-driven in reverse", "is_back_driven_in_reverse"),
+    Sentence("drives in reverse", "drives_in_reverse"),
+    Sentence("is back-driven forward", "is_back_driven_forward"),
 )
 _OF_QUADRANT = {"quadrant": _WORDS_OF_QUADRANT, "torque": Shown("torque", _DRIVE)}
 
@@ -130,10 +130,10 @@ def _locks_itself_at_rest(of: Mapping[str, Any]) -> Mapping[str, Any]:
     return {**found, "said": is_held & namespace(drives).logical_not(drives)}
 
 
-def _holding(message: Message, **row: Any) -> Judgement:
+def _holding(template: str, **row: Any) -> Judgement:
     """A verdict on a load that is held; outside the validity of the model the sentence says so."""
-    inside = Sentence(message, places={"torque": Shown("torque", _HOLDING)})
-    outside = Sentence(Message("{message} (outside the model's validity)"), "invalid", {"message": (inside,)})
+    inside = Sentence(template, places={"torque": Shown("torque", _HOLDING)})
+    outside = Sentence("{message} (outside the model's validity)", "invalid", {"message": (inside,)})
     return Judgement(subject="holding_torque", holds=True, unit=_HOLDING.unit, sentences=(outside, inside), **row)
 
 
@@ -205,10 +205,8 @@ RULE_OF_MAKER = Judgement(
     needs=("rule_of_maker", "preload_drag_of_balls", "screw_speed"),
     sentences=(
         Sentence(
-            Message(
-                "drag torque without seals: the rule of its maker {rule} gives {drag}, the model {torque} at {speed}, "
-                "{ratio} times that; range of the rule: {range}"
-            ),
+            "drag torque without seals: the rule of its maker {rule} gives {drag}, the model {torque} at "
+            "{speed}, {ratio} times that; range of the rule: {range}",
             places={
                 "rule": Words("rule"),
                 "torque": Shown("torque", _OF_RULE),
@@ -231,7 +229,7 @@ PRELOAD_LOST = Judgement(
     unit=_LIFT_OFF.unit,
     sentences=(
         Sentence(
-            Message("preload lost: the balls lift off the other flank; they do above {load}"),
+            "preload lost: the balls lift off the other flank; they do above {load}",
             places={"load": Shown("limit", _LIFT_OFF)},
         ),
     ),
@@ -259,7 +257,7 @@ VERDICTS: tuple[Judgement, ...] = (
         formula=_no_load,
         needs=("axial_load",),
         unit="N",
-        sentences=(Sentence(Message("no axial load")),),
+        sentences=(Sentence("no axial load"),),
     ),
     Judgement(
         id="verdict.quadrant",
@@ -269,26 +267,24 @@ VERDICTS: tuple[Judgement, ...] = (
         unit=_DRIVE.unit,
         sentences=(
             Sentence(
-                Message("{quadrant}: the screw moves the nut against the load; {torque} on the shaft drive it"),
+                "{quadrant}: the screw moves the nut against the load; {torque} on the shaft drive it",
                 "against_the_load",
                 _OF_QUADRANT,
             ),
             Sentence(
-                Message("{quadrant}: the load moves the way the screw turns; {torque} on the shaft hold it back"),
+                "{quadrant}: the load moves the way the screw turns; {torque} on the shaft hold it back",
                 "holds_back",
                 _OF_QUADRANT,
             ),
             Sentence(
-                Message(
-                    "{quadrant}: the load moves the way the screw turns, and does not suffice; "
-                    "{torque} on the shaft drive it"
-                ),
+                "{quadrant}: the load moves the way the screw turns, and does not suffice; {torque} on the "
+                "shaft drive it",
                 places=_OF_QUADRANT,
             ),
         ),
     ),
     _holding(
-        Message("back-drives: the load turns the screw; {torque} on the shaft hold it at this speed"),
+        "back-drives: the load turns the screw; {torque} on the shaft hold it at this speed",
         id="verdict.back_driving",
         formula=_back_drives,
         needs=_IN_MOTION,
@@ -296,10 +292,8 @@ VERDICTS: tuple[Judgement, ...] = (
     ),
     # what holds a load only while it turns is no self-locking: nobody may leave a brake out because of it
     _holding(
-        Message(
-            "not self-locking: friction holds the load only while the screw turns at this speed; "
-            "at rest the load drives: it needs a brake; {torque} on the shaft lower it at this speed"
-        ),
+        "not self-locking: friction holds the load only while the screw turns at this speed; at rest the load "
+        "drives: it needs a brake; {torque} on the shaft lower it at this speed",
         id="verdict.held_in_motion",
         formula=_held_in_motion,
         needs=(*_IN_MOTION, "at_rest.holding_torque"),
@@ -307,7 +301,7 @@ VERDICTS: tuple[Judgement, ...] = (
         severity="warning",
     ),
     _holding(
-        Message("self-locking: the load alone does not turn the screw at this speed; {torque} on the shaft lower it"),
+        "self-locking: the load alone does not turn the screw at this speed; {torque} on the shaft lower it",
         id="verdict.self_locking",
         formula=_locks_itself,
         needs=(*_IN_MOTION, "at_rest.holding_torque"),
@@ -315,14 +309,14 @@ VERDICTS: tuple[Judgement, ...] = (
         severity="warning",
     ),
     _holding(
-        Message("back-drives: the load turns the screw; {torque} on the shaft hold it at rest"),
+        "back-drives: the load turns the screw; {torque} on the shaft hold it at rest",
         id="verdict.back_driving.at_rest",
         formula=_back_drives_at_rest,
         needs=_AT_REST,
         truths=("at_rest.valid",),
     ),
     _holding(
-        Message("self-locking: the load alone does not turn the screw at rest; {torque} on the shaft lower it"),
+        "self-locking: the load alone does not turn the screw at rest; {torque} on the shaft lower it",
         id="verdict.self_locking.at_rest",
         formula=_locks_itself_at_rest,
         needs=_AT_REST,
@@ -338,7 +332,7 @@ VERDICTS: tuple[Judgement, ...] = (
         holds=False,
         sentences=(
             Sentence(
-                Message("skids: friction carries only {percent}% of what resists the rolling of a ball"),
+                "skids: friction carries only {percent}% of what resists the rolling of a ball",
                 places=_PERCENT,
             ),
         ),
@@ -349,9 +343,7 @@ VERDICTS: tuple[Judgement, ...] = (
         formula=_skids_at_rest,
         needs=_ROLLS,
         holds=False,
-        sentences=(
-            Sentence(Message("at rest: friction carries only {percent}% of what resists rolling"), places=_PERCENT),
-        ),
+        sentences=(Sentence("at rest: friction carries only {percent}% of what resists rolling", places=_PERCENT),),
     ),
     RULE_OF_MAKER,
     PRELOAD_LOST,
@@ -367,16 +359,14 @@ PRELOAD_ABOVE_RATING = Judgement(
     holds=False,
     sentences=(
         Sentence(
-            Message(
-                "preload {preload} is {share} times the dynamic load rating {rating}, {source}: "
-                "vendors give a nut {largest} times that at most; check the number and its unit"
-            ),
+            "preload {preload} is {share} times the dynamic load rating {rating}, {source}: vendors give "
+            "a nut {largest} times that at most; check the number and its unit",
             places={
                 "preload": Shown("preload", _PRELOAD),
                 "share": Shown("value", digits=3),
                 "rating": Shown("rating", _RATING),
                 "source": Words("rating_source"),
-                "largest": Measured(LARGEST_PRELOAD_SHARE),
+                "largest": units.number(LARGEST_PRELOAD_SHARE),
             },
         ),
     ),

@@ -7,8 +7,8 @@ import tomllib
 from importlib import resources
 from typing import Any, NamedTuple
 
+from ballscrew.basis import units
 from ballscrew.basis.quantities import Ratio
-from ballscrew.basis.records import Measured, Message
 from ballscrew.physics.sizing.sources import QUALIFICATIONS, Source
 
 
@@ -34,12 +34,14 @@ class FactorOfMake(NamedTuple):
     @property
     def words(self) -> str:
         """Whose factor it is, with the kind of its source where it was not read."""
-        values = {"factor": Measured(self.value, digits=3), "make": self.make, "source": self.reference}
-        said = Message("factor for accuracy {factor}, of {make}'s printed rigidities of double nuts ({source})", values)
+        said = (
+            f"factor for accuracy {units.number(self.value, 3)}, of {self.make}'s printed rigidities of double "
+            f"nuts ({self.reference})"
+        )
         qualified = QUALIFICATIONS[self.source]
         if qualified is not None:
-            said = Message("{said}: {source}", {"said": said, "source": qualified})
-        return said.filled(Measured.plain)
+            said = f"{said}: {qualified}"
+        return said
 
 
 def factors_of_standard() -> FactorsOfStandard:

@@ -11,9 +11,8 @@ from importlib import resources
 from typing import Annotated, Any
 
 from ballscrew.basis.arrays import ByValue
-from ballscrew.basis.errors import Fault, InputError, faults_of, measured, nearest, raise_if_any, shown
+from ballscrew.basis.errors import Fault, InputError, faults_of, nearest, raise_if_any, shown
 from ballscrew.basis.quantities import Angle, Count, DiameterSpeed, Force, Info, Length, Ratio, Stiffness, Torque, Unit
-from ballscrew.basis.records import Message
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import geometry
 from ballscrew.physics.sizing.listed_nut import faults_of_nut, nut_of
@@ -167,19 +166,19 @@ class CatalogueRow(ByValue):
         raise_if_any(faults_of(where, self, optional=(*_OPTIONAL, *_OF_NUT, *_OF_TRADE)))
         if self.ball_diameter < SMALLEST_BALL * self.ball_circle:
             problem, given = "too small for the pitch circle", shown(self.ball_diameter, "m")
-            least = measured(SMALLEST_BALL * self.ball_circle, "m")
-            remedy = Message("check the unit; {least} or more", {"least": least})
-            raise InputError(Fault(f"{where}.ball_diameter", problem, given, remedy))
+            least = SMALLEST_BALL * self.ball_circle
+            remedy = f"check the unit; {shown(least, 'm')} or more"
+            raise InputError(Fault(f"{where}.ball_diameter", problem, given, remedy, bound=least))
         bound = self.ball_circle + self.ball_diameter
         if self.nut_outer_diameter is not None and self.nut_outer_diameter <= bound:
             problem, given = "leaves no wall around the balls", shown(self.nut_outer_diameter, "m")
-            remedy = Message("check the unit and the column; above {bound}", {"bound": measured(bound, "m")})
-            raise InputError(Fault(f"{where}.nut_outer_diameter", problem, given, remedy))
+            remedy = f"check the unit and the column; above {shown(bound, 'm')}"
+            raise InputError(Fault(f"{where}.nut_outer_diameter", problem, given, remedy, bound=bound))
         if self.lead > LARGEST_LEAD * self.ball_circle:
             problem, given = "too large for the pitch circle", shown(self.lead, "m")
-            most = measured(LARGEST_LEAD * self.ball_circle, "m")
-            remedy = Message("check the unit; {most} or less", {"most": most})
-            raise InputError(Fault(f"{where}.lead", problem, given, remedy))
+            most = LARGEST_LEAD * self.ball_circle
+            remedy = f"check the unit; {shown(most, 'm')} or less"
+            raise InputError(Fault(f"{where}.lead", problem, given, remedy, bound=most))
         raise_if_any(faults_of_nut(where, self))
 
     @property

@@ -27,7 +27,6 @@ import numpy as np
 from ballscrew.basis.arrays import namespace, where
 from ballscrew.basis.judgements import Judgement, Sentence, Shown, Words, at_least, at_most, is_nan
 from ballscrew.basis.quantities import Force, Mask
-from ballscrew.basis.records import Message
 from ballscrew.physics.equations import life, shaft
 from ballscrew.physics.friction.validity import LARGEST_PRESSURE
 
@@ -35,9 +34,9 @@ HOUR = 3600.0
 #: What is to be given where no running time is asked for.
 RUNNING_TIME = "limits.running_time"
 
-NOT_CHECKED = Message("not checked: give {input}")
+NOT_CHECKED = "not checked: give {input}"
 #: A life that no running time is asked of, and what to give for it.
-NOT_JUDGED, UNJUDGED = Message("not judged: give {input}"), Message("{life}; {advice}")
+NOT_JUDGED, UNJUDGED = "not judged: give {input}", "{life}; {advice}"
 
 
 def half_loads(axial_load: Force, remaining_preload: Force) -> tuple[Force, Force]:
@@ -128,23 +127,23 @@ def _diameter_speed_product(of: Mapping[str, Any]) -> Mapping[str, Any]:
     return at_most(value, of["limits.diameter_speed_product"])
 
 
-_ENDLESS = Sentence(Message("no load tires it"))
+_ENDLESS = Sentence("no load tires it")
 _OF_TURNS = (
     Sentence(
-        Message("basic rating life L10: {turns} million revolutions, preload included"),
+        "basic rating life L10: {turns} million revolutions, preload included",
         "tires",
         {"turns": Shown("million_turns", digits=3)},
     ),
     _ENDLESS,
 )
 _OF_TIME = (
-    Sentence(Message("{hours} h at this speed"), "lasts", {"hours": Shown("hours", digits=3)}),
-    Sentence(Message("no turn tires it"), "tires"),
+    Sentence("{hours} h at this speed", "lasts", {"hours": Shown("hours", digits=3)}),
+    Sentence("no turn tires it", "tires"),
     _ENDLESS,
 )
 _ADVICE = (
-    Sentence(Message("not judged: at rest"), "at_rest"),
-    Sentence(NOT_JUDGED, places={"input": Message(RUNNING_TIME)}),
+    Sentence("not judged: at rest", "at_rest"),
+    Sentence(NOT_JUDGED, places={"input": RUNNING_TIME}),
 )
 _OF_LIFE = ("dynamic_load_rating", "half_load", "other_half_load", "screw_speed")
 _MOUNTED = ("young_modulus", "root_diameter", "unsupported_length")
@@ -163,7 +162,7 @@ CHECKS: tuple[Judgement, ...] = (
         formula=_static_safety,
         needs=("static_load_rating", "largest_half_load", "limits.static_safety"),
         give="static_load_rating",
-        sentences=(Sentence(Message("static rating against the largest load, preload included")),),
+        sentences=(Sentence("static rating against the largest load, preload included"),),
         source="read",  # quotient and least value of THK514E
     ),
     _check(
@@ -192,9 +191,7 @@ CHECKS: tuple[Judgement, ...] = (
         give="maximum_pressure",
         unit="Pa",
         sentences=(
-            Sentence(
-                Message("largest Hertz pressure against that which leaves a dent of 1e-4 of the ball diameter (ISO 76)")
-            ),
+            Sentence("largest Hertz pressure against that which leaves a dent of 1e-4 of the ball diameter (ISO 76)"),
         ),
         source="read",  # 4200 MPa and a dent of 1e-4: ISO76, clauses 3.2 and 3.3
     ),
@@ -203,7 +200,7 @@ CHECKS: tuple[Judgement, ...] = (
         formula=_shaft_stress,
         needs=("largest_load", "root_diameter", "limits.shaft_stress"),
         unit="Pa",
-        sentences=(Sentence(Message("largest load over the core of the shaft, pulled or pushed")),),
+        sentences=(Sentence("largest load over the core of the shaft, pulled or pushed"),),
         source="read",  # force over area, the limit of THK514E
     ),
     _check(
@@ -214,7 +211,7 @@ CHECKS: tuple[Judgement, ...] = (
         unit="N",
         sentences=(
             Sentence(
-                Message("largest load, if it pushes, against Euler's over {safety}, ends {ends}, the nut no support"),
+                "largest load, if it pushes, against Euler's over {safety}, ends {ends}, the nut no support",
                 places={"safety": Shown("safety", digits=6), "ends": Words("ends")},
             ),
         ),
@@ -228,7 +225,7 @@ CHECKS: tuple[Judgement, ...] = (
         unit="rad/s",
         sentences=(
             Sentence(
-                Message("speed against {share} of the critical speed, ends {ends}, the nut no support"),
+                "speed against {share} of the critical speed, ends {ends}, the nut no support",
                 places={"share": Shown("share", digits=6), "ends": Words("ends")},
             ),
         ),
@@ -241,10 +238,7 @@ CHECKS: tuple[Judgement, ...] = (
         unit="m rad/s",
         sentences=(
             Sentence(
-                Message(
-                    "DN value, pitch circle diameter times speed, which the return of the balls must stand; "
-                    "limit {source}"
-                ),
+                "DN value, pitch circle diameter times speed, which the return of the balls must stand; limit {source}",
                 places={"source": Words("limit_source")},
             ),
         ),
@@ -288,13 +282,13 @@ def counted(found: Mapping[str, Mapping[str, Any]], given: Mapping[str, Mask] | 
 
 _COUNT = {"judged": Shown("number_judged"), "all": Shown("number")}
 _IN_FEW_WORDS = (
-    Sentence(Message("fails: {names}"), "fails_of_all", {"names": Words("names")}),
-    Sentence(Message("fails: {names}; {judged} of {all} judged"), "fails", {"names": Words("names"), **_COUNT}),
-    Sentence(Message("passes"), "passes"),
-    Sentence(Message("{judged} of {all} judged, and these hold"), places=_COUNT),
+    Sentence("fails: {names}", "fails_of_all", {"names": Words("names")}),
+    Sentence("fails: {names}; {judged} of {all} judged", "fails", {"names": Words("names"), **_COUNT}),
+    Sentence("passes", "passes"),
+    Sentence("{judged} of {all} judged, and these hold", places=_COUNT),
 )
 #: The verdict on all checks of a result outside the model's validity.
-OUTSIDE = Message("{verdict}; outside the model's validity")
+OUTSIDE = "{verdict}; outside the model's validity"
 _WITH_VALIDITY = (
     Sentence(OUTSIDE, "outside_validity", {"verdict": _IN_FEW_WORDS}),
     *_IN_FEW_WORDS,
@@ -310,7 +304,7 @@ ALL_CHECKS = Judgement(
     severity_of_failure="error",
     sentences=(
         # of a case with a cycle, which is judged elsewhere
-        Sentence(Message("this operating point for ever: {verdict}"), "has_cycle", {"verdict": _WITH_VALIDITY}),
+        Sentence("this operating point for ever: {verdict}", "has_cycle", {"verdict": _WITH_VALIDITY}),
         *_WITH_VALIDITY,
     ),
 )

@@ -11,7 +11,7 @@ from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, accepts_units, raise_if_any, shown
 from ballscrew.basis.judgements import Judgement, at_least, at_most
 from ballscrew.basis.quantities import AngularSpeed, Force, Length, Pressure, Ratio, fields_of
-from ballscrew.basis.records import Measured, Message, Record, Value
+from ballscrew.basis.records import Record
 from ballscrew.physics.components.nut import Nut, SingleNut
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
@@ -33,9 +33,9 @@ SOURCES = cast("Mapping[str, Source]", {row.name: row.source for row in CHECKS})
 
 _SINGLE = SingleNut()
 _USUAL = Limits()
-_PASSES = Message("passes")
+_PASSES = "passes"
 #: Whose limit of the DN value it is, where one is given.
-GIVEN_LIMIT = Message("that was given")
+GIVEN_LIMIT = "that was given"
 
 
 @accepts_units("checks")
@@ -66,17 +66,17 @@ class Check(NamedTuple):
     utilisation: float | None
     holds: bool | None
     text: str
-    #: The text as a template with its values.
-    message: Message
     #: The input without which it is not judged; empty where it is.
     missing: str = ""
     #: The kind of source of its formulas and its limit; None where it compares nothing but what is given and computed.
     source: Source | None = None
+    #: Whose limit it is, in words, where makers have their own.
+    whose_limit: str = ""
 
     @classmethod
     def saying(
         cls,
-        message: Message,
+        text: str,
         name: str,
         value: float | None,
         limit: float | None,
@@ -86,47 +86,43 @@ class Check(NamedTuple):
         missing: str = "",
         source: Source | None = None,
     ) -> Check:
-        """A check whose text is a message; without a ``source`` of its own it has that of its name."""
+        """A check with a text; without a ``source`` of its own it has that of its name."""
         of = SOURCES.get(name) if source is None else source
-        return cls(name, value, limit, unit, utilisation, holds, units.filled(message), message, missing, of)
+        return cls(name, value, limit, unit, utilisation, holds, text, missing, of)
 
     @classmethod
-    def at_most(
-        cls, message: Message, name: str, value: Any, limit: Any, unit: str, source: Source | None = None
-    ) -> Check:
+    def at_most(cls, text: str, name: str, value: Any, limit: Any, unit: str, source: Source | None = None) -> Check:
         """A check that holds up to a limit; its utilisation is the value over the limit."""
-        return cls._of(message, name, unit, at_most(float(value), float(limit)), source)
+        return cls._of(text, name, unit, at_most(float(value), float(limit)), source)
 
     @classmethod
-    def at_least(
-        cls, message: Message, name: str, value: Any, limit: Any, unit: str, source: Source | None = None
-    ) -> Check:
+    def at_least(cls, text: str, name: str, value: Any, limit: Any, unit: str, source: Source | None = None) -> Check:
         """A check that holds from a limit on; its utilisation is the limit over the value."""
-        return cls._of(message, name, unit, at_least(float(value), float(limit)), source)
+        return cls._of(text, name, unit, at_least(float(value), float(limit)), source)
 
     @classmethod
-    def _of(cls, message: Message, name: str, unit: str, found: Mapping[str, Any], source: Source | None) -> Check:
+    def _of(cls, text: str, name: str, unit: str, found: Mapping[str, Any], source: Source | None) -> Check:
         """A check that was judged."""
         value, limit, used = (float(found[one]) for one in ("value", "limit", "utilisation"))
-        return cls.saying(message, name, value, limit, unit, used, bool(found["holds"]), source=source)
+        return cls.saying(text, name, value, limit, unit, used, bool(found["holds"]), source=source)
 
     @classmethod
-    def of(cls, row: Judgement, values: Mapping[str, Any], words: Mapping[str, Value], source: Source | None) -> Check:
+    def of(cls, row: Judgement, values: Mapping[str, Any], words: Mapping[str, str], source: Source | None) -> Check:
         """The row of the table of checks at one point; without a ``source`` of its own it has that of the row."""
         found = row.finds(values)
         if found is None:
-            message = NOT_CHECKED.of(input=Message(row.give))
-            return cls.saying(message, row.name, None, None, row.unit, None, None, row.give)
-        message = row.message(found, words)
+            return cls.saying(NOT_CHECKED.format(input=row.give), row.name, None, None, row.unit, None, None, row.give)
+        text = row.text(found, words)
         if found.get("judged", True):
-            return cls._of(message, row.name, row.unit, found, source)
+            whose = words["limit_source"] if row.name == "diameter_speed_product" else ""
+            return cls._of(text, row.name, row.unit, found, source)._replace(whose_limit=whose)
         missing = "" if found["at_rest"] else RUNNING_TIME
-        return cls.saying(message, row.name, float(found["value"]), None, row.unit, None, None, missing)
+        return cls.saying(text, row.name, float(found["value"]), None, row.unit, None, None, missing)
 
     @property
-    def title(self) -> Message:
+    def title(self) -> str:
         """The name as people read it."""
-        return Message(self.name.replace("_", " "))
+        return self.name.replace("_", " ")
 
     @property
     def record(self) -> Record:
@@ -135,7 +131,6 @@ class Check(NamedTuple):
             id=f"check.{self.name}",
             subject=self.name,
             text=self.text,
-            message=self.message,
             severity="error" if self.holds is False else "info",
             holds=self.holds,
             value=self.value,
@@ -156,7 +151,7 @@ def all_hold(checks: Sequence[Check]) -> bool | None:
     return True if judged(checks) == len(checks) else None
 
 
-def verdict_of(checks: Sequence[Check], *, passes: Message = _PASSES, by_how_much: bool = False) -> Message:
+def verdict_of(checks: Sequence[Check], *, passes: str = _PASSES, by_how_much: bool = False) -> str:
     """Checks in a few words. ``passes`` is said only where all of them were judged and hold.
 
     Elsewhere the words say how many were judged; ``by_how_much`` adds the utilisation of those that fail.
@@ -166,23 +161,23 @@ def verdict_of(checks: Sequence[Check], *, passes: Message = _PASSES, by_how_muc
     return _in_few_words(checks, by_how_much=by_how_much)
 
 
-def verdict_at_point(checks: Sequence[Check], *, valid: bool, has_cycle: bool) -> Message:
+def verdict_at_point(checks: Sequence[Check], *, valid: bool, has_cycle: bool) -> str:
     """The same of an operating point: what is said outside the model's validity, and of a case with a cycle, too."""
     return _in_few_words(checks, outside_validity=not valid, has_cycle=has_cycle)
 
 
-def _in_few_words(checks: Sequence[Check], *, by_how_much: bool = False, **said: bool) -> Message:
+def _in_few_words(checks: Sequence[Check], *, by_how_much: bool = False, **said: bool) -> str:
     names = [failing(check, by_how_much=by_how_much) for check in checks if check.holds is False]
     counts = {"checks.judged": judged(checks), "checks.failing": len(names), "checks.all": len(checks)}
-    return ALL_CHECKS.message(ALL_CHECKS.finds(counts | said) or {}, {"names": names})
+    return ALL_CHECKS.text(ALL_CHECKS.finds(counts | said) or {}, {"names": ", ".join(names)})
 
 
-def failing(check: Check, *, by_how_much: bool = True) -> Message:
+def failing(check: Check, *, by_how_much: bool = True) -> str:
     """The name of a check that fails, and by how many times; of what limit, where that is an estimate."""
     if not by_how_much or check.utilisation is None:
         return check.title
-    template = "{check} {times} times an estimated limit" if check.source == "estimate" else "{check} {times} times"
-    return Message(template, {"check": check.title, "times": Measured(check.utilisation, digits=3)})
+    times = f"{check.title} {units.number(check.utilisation, 3)} times"
+    return f"{times} an estimated limit" if check.source == "estimate" else times
 
 
 @accepts_units("checks")
@@ -249,9 +244,9 @@ def checks(
         "limits.diameter_speed_product": known.value,
         **({} if installation is None else values_of_installation(installation)),
     }
-    words: dict[str, Value] = {"limit_source": known.words}
+    words: dict[str, str] = {"limit_source": known.words}
     if installation is not None:
-        words["ends"] = Message(installation.ends.words)
+        words["ends"] = installation.ends.words
     sources: dict[str, Source | None] = {
         "static_safety": "recalled" if recalled else None,
         "diameter_speed_product": known.source,

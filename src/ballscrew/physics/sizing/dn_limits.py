@@ -10,7 +10,6 @@ from importlib import resources
 from typing import NamedTuple
 
 from ballscrew.basis.quantities import DiameterSpeed
-from ballscrew.basis.records import Message
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.sources import Source
 
@@ -22,7 +21,7 @@ class SpeedLimit(NamedTuple):
     """The largest DN value, and whose limit it is: words that follow on "limit", and keys in the bibliography."""
 
     value: DiameterSpeed
-    words: Message
+    words: str
     sources: tuple[str, ...] = ()
     #: Of the limit for this very nut: an estimate where another nut's stands for it.
     source: Source = "read"
@@ -44,7 +43,7 @@ class PrintedLimit(NamedTuple):
 #: more: up to 140000 mm · rpm by Thomson's list, over 160000 by NSK's.
 GENERAL = SpeedLimit(
     70000 * MM_RPM,
-    Message("of standard nuts in general (THK514E, HIWIN2016): that of this make is not known, it may be more"),
+    "of standard nuts in general (THK514E, HIWIN2016): that of this make is not known, it may be more",
     ("THK514E", "HIWIN2016"),
     source="estimate",
 )
@@ -58,8 +57,8 @@ def speed_limit_of(row: CatalogueRow | None) -> SpeedLimit | None:
     if row is None:
         return None
     if row.speed_limit is not None:
-        listed = Message("that the row lists ({source})", {"source": row.source})
-        return SpeedLimit(row.speed_limit, listed if row.source else Message("that the row lists"))
+        listed = f"that the row lists ({row.source})"
+        return SpeedLimit(row.speed_limit, listed if row.source else "that the row lists")
     return printed_limit(row.make, row.recirculation)
 
 
@@ -69,26 +68,15 @@ def printed_limit(make: str, recirculation: str = "") -> SpeedLimit | None:
     listed = {(one.make.casefold(), one.recirculation.casefold()): one for one in printed_limits()}
     found = (listed.get((wanted, kind)) or listed.get(("", kind))) if kind else None
     if found is not None:
-        values = {"make": found.make, "recirculation": found.recirculation, "source": found.source}
-        words = (
-            Message("of {make} for this recirculation, {recirculation} ({source})", values)
-            if found.make
-            else Message("of all makes for this recirculation, {recirculation} ({source})", values)
-        )
+        makes = found.make or "all makes"
+        words = f"of {makes} for this recirculation, {found.recirculation} ({found.source})"
         return SpeedLimit(found.value, words, (found.source,))
     standard = listed.get((wanted, "")) if wanted else None
     if standard is None:
         return None
-    values = {"make": standard.make, "recirculation": recirculation, "source": standard.source}
-    words = (
-        Message(
-            "of standard nuts of {make} ({source}): what its {recirculation} recirculation stands could not be read, "
-            "it may be more",
-            values,
-        )
-        if kind
-        else Message("of standard nuts of {make} ({source})", values)
-    )
+    words = f"of standard nuts of {standard.make} ({standard.source})"
+    if kind:
+        words += f": what its {recirculation} recirculation stands could not be read, it may be more"
     return SpeedLimit(standard.value, words, (standard.source,), "estimate" if kind else "read")
 
 

@@ -10,7 +10,6 @@ from typing import Annotated, Any, cast
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, faults_of, raise_if_any
 from ballscrew.basis.quantities import Array, Density, DiameterSpeed, Info, Length, Pressure, Ratio, Stiffness, Unit
-from ballscrew.basis.records import Message
 from ballscrew.physics.components.materials import STEEL_DENSITY
 
 
@@ -99,14 +98,7 @@ class Installation(ByValue):
         faults = faults_of("installation", self, optional=("bearing_rigidity", "mount_rigidity", "accuracy_factor"))
         if not isinstance(cast("Any", self.ends), Ends):
             known = ", ".join(f"Ends.{ends.name}" for ends in Ends)
-            faults.append(
-                Fault(
-                    "installation.ends",
-                    "must be one of Ends",
-                    repr(self.ends),
-                    Message("known: {known}", {"known": known}),
-                )
-            )
+            faults.append(Fault("installation.ends", "must be one of Ends", repr(self.ends), f"known: {known}"))
         raise_if_any(faults)
 
 

@@ -59,4 +59,4 @@ def documents() -> dict[str, Any]:
     """
     tables = {"verdicts": VERDICTS, "warnings": WARNINGS, "checks": CHECKS, "all_checks": (ALL_CHECKS,)}
     found: dict[str, Any] = {name: [row.document() for row in rows] for name, rows in tables.items()}
-    return found | {"not_checked": NOT_CHECKED.template}
+    return found | {"not_checked": NOT_CHECKED}

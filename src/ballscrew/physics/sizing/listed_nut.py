@@ -6,9 +6,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Protocol
 
-from ballscrew.basis.errors import Fault, either, measured, nearest, shown
+from ballscrew.basis.errors import Fault, either, nearest, shown
 from ballscrew.basis.quantities import Force, fields_of
-from ballscrew.basis.records import Message
 from ballscrew.physics.components.nut import Bodies, DoubleNut, Nut, OffsetLeadNut, OversizeBallNut, SingleNut
 from ballscrew.physics.components.nut_losses import Seals
 from ballscrew.physics.sizing.ratings import Rated, ratings_of
@@ -78,9 +77,6 @@ def nut_of(row: Listed) -> Nut | None:
     return kind(preload=preload_force(row), **parts)
 
 
-_RATING = Message("check the number and its unit; {rating} is the rating, and vendors preload by 2 to 10 % of it")
-
-
 def faults_of_nut(where: str, row: Listed) -> list[Fault]:
     """Faults of what a row, whose numbers are each within their bounds, lists of its nut."""
     if row.nut and row.nut not in NUTS:
@@ -96,22 +92,16 @@ def faults_of_nut(where: str, row: Listed) -> list[Fault]:
         field, given = "preload_share", f"{row.preload_share:.4g}"
     kinds = either(PRELOADED)
     if row.nut not in PRELOADED:
-        problem = (
-            Message('a nut of type "{nut}" has none', {"nut": row.nut})
-            if row.nut
-            else "needs the kind of nut that has it"
-        )
-        remedy = (
-            Message("leave it empty, or give the nut as {kinds}", {"kinds": kinds})
-            if row.nut
-            else Message("give the nut as {kinds}", {"kinds": kinds})
-        )
+        problem = f'a nut of type "{row.nut}" has none' if row.nut else "needs the kind of nut that has it"
+        remedy = f"leave it empty, or give the nut as {kinds}" if row.nut else f"give the nut as {kinds}"
         return [Fault(f"{where}.{field}", problem, given, remedy)]
     if row.preload_share is not None and row.preload_share < SMALLEST_SHARE:
         remedy = 'vendors have 2 to 10 %; a spreadsheet holds "7 %" as 0.07: write it as text, or as 7'
         return [Fault(f"{where}.{field}", "is too small a share of the dynamic load rating", given, remedy)]
     rating = _rating(row)
     if force > rating:
-        remedy = _RATING.of(rating=measured(rating, "N"))
-        return [Fault(f"{where}.preload", "exceeds the dynamic load rating", given, remedy)]
+        remedy = (
+            f"check the number and its unit; {shown(rating, 'N')} is the rating, and vendors preload by 2 to 10 % of it"
+        )
+        return [Fault(f"{where}.preload", "exceeds the dynamic load rating", given, remedy, bound=rating)]
     return []

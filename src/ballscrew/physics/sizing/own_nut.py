@@ -7,8 +7,9 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from ballscrew.basis import units
 from ballscrew.basis.arrays import ByValue
-from ballscrew.basis.errors import Fault, InputError, accepts_units, shown_in_si
+from ballscrew.basis.errors import Fault, InputError, accepts_units
 from ballscrew.basis.quantities import (
     Angle,
     Count,
@@ -21,7 +22,7 @@ from ballscrew.basis.quantities import (
     fields_of,
     quantities_of,
 )
-from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.basis.usual_ranges import IMPLAUSIBLE
 from ballscrew.physics.components.nut_losses import Seals, seal_table
 from ballscrew.physics.components.screw import BallScrew
@@ -62,55 +63,27 @@ RATED = ("dynamic_load_rating", "static_load_rating")
 _WHOLE_MICROMETRES, _DIGITS = 6, 4
 
 #: Where each estimate is from.
-BY_RATING = Message(
-    "the ball whose dynamic load rating by ISO 3408-5 is the one listed: within -8 and +24 % on 75 rows of catalogues, "
-    "balls below 2.3 mm within +39 %"
+BY_RATING = (
+    "the ball whose dynamic load rating by ISO 3408-5 is the one listed: within -8 and +24 % on 75 rows of "
+    "catalogues, balls below 2.3 mm within +39 %"
 )
-BY_RULE = Message(
-    "from lead and diameter alone, a rule of 44 rows of catalogues: each is within -31 and +66 % of the rule of the "
-    "others; give the ball diameter or the dynamic load rating"
+BY_RULE = (
+    "from lead and diameter alone, a rule of 44 rows of catalogues: each is within -31 and +66 % of the rule of "
+    "the others; give the ball diameter or the dynamic load rating"
 )
-BY_NOMINAL = Message("as large as the nominal diameter; those that a catalogue lists are 1.5 to 5 % larger")
-BY_ROOT = Message("from the diameter at the bottom of the groove, good to about 0.01")
-BY_DEFAULT = Message("most root diameters of a catalogue imply 0.54, some 0.56; good to about 0.01")
-BY_HABIT = Message("the usual value; no catalogue consulted prints it")
-BY_SURFACE = Message("balls have 0.02 to 0.1 um; the usual one stands for what no catalogue prints")
-BY_GRINDING = Message("ground races have 0.2 to 0.4 um, rolled ones more; no catalogue consulted prints it")
-BY_ROOM = Message(
-    "whole balls that find room in a turn, {count}, times {loaded} of {turns} turns: 0.24 turns without load fit the "
-    "ratings of nuts with long circuits; those of circuits of 2.5 turns fit 23 % fewer balls"
-)
+BY_NOMINAL = "as large as the nominal diameter; those that a catalogue lists are 1.5 to 5 % larger"
+BY_ROOT = "from the diameter at the bottom of the groove, good to about 0.01"
+BY_DEFAULT = "most root diameters of a catalogue imply 0.54, some 0.56; good to about 0.01"
+BY_HABIT = "the usual value; no catalogue consulted prints it"
+BY_SURFACE = "balls have 0.02 to 0.1 um; the usual one stands for what no catalogue prints"
+BY_GRINDING = "ground races have 0.2 to 0.4 um, rolled ones more; no catalogue consulted prints it"
 
-_ODD_RATING = Message(
-    "dynamic_load_rating {listed} is {ratio} times that by the geometry, {computed}; rows of catalogues have 0.65 to "
-    "1.13: check its unit, the ball diameter, and that the turns are those of one nut body, all circuits together"
-)
-_ODD_STATIC = Message(
-    "static_load_rating {listed} is {ratio} times that by the geometry, {computed}; rows of catalogues have 0.6 to "
-    "1.1: check its unit, the ball diameter, and that the turns are those of one nut body, all circuits together"
-)
-_STATIC_BELOW = Message(
-    "static_load_rating {static} is below the dynamic one, {dynamic}: rows of catalogues have 1.2 to 4.4 times it; "
-    "check the two and their units"
-)
-_ODD_SEALS = Message(
-    "torque of the seals {given} is {ratio} times that of a vendor's seals on {diameter}, {listed}: check the number "
-    "and its unit"
-)
-_NO_BALL = Message(
-    "dynamic_load_rating {listed} goes with no ball that a nut of this size has; the ball diameter is estimated from "
-    "lead and diameter: check the unit of the rating and the turns, or give the ball diameter"
-)
-_ODD_ROOT = Message(
-    "root_diameter {listed} is no bottom of a groove for this ball and pitch circle: it would need a conformity "
-    "outside 0.51 to 0.58: check its unit, or leave it out"
-)
 
 #: What may be estimated: quantities of a row, and of the screw that it makes.
 QUANTITIES: Mapping[str, Quantity] = {**fields_of(BallScrew), **quantities_of(CatalogueRow)}
 _SEALS = fields_of(Seals)["seal_torque"]
 #: Roughnesses, with their bands as shares, which are those of ``data/uncertainties.toml``.
-_ROUGHNESSES: Mapping[str, tuple[tuple[float, float], Message]] = {
+_ROUGHNESSES: Mapping[str, tuple[tuple[float, float], str]] = {
     "ball_roughness": ((1 / 3, 3.0), BY_SURFACE),
     "screw_roughness": ((1 / 1.5, 1.5), BY_GRINDING),
     "nut_roughness": ((1 / 1.5, 1.5), BY_GRINDING),
@@ -127,7 +100,7 @@ class Estimate:
     #: Ends of the band that holds the rows of catalogues it was held against.
     low: float
     high: float
-    source: Message
+    source: str
 
     @property
     def quantity(self) -> Quantity:
@@ -204,7 +177,7 @@ def completed(listed: Mapping[str, Any]) -> OwnNut:
     if "ball_diameter" not in fields:
         start = _of_any_ball(fields)
         ball, odd = _ball(start)
-        fields |= {"ball_diameter": ball.value, "ball_diameter_source": ball.source.filled(shown_in_si)}
+        fields |= {"ball_diameter": ball.value, "ball_diameter_source": ball.source}
         estimates.append(ball)
         warnings += odd
     row = CatalogueRow(**fields)
@@ -263,19 +236,23 @@ def _ball(row: CatalogueRow) -> tuple[Estimate, list[Record]]:
     if low <= ball <= min(high, BALLS_PER_PITCH * pitch):
         band = SMALL_BAND if ball < SMALL_BALL else RATED_BAND
         return _within("ball_diameter", ball, band, BY_RATING), []
-    message = _NO_BALL.of(listed=Measured(rating, QUANTITIES["dynamic_load_rating"]))
+    listed = units.shown(rating, QUANTITIES["dynamic_load_rating"])
+    message = (
+        f"dynamic_load_rating {listed} goes with no ball that a nut of this size has; the ball diameter is "
+        "estimated from lead and diameter: check the unit of the rating and the turns, or give the ball diameter"
+    )
     return rule, [_warning("dynamic_load_rating", rating, message)]
 
 
 def _no_room(row: CatalogueRow, pitch: float) -> Fault:
     """The fault of a lead or of starts that are listed, in place of one of the ball, which is none of the user's."""
-    lead, apart = (Measured(size, QUANTITIES["lead"], written=f"{size * 1e3:.4g} mm") for size in (row.lead, pitch))
-    name, given = ("starts", str(int(row.starts))) if row.starts > 1 else ("lead", Message("{lead}", {"lead": lead}))
-    remedy = Message("neighbouring grooves are {apart} apart: give a larger lead or fewer starts", {"apart": apart})
+    lead, apart = (f"{size * 1000.0:.4g} mm" for size in (row.lead, pitch))
+    name, given = ("starts", str(int(row.starts))) if row.starts > 1 else ("lead", lead)
+    remedy = f"neighbouring grooves are {apart} apart: give a larger lead or fewer starts"
     return Fault(f"{row.name}.{name}", "leaves no room for balls", given, remedy)
 
 
-def _within(name: str, value: float, band: tuple[float, float], source: Message) -> Estimate:
+def _within(name: str, value: float, band: tuple[float, float], source: str) -> Estimate:
     """An estimate whose band is given as shares of it."""
     return Estimate(name, value, band[0] * value, band[1] * value, source)
 
@@ -284,29 +261,30 @@ def odd_ratings(listed: Mapping[str, float], computed: Ratings) -> list[Record]:
     """Warnings of load ratings, as they are listed, that do not go with those by the geometry or with each other."""
     dynamic, static = (listed.get(name) for name in RATED)
     found = [
-        *_odd_rating("dynamic_load_rating", dynamic, computed.dynamic, RATING_RATIOS, _ODD_RATING),
-        *_odd_rating("static_load_rating", static, computed.static, STATIC_RATIOS, _ODD_STATIC),
+        *_odd_rating("dynamic_load_rating", dynamic, computed.dynamic, RATING_RATIOS),
+        *_odd_rating("static_load_rating", static, computed.static, STATIC_RATIOS),
     ]
     if dynamic is None or static is None or static >= dynamic or found:
         return found
-    numbers = {"static": static, "dynamic": dynamic}
-    message = _STATIC_BELOW.of(
-        **{name: Measured(value, QUANTITIES[f"{name}_load_rating"]) for name, value in numbers.items()}
+    message = (
+        f"static_load_rating {units.shown(static, QUANTITIES['static_load_rating'])} is below the dynamic one, "
+        f"{units.shown(dynamic, QUANTITIES['dynamic_load_rating'])}: rows of catalogues have 1.2 to 4.4 times it; "
+        "check the two and their units"
     )
     return [_warning("static_load_rating", static, message, dynamic)]
 
 
-def _odd_rating(
-    name: str, listed: float | None, computed: Force, ratios: tuple[float, float], template: Message
-) -> list[Record]:
+def _odd_rating(name: str, listed: float | None, computed: Force, ratios: tuple[float, float]) -> list[Record]:
     """A warning of a load rating whose ratio to that by the geometry no row of a catalogue has."""
     low, high = ratios
     ratio = math.nan if listed is None else listed / float(computed)
     if listed is None or not math.isfinite(ratio) or low <= ratio <= high:
         return []
     quantity = QUANTITIES[name]
-    message = template.of(
-        listed=Measured(listed, quantity), ratio=Measured(ratio, digits=2), computed=Measured(float(computed), quantity)
+    message = (
+        f"{name} {units.shown(listed, quantity)} is {units.number(ratio, 2)} times that by the geometry, "
+        f"{units.shown(computed, quantity)}; rows of catalogues have {low:g} to {high:g}: check its unit, the ball "
+        "diameter, and that the turns are those of one nut body, all circuits together"
     )
     return [_warning(name, ratio, message, high if ratio > high else low)]
 
@@ -321,8 +299,15 @@ def odd_root(root_diameter: float | None, screw: BallScrew) -> list[Record]:
     )
     if deepest <= root_diameter <= highest:
         return []
-    listed = Measured(root_diameter, QUANTITIES["root_diameter"])
-    return [_warning("root_diameter", root_diameter, _ODD_ROOT.of(listed=listed))]
+    listed = units.shown(root_diameter, QUANTITIES["root_diameter"])
+    return [
+        _warning(
+            "root_diameter",
+            root_diameter,
+            f"root_diameter {listed} is no bottom of a groove for this ball and pitch circle: it would need a "
+            "conformity outside 0.51 to 0.58: check its unit, or leave it out",
+        )
+    ]
 
 
 def odd_seals(screw: BallScrew) -> list[Record]:
@@ -334,11 +319,10 @@ def odd_seals(screw: BallScrew) -> list[Record]:
     ratio = float(torque) / row.torque
     if not ratio > SEAL_RATIO:
         return []
-    message = _ODD_SEALS.of(
-        given=Measured(float(torque), _SEALS),
-        listed=Measured(row.torque, _SEALS),
-        ratio=Measured(ratio, digits=2),
-        diameter=Measured(row.nominal_diameter, QUANTITIES["nominal_diameter"]),
+    diameter = units.shown(row.nominal_diameter, QUANTITIES["nominal_diameter"])
+    message = (
+        f"torque of the seals {units.shown(torque, _SEALS)} is {units.number(ratio, 2)} times that of a vendor's "
+        f"seals on {diameter}, {units.shown(row.torque, _SEALS)}: check the number and its unit"
     )
     return [dataclasses.replace(_warning("", ratio, message, SEAL_RATIO), subject="losses.seals.seal_torque")]
 
@@ -371,20 +355,21 @@ def _balls(row: CatalogueRow, ball: Estimate | None) -> Estimate:
     low, high = LEAST_LOADED * most, most
     if ball is not None:
         low, high = low * ball.value / ball.high, high * ball.value / ball.low
-    source = BY_ROOM.of(
-        count=Measured(row.balls_per_turn), loaded=Measured(row.loaded_turns), turns=Measured(row.turns)
+    source = (
+        f"whole balls that find room in a turn, {units.number(row.balls_per_turn)}, times "
+        f"{units.number(row.loaded_turns)} of {units.number(row.turns)} turns: 0.24 turns without load fit the "
+        "ratings of nuts with long circuits; those of circuits of 2.5 turns fit 23 % fewer balls"
     )
     return Estimate("loaded_balls", row.loaded_balls, min(math.floor(low), row.loaded_balls), math.ceil(high), source)
 
 
-def _warning(subject: str, value: float, message: Message, limit: float | None = None) -> Record:
+def _warning(subject: str, value: float, message: str, limit: float | None = None) -> Record:
     return Record(
         id=IMPLAUSIBLE,
         subject=f"screw.{subject}",
-        text=message.filled(shown_in_si),
+        text=message,
         severity="warning",
         holds=False,
         value=value,
         limit=limit,
-        message=message,
     )

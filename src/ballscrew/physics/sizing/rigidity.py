@@ -17,10 +17,8 @@ from ballscrew.basis.errors import (
     plain,
     raise_if_any,
     shown,
-    shown_in_si,
 )
-from ballscrew.basis.quantities import Force, Info, Length, Quantity, Ratio, Stiffness
-from ballscrew.basis.records import Measured, Message
+from ballscrew.basis.quantities import Force, Info, Length, Ratio, Stiffness
 from ballscrew.physics.components.nut import Nut, OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import rigidity
@@ -44,7 +42,6 @@ DIN_69051_5 = {
 COARSE_LEAD = 0.020
 #: Factors for accuracy that ISO 3408-4 has by grade, greatest and least; as recalled, the default of nothing.
 RECALLED_ACCURACY_FACTORS = factors_of_standard()[:2]
-_WIDTH = Quantity("nut_outer_diameter", "m", Info("D_1", "outer diameter of the nut", "mm"))
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -268,11 +265,9 @@ def _outer_diameter(screw: BallScrew, nut: Nut, given: Length | None, nominal: L
     usual = usual_nut_outer_diameter(size, screw.lead)
     if not (is_concrete(size) and is_concrete(usual)):
         return _Sizes(usual, ())
-    message = Message("nut {width} wide, DIN 69051-5: none is given")
-    if not min(DIN_69051_5) <= size <= max(DIN_69051_5):
-        message = Message("nut {width} wide, DIN 69051-5, its last size with the same wall: none is given")
-    said = message.of(width=Measured(usual, _WIDTH, written=f"{1000 * usual:.4g} mm"))
-    return _Sizes(usual, (said.filled(shown_in_si),))
+    is_listed = min(DIN_69051_5) <= size <= max(DIN_69051_5)
+    of_wall = "" if is_listed else ", its last size with the same wall"
+    return _Sizes(usual, (f"nut {1000 * usual:.4g} mm wide, DIN 69051-5{of_wall}: none is given",))
 
 
 def _numbers(screw: BallScrew) -> tuple[Any, ...]:
@@ -302,10 +297,7 @@ def _faults(
         return faults
     least = _nut_force_diameter(screw)
     if outer is not None and _fails(outer > least):
-        remedy = Message(
-            "more than {least} m, where the balls press on it",
-            {"least": Measured(least, digits=6, written=f"{least:.6g}")},
-        )
+        remedy = f"more than {least:.6g} m, where the balls press on it"
         faults.append(
             Fault("rigidity.nut_outer_diameter", "leaves no wall around the balls", shown(outer, "m"), remedy)
         )
@@ -323,11 +315,6 @@ def _faults(
         ):
             length = shown(installation.unsupported_length, "m")
             faults.append(
-                Fault(
-                    "rigidity.distance_to_bearing",
-                    "must lie on the shaft",
-                    shown(distance, "m"),
-                    Message("below {length}", {"length": length}),
-                )
+                Fault("rigidity.distance_to_bearing", "must lie on the shaft", shown(distance, "m"), f"below {length}")
             )
     return faults

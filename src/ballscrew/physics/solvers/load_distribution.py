@@ -34,7 +34,6 @@ import numpy as np
 from ballscrew.basis.arrays import as_array, in_blocks, lazy, map_blocks, namespace
 from ballscrew.basis.errors import Fault, accepts_units, is_concrete, raise_if_any, si_value
 from ballscrew.basis.quantities import Angle, Force, Info, Length, LoadDeflection, Mask, Ratio, Stiffness
-from ballscrew.basis.records import Message
 from ballscrew.physics.components.frame import helix_frame
 from ballscrew.physics.components.nut import Bodies, Deviations, Nut, OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew, Raceway
@@ -504,19 +503,12 @@ def _faults(screw: BallScrew, halves: int, deviations: Deviations | None) -> lis
         remedy = "solve screws with different numbers of balls one after the other"
         return [Fault("screw.loaded_balls", "must be one number where balls differ", "an array", remedy)]
     if screw.carrying_balls > MOST_BALLS:
-        remedy = Message(
-            "{most_balls} at most where balls differ or bodies are elastic", {"most_balls": str(MOST_BALLS)}
-        )
+        remedy = f"{MOST_BALLS} at most where balls differ or bodies are elastic"
         return [Fault("screw.loaded_balls", "too many to solve one by one", f"{screw.loaded_balls:g}", remedy)]
     balls = halves * int(screw.carrying_balls)
     sizes = {} if deviations is None else {name: np.shape(value) for name, value in deviations._asdict().items()}
     return [
-        Fault(
-            f"deviations.{name}",
-            "must be one number or one for each ball",
-            f"shape {size}",
-            Message("give {balls}", {"balls": str(balls)}),
-        )
+        Fault(f"deviations.{name}", "must be one number or one for each ball", f"shape {size}", f"give {balls}")
         for name, size in sizes.items()
         if size not in ((), (balls,))
     ]

@@ -18,7 +18,7 @@ from ballscrew.basis.arrays import lazy
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Quantity, quantities_of
-from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 
@@ -112,20 +112,15 @@ class ChainReport:
     def _softest_record(self) -> Record:
         at = self.softest
         if not math.isfinite(float(self.chain.total[at])):
-            unknown = Message("rigidity not known: a nut without preload has none without a load")
+            unknown = "rigidity not known: a nut without preload has none without a load"
             return units.record(unknown, id="verdict.rigidity", subject="total", severity="warning")
         shares = {name: float(share[at]) for name, share in self.chain.shares.items()}
         most = max(shares, key=lambda name: shares[name])
         total = float(self.chain.total[at])
-        message = Message(
-            "softest in its travel with the nut at {place}: {rigidity}, {share} % of the compliance is that of the "
-            "{part}",
-            {
-                "place": self._place(at),
-                "rigidity": Measured(total, SERIES["total"]),
-                "share": Measured(100 * shares[most], digits=2),
-                "part": Message(most),
-            },
+        rigidity = units.shown(total, SERIES["total"])
+        message = (
+            f"softest in its travel with the nut at {self._place(at)}: {rigidity}, "
+            f"{units.number(100 * shares[most], 2)} % of the compliance is that of the {most}"
         )
         return units.record(message, id="verdict.rigidity", subject="total", value=total, unit="N/m")
 
@@ -133,17 +128,13 @@ class ChainReport:
         at, share = self.lowest_critical_speed, float(self.case.limits.critical_speed_share)
         critical = float(self.chain.critical_speed[at])
         holds = self.largest_speed <= share * critical
-        message = Message(
-            "highest speed {speed}, {ratio} of the critical speed {critical} with the nut a support at {place}; "
-            "{share} is permitted; {alone} is critical without it, as in the checks",
-            {
-                "speed": Measured(self.largest_speed, SPEED),
-                "ratio": Measured(self.largest_speed / critical, digits=2),
-                "critical": Measured(critical, SPEED),
-                "alone": Measured(float(self.chain.without_nut[0]), SPEED),
-                "place": self._place(at),
-                "share": Measured(share),
-            },
+        speed = units.shown(self.largest_speed, SPEED)
+        ratio = units.number(self.largest_speed / critical, 2)
+        alone = units.shown(self.chain.without_nut[0], SPEED)
+        message = (
+            f"highest speed {speed}, {ratio} of the critical speed {units.shown(critical, SPEED)} with the nut a "
+            f"support at {self._place(at)}; {units.number(share)} is permitted; {alone} is critical without it, "
+            "as in the checks"
         )
         return units.record(
             message,
@@ -160,16 +151,12 @@ class ChainReport:
         at, safety = self.least_buckling_load, float(self.case.limits.buckling_safety)
         buckling = float(self.chain.buckling_load[at])
         holds = self.largest_load * safety <= buckling
-        message = Message(
-            "buckling load {buckling} with the nut a support at {place}, {alone} without it as in the checks; the "
-            "largest load is {load}, and a safety of {safety} is asked for",
-            {
-                "buckling": Measured(buckling, SERIES["buckling_load"]),
-                "alone": Measured(float(self.chain.without_nut[1]), SERIES["buckling_load"]),
-                "place": self._place(at),
-                "load": Measured(self.largest_load, LOAD),
-                "safety": Measured(safety),
-            },
+        alone = units.shown(self.chain.without_nut[1], SERIES["buckling_load"])
+        load = units.shown(self.largest_load, LOAD)
+        message = (
+            f"buckling load {units.shown(buckling, SERIES['buckling_load'])} with the nut a support at "
+            f"{self._place(at)}, {alone} without it as in the checks; the largest load is {load}, and a safety of "
+            f"{units.number(safety)} is asked for"
         )
         return units.record(
             message,
@@ -182,8 +169,8 @@ class ChainReport:
             severity="info" if holds else "warning",
         )
 
-    def _place(self, at: int) -> Measured:
-        return Measured(float(self.chain.position[at]), SERIES["position"])
+    def _place(self, at: int) -> str:
+        return units.shown(self.chain.position[at], SERIES["position"])
 
 
 def load(path: str | Path, settings: Sequence[str], model: str | None = None, *, allow_code: bool = False) -> Case:
@@ -210,7 +197,7 @@ def chain_of(case: Case, positions: Sequence[Length] = ()) -> ChainReport:
     if installation.bearing_rigidity is None and "fixed" in case.bearings:
         rigidity, of_what = case.bearings["fixed"].axial_rigidity(largest)
         if rigidity is not None:
-            words.append(units.filled_text("rigidity of the fixed bearing {of_what}", of_what=Message(of_what)))
+            words.append(f"rigidity of the fixed bearing {of_what}")
         installation = dataclasses.replace(installation, bearing_rigidity=rigidity)
     travel = _travel(case, length)
     ends = travel or (SHARES[0] * length, SHARES[-1] * length)

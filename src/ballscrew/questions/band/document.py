@@ -8,7 +8,7 @@ from typing import Any
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault
 from ballscrew.basis.quantities import Quantity, quantities_of
-from ballscrew.basis.records import Measured, Message, Named, Record, documents
+from ballscrew.basis.records import Record, documents
 from ballscrew.cases.case_files.case_file import Case
 from ballscrew.cases.case_files.makers_rules import by_rules
 from ballscrew.engine.evaluation.outputs import known_outputs
@@ -24,31 +24,8 @@ from ballscrew.questions.shared import declared
 
 _TORQUE = "screw_torque"
 _KNOWN = quantities_of(FrictionResult)[_TORQUE]
-#: The numbers of the sentences that are ends of bands, which are rounded outward.
-_LOW_ENDS, _HIGH_ENDS = ("low", "inputs_low", "laws_low"), ("high", "inputs_high", "laws_high", "greatest")
 #: A cause is named where the band is so much narrower without it, as a share of its width.
 _WORTH_SAYING = 0.9
-_CALIBRATED = Message(
-    "calibrated to {log}: what the fit held counts as known, no law is exchanged; "
-    "on rows held out the model was off by {off}"
-)
-#: The sentences where the other laws pull the band to one side of the model's own.
-_LOWERED = Message(
-    "inputs and laws together end at {high}, below the {inputs_high} of the inputs alone: most other laws give less "
-    "torque than the model's; for a motor take {inputs_high}"
-)
-_RAISED = Message(
-    "inputs and laws together begin at {low}, above the {inputs_low} of the inputs alone: most other laws give more "
-    "torque than the model's; for a brake take {inputs_low}"
-)
-_ABOVE = Message(
-    "the case lies at {value}, above the laws alone ({laws_low} to {laws_high}): most other laws give less torque than "
-    "the model's; expect the median {median} and for a motor take {greatest}"
-)
-_BELOW = Message(
-    "the case lies at {value}, below the laws alone ({laws_low} to {laws_high}): most other laws give more torque than "
-    "the model's; expect the median {median} and for a motor take {greatest}"
-)
 
 
 def document(run: Run, report: BandReport) -> dict[str, Any]:
@@ -68,25 +45,17 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
     band, torque = report.band, report.band[_TORQUE]
     quantity = known_outputs(case.screw.nut)[_TORQUE].quantity
     if not math.isfinite(torque.median):
-        message = Message("no band: the friction torque is no number here")
+        message = "no band: the friction torque is no number here"
         return [units.record(message, id="band.no_torque", subject=_TORQUE, severity="warning", unit=quantity.unit)]
     if float(case.operation.axial_load) == 0 and torque.both == (0.0, 0.0):
-        message = Message("no band: without load there is no friction torque")
+        message = "no band: without load there is no friction torque"
         return [units.record(message, id="band.no_load", subject="axial_load", value=0.0, unit="N")]
-    numbers = {"torque": torque.value, "median": torque.median}
-    ends = {
-        "low": Measured(torque.both.low, quantity, toward=-1),
-        "high": Measured(torque.both.high, quantity, toward=1),
-    }
-    message = Message(
-        "friction torque {torque} at the values of the case, median {median}, "
-        "{level} % of the samples of {causes} between {low} and {high}",
-        {
-            **{name: Measured(value, quantity) for name, value in numbers.items()},
-            **ends,
-            "level": Measured(100 * band.level),
-            "causes": Message("inputs and laws" if band.alternatives else "the inputs alone"),
-        },
+    low, high = units.ends(*torque.both, quantity)
+    causes = "inputs and laws" if band.alternatives else "the inputs alone"
+    message = (
+        f"friction torque {units.shown(torque.value, quantity)} at the values of the case, median "
+        f"{units.shown(torque.median, quantity)}, {units.number(100 * band.level)} % of the samples of {causes} "
+        f"between {low} and {high}"
     )
     records = [units.record(message, id="band.torque", subject=_TORQUE, value=torque.median, unit=quantity.unit)]
     records += beside_laws(torque, quantity)
@@ -95,14 +64,17 @@ def verdicts(case: Case, report: BandReport) -> list[Record]:
     records += _rules(case, report)
     if case.fit:
         log, off = case.fit.get("log"), case.fit.get("holdout_rms")
-        message = _CALIBRATED.of(log=str(log) if log else Message("a log"), off=_torque_in_file(off, quantity))
+        message = (
+            f"calibrated to {log if log else 'a log'}: what the fit held counts as known, no law is exchanged; on "
+            f"rows held out the model was off by {_torque_in_file(off, quantity)}"
+        )
         records.append(units.record(message, id="band.calibrated", subject="model"))
     if float(case.operation.axial_load) != 0:
         share = band.self_locking_share
         message = (
-            Message("self-locking in {percent}% of the samples", {"percent": Measured(100 * share)})
+            f"self-locking in {units.number(100 * share)}% of the samples"
             if share
-            else Message("self-locking in none of the samples")
+            else "self-locking in none of the samples"
         )
         records.append(units.record(message, id="band.self_locking_share", subject="self_locking", value=share))
     return records
@@ -117,21 +89,17 @@ def _narrowing(report: BandReport, case: Case, quantity: Quantity) -> list[Recor
     if not share < _WORTH_SAYING:
         return []
     if found.name == OF_MAKERS:
-        cause = Message("whose nut it is like, by a maker's calibration or a torque that was measured")
+        cause = "whose nut it is like, by a maker's calibration or a torque that was measured"
     elif found.of_laws:
-        cause = Message("which law of the {slot} holds", {"slot": found.name.replace("_", " ")})
+        cause = f"which law of the {found.name.replace('_', ' ')} holds"
     else:
         known = Configuration(case.model, case.screw, case.lubricant).inputs
-        cause = Message(known[found.name][1].info.meaning)
-    message = Message(
-        "the band would narrow the most, to {percent} % of its width ({low} to {high}), if this were known and as the "
-        "model has it: {cause}",
-        {
-            "cause": cause,
-            "low": Measured(found.low, quantity, toward=-1),
-            "high": Measured(found.high, quantity, toward=1),
-            "percent": Measured(100 * share, digits=2),
-        },
+        cause = known[found.name][1].info.meaning
+    low = units.shown(found.low, quantity, toward=-1)
+    high = units.shown(found.high, quantity, toward=1)
+    message = (
+        f"the band would narrow the most, to {units.number(100 * share, 2)} % of its width ({low} to {high}), if "
+        f"this were known and as the model has it: {cause}"
     )
     return [units.record(message, id="band.narrowing", subject=_TORQUE, value=share)]
 
@@ -141,24 +109,16 @@ def _full_bath(report: BandReport) -> list[Record]:
     high, flooded = report.band[_TORQUE].both.high, report.flooded_torque
     if flooded is None:
         return []
-    torque = {"torque": Measured(flooded, _KNOWN)}
+    torque = units.shown(flooded, _KNOWN)
     if "inlet" in report.band.alternatives:
-        message = Message(
+        message = (
             "the band holds oil that comes back into the track late, as in bearings, and a full bath of oil, "
-            "{torque}: which of them a ball screw has is not measured",
-            torque,
-        )
-    elif flooded > high:
-        message = Message(
-            "the band takes oil to come back into the track late, as in bearings; "
-            "a full bath of oil gives {torque}: above it",
-            torque,
+            f"{torque}: which of them a ball screw has is not measured"
         )
     else:
-        message = Message(
-            "the band takes oil to come back into the track late, as in bearings; "
-            "a full bath of oil gives {torque}: within it",
-            torque,
+        message = (
+            "the band takes oil to come back into the track late, as in bearings; a full bath of oil gives "
+            f"{torque}: {'above' if flooded > high else 'within'} it"
         )
     return [
         units.record(
@@ -179,19 +139,14 @@ def _rules(case: Case, report: BandReport) -> list[Record]:
     if float(case.operation.axial_load) != 0:
         return []
     low, high = report.band[_TORQUE].both
-    ends = {"low": Measured(low, _KNOWN, toward=-1), "high": Measured(high, _KNOWN, toward=1)}
+    least, most = units.ends(low, high, _KNOWN)
     found: list[Record] = []
     for one in by_rules(case):
         torque = float(one.torque) + report.losses
         within = low <= torque <= high
-        values = {"rule": one.rule.label, "torque": Measured(torque, _KNOWN), **ends}
+        side = "within the band" if within else f"outside the band of {least} to {most}"
         message = (
-            Message("the rule of {rule} gives {torque} with the losses of the case: within the band", values)
-            if within
-            else Message(
-                "the rule of {rule} gives {torque} with the losses of the case: outside the band of {low} to {high}",
-                values,
-            )
+            f"the rule of {one.rule.label} gives {units.shown(torque, _KNOWN)} with the losses of the case: {side}"
         )
         found.append(
             units.record(
@@ -212,32 +167,43 @@ def beside_laws(torque: OutputBand, quantity: Quantity) -> list[Record]:
     One line for each, with the number to use. Ends that are written alike count as the same.
     """
     both, inputs, laws = torque.both, torque.parameters, torque.model_form
-    numbers = {"value": torque.value, "median": torque.median}
-    numbers |= {"greatest": max(both.high, inputs.high), "laws_low": laws.low, "laws_high": laws.high}
-    numbers |= {"low": both.low, "high": both.high, "inputs_low": inputs.low, "inputs_high": inputs.high}
-    if not all(map(math.isfinite, numbers.values())):
+    greatest = max(both.high, inputs.high)
+    if not all(map(math.isfinite, (torque.value, torque.median, greatest, *both, *inputs, *laws))):
         return []
+    (low, high), (inputs_low, inputs_high), (laws_low, laws_high) = (
+        units.ends(*ends, quantity) for ends in (both, inputs, laws)
+    )
+    value, median = units.shown(torque.value, quantity), units.shown(torque.median, quantity)
+    advice = f"expect the median {median} and for a motor take {units.shown(greatest, quantity, toward=1)}"
 
-    outward = {**dict.fromkeys(_LOW_ENDS, -1), **dict.fromkeys(_HIGH_ENDS, 1)}
-
-    def differ(one: str, other: str) -> bool:
-        return len({units.rounded(numbers[name], quantity, toward=outward.get(name, 0)) for name in (one, other)}) > 1
-
-    def _of_laws(name: str, template: Message, used: str) -> Record:
-        message = template.of(
-            **{key: Measured(value, quantity, toward=outward.get(key, 0)) for key, value in numbers.items()}
-        )
-        return units.record(message, id=f"band.{name}", subject=_TORQUE, value=numbers[used], unit=quantity.unit)
+    def of_laws(name: str, text: str, number: float) -> Record:
+        return units.record(text, id=f"band.{name}", subject=_TORQUE, value=number, unit=quantity.unit)
 
     found: list[Record] = []
-    if both.high < inputs.high and differ("high", "inputs_high"):
-        found.append(_of_laws("laws_lower_it", _LOWERED, "inputs_high"))
-    if both.low > inputs.low and differ("low", "inputs_low"):
-        found.append(_of_laws("laws_raise_it", _RAISED, "inputs_low"))
-    if torque.value > laws.high and differ("value", "laws_high"):
-        found.append(_of_laws("above_laws", _ABOVE, "median"))
-    if torque.value < laws.low and differ("value", "laws_low"):
-        found.append(_of_laws("below_laws", _BELOW, "median"))
+    if both.high < inputs.high and high != inputs_high:
+        text = (
+            f"inputs and laws together end at {high}, below the {inputs_high} of the inputs alone: most other laws "
+            f"give less torque than the model's; for a motor take {inputs_high}"
+        )
+        found.append(of_laws("laws_lower_it", text, inputs.high))
+    if both.low > inputs.low and low != inputs_low:
+        text = (
+            f"inputs and laws together begin at {low}, above the {inputs_low} of the inputs alone: most other laws "
+            f"give more torque than the model's; for a brake take {inputs_low}"
+        )
+        found.append(of_laws("laws_raise_it", text, inputs.low))
+    if torque.value > laws.high and value != laws_high:
+        text = (
+            f"the case lies at {value}, above the laws alone ({laws_low} to {laws_high}): most other laws give less "
+            f"torque than the model's; {advice}"
+        )
+        found.append(of_laws("above_laws", text, torque.median))
+    if torque.value < laws.low and value != laws_low:
+        text = (
+            f"the case lies at {value}, below the laws alone ({laws_low} to {laws_high}): most other laws give more "
+            f"torque than the model's; {advice}"
+        )
+        found.append(of_laws("below_laws", text, torque.median))
     return found
 
 
@@ -247,34 +213,26 @@ def warnings(report: BandReport) -> list[Record]:
     outside, missing = report.band.invalid_share, report.band[_TORQUE].missing_share
     if outside > 0:
         reasons = [
-            Message(
-                "{percent}% {name}: {condition}",
-                {
-                    "percent": Measured(100 * share),
-                    "name": Named(f"validity.{reason}", reason),
-                    "condition": NUT_CONDITIONS[reason].message,
-                },
-            )
+            f"{units.number(100 * share)}% {reason}: {NUT_CONDITIONS[reason].text}"
             for reason, share in report.reasons_by_share.items()
         ]
-        message = Message(
-            "{percent}% of the samples lie outside the model's validity ({reasons})",
-            {"percent": Measured(100 * outside), "reasons": reasons},
+        message = (
+            f"{units.number(100 * outside)}% of the samples lie outside the model's validity ({', '.join(reasons)})"
         )
         records.append(_share("band.not_valid_share", "valid", message, outside))
     if missing > 0:
-        message = Message("{percent}% of the samples are no number, and left out", {"percent": Measured(100 * missing)})
+        message = f"{units.number(100 * missing)}% of the samples are no number, and left out"
         records.append(_share("band.missing_share", _TORQUE, message, missing))
     return records
 
 
-def _share(name: str, subject: str, message: Message, value: float) -> Record:
+def _share(name: str, subject: str, message: str, value: float) -> Record:
     return units.record(message, id=name, subject=subject, severity="warning", holds=False, value=value, limit=0.0)
 
 
-def _torque_in_file(text: Any, quantity: Quantity) -> Measured | Message | str:
+def _torque_in_file(text: Any, quantity: Quantity) -> str:
     """A torque as a calibrated case has it, with its digits; what is no torque stays as it is written."""
     if text is None:
-        return Message("an unknown torque")
+        return "an unknown torque"
     found = units.parse("calibration.holdout_rms", text, quantity)
     return str(text) if isinstance(found, Fault) else units.shown(found, quantity, 6)

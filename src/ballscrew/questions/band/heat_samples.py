@@ -13,7 +13,6 @@ from ballscrew.axis.thermal.warm_up_band import sampled
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Quantity
-from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.uncertain_inputs import Uncertain
 from ballscrew.engine.uncertainty.default_uncertainties import JUDGEMENT
 from ballscrew.engine.uncertainty.distributions import LogNormal, Normal
@@ -62,10 +61,8 @@ def heat_samples(heating: SelfHeating, *, only_given: bool = False) -> HeatSampl
     ]
     known = [end for end in ends if end.exists]
     if len(known) < ENOUGH * SAMPLES:
-        problem = Message(
-            "has no steady state in {count} % of samples of the surroundings",
-            {"count": units.to_significant(100 * (1 - len(known) / SAMPLES), 2)},
-        )
+        count = units.to_significant(100 * (1 - len(known) / SAMPLES), 2)
+        problem = f"has no steady state in {count} % of samples of the surroundings"
         remedy = "give [surroundings] ball_conductance and nut_conductance with their bands, or see ballscrew warm-up"
         raise InputError(Fault("--self-heating", problem, "", remedy))
     oil = np.array([end.oil_temperature for end in known])

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from ballscrew.basis import units
 from ballscrew.basis.output.plain_numbers import plain
 from ballscrew.basis.output.sheet import (
     Axis,
@@ -30,7 +29,7 @@ from ballscrew.basis.output.sheet import (
     words,
 )
 from ballscrew.basis.quantities import Info, Quantity, fields_of, quantities_of
-from ballscrew.basis.records import Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.cases.case_files import descriptions
 from ballscrew.cases.case_files.case_file import Case
 from ballscrew.cases.case_files.descriptions import design, title
@@ -203,25 +202,17 @@ def _spoken(name: str) -> str:
     return name.replace("_", " ").replace(".", " ")
 
 
-def input_counts(report: BandReport) -> Message:
+def input_counts(report: BandReport) -> str:
     """The number of samples, of uncertain inputs, and of those assumed."""
     count = len(report.inputs)
-    counts = {
-        "samples": report.band.count,
-        "inputs": count,
-        "given": report.given,
-        "assumed": count - report.given,
-        "judged": report.judged,
-    }
-    return Message(
-        "{samples} samples of {inputs} uncertain inputs: {given} by the case, {assumed} assumed, "
-        "{judged} of these by judgement",
-        {name: str(number) for name, number in counts.items()},
+    return (
+        f"{report.band.count} samples of {count} uncertain inputs: {report.given} by the case, "
+        f"{count - report.given} assumed, {report.judged} of these by judgement"
     )
 
 
 def _remarks(case: Case, report: BandReport, curve: BandCurve | None) -> Iterator[str]:
-    yield units.filled(input_counts(report))
+    yield input_counts(report)
     if curve is not None:
         yield design(case, plain_text=True)
         exact = f", and the {_spoken(curve.along)} is exact" if curve.along in report.inputs else ""

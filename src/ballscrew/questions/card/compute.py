@@ -10,7 +10,6 @@ import numpy as np
 
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Info, Quantity, fields_of
-from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.makers_rules import subject_of
 from ballscrew.cases.torque_cards import torque_card
 from ballscrew.cases.torque_cards.torque_card import TorqueCard, TorquePoint
@@ -34,7 +33,7 @@ def evaluate(
     cards = torque_card.read_all(paths)
     for card in cards:
         if not model.knows(card.case.screw.nut):
-            problem = Message("model {model} knows no balls with four contacts", {"model": model.name})
+            problem = f"model {model.name} knows no balls with four contacts"
             raise InputError(Fault(card.name, problem, "", "take the model reference"))
     models: list[tuple[FrictionModel, str | None]] = [(model, None)]
     if calibration is not None:

@@ -35,7 +35,7 @@ def _estimate(one: Estimate) -> dict[str, Any]:
         "high": one.high,
         "unit": one.quantity.unit,
         "shown_in": one.quantity.shown_in,
-        "source": units.filled(one.source),
+        "source": one.source,
     }
 
 
@@ -45,7 +45,7 @@ def text(found: OwnNut) -> str:
         (
             one.name.replace("_", " "),
             *(units.shown(value, one.quantity, digits=4) for value in _values(one)),
-            units.filled(one.source),
+            one.source,
         )
         for one in found.estimates
     ]
@@ -55,7 +55,7 @@ def text(found: OwnNut) -> str:
 
 def warnings(found: OwnNut) -> list[str]:
     """What does not go together, in words."""
-    return [units.filled(one.message) for one in found.warnings]
+    return [one.text for one in found.warnings]
 
 
 def _values(one: Estimate) -> tuple[float, float, float]:

@@ -11,7 +11,7 @@ from typing import Annotated, Any, NamedTuple
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Angle, Force, Length, Pressure, quantities_of
-from ballscrew.basis.records import Message, Record, Severity
+from ballscrew.basis.records import Record, Severity
 from ballscrew.cases.case_files import case_file, descriptions, nut_tables
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.schema.option_faults import OPTIONS, in_options
@@ -106,15 +106,10 @@ class Checked:
         return self.case.axis is not None and self.case.motion is not None
 
     @property
-    def message(self) -> Message:
+    def verdict(self) -> str:
         """All checks in a few words; of what, where the case has a cycle too."""
         found = verdict_at_point(self.checks, valid=bool(self.run.friction.valid), has_cycle=self.moves)
         return with_unlikely(found, self.case)
-
-    @property
-    def verdict(self) -> str:
-        """The same in English."""
-        return units.filled(self.message)
 
     @property
     def holds(self) -> bool:
@@ -126,7 +121,7 @@ class Checked:
         """The verdict on all checks, then those on the operating point."""
         holds = all_hold(self.checks)
         severity: Severity = "error" if holds is False else "warning" if self.case.unlikely else "info"
-        whole = units.record(self.message, id="verdict.checks", subject="checks", severity=severity, holds=holds)
+        whole = units.record(self.verdict, id="verdict.checks", subject="checks", severity=severity, holds=holds)
         return [whole, *self.run.verdicts]
 
     def check(self, name: str) -> Check:
@@ -137,7 +132,7 @@ class Checked:
 def one(name: str, path: Path | None, options: Options, keep_going: bool) -> tuple[Checked, Sequence[str]]:
     """The checks of a case file or of the row of that name, and notes on rows left out."""
     if path is None and Path(name).suffix.lower() in (".csv", ".xlsx"):
-        raise InputError(Fault(name, "is a table, not a case", "", Message("write --rows {name}", {"name": name})))
+        raise InputError(Fault(name, "is a table, not a case", "", f"write --rows {name}"))
     if path is None and is_case(name):
         return _of_case(Path(name), options), ()
     rows, notes = catalogue.load(path, keep_going)

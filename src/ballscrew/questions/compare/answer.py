@@ -167,7 +167,7 @@ def document(case: case_file.Case, found: Comparison) -> dict[str, Any]:
 
 def warnings(case: case_file.Case, found: Comparison) -> list[Record]:
     """The warnings of the case itself."""
-    return [*units.in_display_units_of(found.case.result.warning_records), *case.doubts]
+    return [*found.case.result.warning_records, *case.doubts]
 
 
 def verdicts(found: Comparison) -> list[Record]:

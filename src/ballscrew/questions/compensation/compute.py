@@ -12,7 +12,6 @@ from ballscrew.basis import units
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, InputError, nearest
 from ballscrew.basis.quantities import Duration
-from ballscrew.basis.records import Message
 from ballscrew.questions.compensation.options import STEP, CompensationOptions
 from ballscrew.questions.warm_up.compute import HOUR, WarmUpReport, check_hours
 
@@ -87,34 +86,19 @@ def position_compensation(
     length = float(shaft.length)
     if not length / (MOST - 1) <= step <= length:
         given = f"{1000 * step:g} mm"
-        remedy = Message(
-            "give {length} mm to {length_2} mm",
-            {
-                "length": units.to_significant(1000 * length / (MOST - 1), 3),
-                "length_2": units.to_significant(1000 * length, 4),
-            },
-        )
-        raise InputError(
-            Fault(
-                "--step", Message("makes more than {most} points, or less than two", {"most": str(MOST)}), given, remedy
-            )
-        )
+        length_2 = units.to_significant(1000 * length, 4)
+        remedy = f"give {units.to_significant(1000 * length / (MOST - 1), 3)} mm to {length_2} mm"
+        raise InputError(Fault("--step", f"makes more than {MOST} points, or less than two", given, remedy))
     if direction not in DIRECTIONS:
         raise InputError(Fault("--direction", "unknown direction", direction, nearest(direction, DIRECTIONS)))
     if not 0 <= zero <= length:
-        remedy = Message(
-            "its place is 0 mm to {length} mm from the fixed bearing",
-            {"length": units.to_significant(1000 * length, 6)},
-        )
+        remedy = f"its place is 0 mm to {units.to_significant(1000 * length, 6)} mm from the fixed bearing"
         raise InputError(Fault("--zero", "is beyond the shaft", f"{1000 * zero:g} mm", remedy))
     sign = DIRECTIONS[direction]
     at = 0.0 if reference is None else zero + sign * reference
     if not 0 <= at <= length:
         low, high = sorted((-1000 * sign * zero, 1000 * sign * (length - zero)))
-        remedy = Message(
-            "it is {low} mm to {high} mm",
-            {"low": f"{low:zg}", "high": f"{high:zg}"},
-        )
+        remedy = f"it is {low:zg} mm to {high:zg} mm"
         raise InputError(Fault("--reference", "is beyond the shaft", f"{1000 * sign * (at - zero):g} mm", remedy))
     places, growth = report.warm_up.compensation_table(step / _FINER)
     even = np.linspace(0.0, length, int(np.ceil(length / step - 1e-9)) + 1)
@@ -138,14 +122,9 @@ def check(options: CompensationOptions) -> None:
 def _stopped(stopped: Duration, hours: float) -> Fault:
     """The fault of a warm-up that never came as far as the hours."""
     reached = math.floor(100 * stopped / HOUR) / 100
-    problem = Message(
-        "the warm-up stops after {reached} h: beyond it oil or preload are outside what the model knows",
-        {"reached": units.fixed(reached, 2)},
+    problem = (
+        f"the warm-up stops after {units.fixed(reached, 2)} h: beyond it oil or preload are outside what the "
+        "model knows"
     )
     less = f"write --hours {reached:g} at most, or " if reached else ""
-    return Fault(
-        "--hours",
-        problem,
-        f"{hours:g}",
-        Message("{less}look at ballscrew warm-up: less work, or more cooling", {"less": less}),
-    )
+    return Fault("--hours", problem, f"{hours:g}", f"{less}look at ballscrew warm-up: less work, or more cooling")

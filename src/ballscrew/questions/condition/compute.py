@@ -85,7 +85,7 @@ def of_files(
         )
     except InputError as error:
         raise InputError(*(_with_option(fault) for fault in error.faults)) from None
-    records = (*units.in_display_units_of(found.warning_records), *case.implausible())
+    records = (*found.warning_records, *case.implausible())
     return dataclasses.replace(found, warning_records=records)
 
 

@@ -38,7 +38,6 @@ from ballscrew.basis.quantities import (
     Torque,
     quantities_of,
 )
-from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.nut_tables import dynamic_rating
 from ballscrew.physics.components.nut import OversizeBallNut
@@ -325,10 +324,10 @@ class DutyReport:
         required, life = self.case.limits.running_time, self.life
         if life.dynamic_load_rating is None:
             missing = "dynamic_load_rating"
-            give = NOT_CHECKED.of(input=Message(missing))
+            give = NOT_CHECKED.format(input=missing)
             return [Check.saying(give, name, None, None, unit, None, None, missing) for name, unit in _LIFE]
         if not self.duty.revolutions:
-            idle = Message("not judged: nothing turns")
+            idle = "not judged: nothing turns"
             return [Check.saying(idle, name, None, None, unit, None, None) for name, unit in _LIFE]
         found: list[Check] = []
         numbers = CycleNumbers(self)  # of which the life asks for no friction
@@ -336,14 +335,14 @@ class DutyReport:
             _LIFE,
             (float(numbers.life_revolutions), float(numbers.life_time)),
             (
-                Message("basic rating life L10 by the mean load over the cycle"),
-                Message("time of so many cycles"),
+                "basic rating life L10 by the mean load over the cycle",
+                "time of so many cycles",
             ),
             strict=True,
         ):
             if required is None:
                 missing = "limits.running_time"
-                message = UNJUDGED.of(life=words, advice=NOT_JUDGED.of(input=Message(missing)))
+                message = UNJUDGED.format(life=words, advice=NOT_JUDGED.format(input=missing))
                 found.append(Check.saying(message, name, value, None, unit, None, None, missing))
                 continue
             cycles = required / self.duty.states.cycle_time

@@ -13,7 +13,7 @@ from ballscrew.axis.motion.trajectory import Trajectory
 from ballscrew.axis.supports.bearing import DIRECTION
 from ballscrew.basis import units
 from ballscrew.basis.quantities import Quantity, fields_of
-from ballscrew.basis.records import Measured, Message, Record, Severity, in_file
+from ballscrew.basis.records import Record, Severity
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction import starvation
 from ballscrew.physics.friction.validity import CONDITIONS, NUT_CONDITIONS
@@ -31,8 +31,7 @@ _CLOSES, _JUMPS = 1e-9, 1e-9
 _NOISE = 0.01
 #: Points at which the curve of a motor is looked at for its highest torque.
 _CURVE_POINTS = 1000
-_PASSES = Message("passes all checks")
-_PART_OF_TIME = Message("{condition} (in {share} of the time in motion)")
+_PASSES = "passes all checks"
 
 
 def verdicts(report: DutyReport) -> list[Record]:
@@ -47,7 +46,7 @@ def starved(report: DutyReport) -> list[Record]:
         return []
     given = {"torque_peak": duty.torque_peak, "screw_torque": duty.screw_torque, "energy_lost": duty.energy_lost}
     numbers = [starvation.BothTorques(OF_BATH[name], value, full[name]) for name, value in given.items()]
-    return units.in_display_units_of(starvation.records(numbers))
+    return starvation.records(numbers)
 
 
 def inertia(report: DutyReport) -> list[Record]:
@@ -56,20 +55,14 @@ def inertia(report: DutyReport) -> list[Record]:
     parts = axis.inertia_by
     if not parts:
         return []
-    whole = {"inertia": Measured(axis.turning_inertia, _INERTIA)}
+    whole = units.shown(axis.turning_inertia, _INERTIA)
     if axis.inertia:
-        message = Message(
-            "what turns has {inertia} at the motor, as given for motor, coupling and screw: none is added to it",
-            whole,
-        )
+        message = f"what turns has {whole} at the motor, as given for motor, coupling and screw: none is added to it"
     else:
-        counted = [
-            Message("{part} {inertia}", {"part": _part(report, name), "inertia": Measured(value, _INERTIA)})
-            for name, value in parts.items()
-        ]
-        message = Message("what turns has {inertia} at the motor: {parts}", {**whole, "parts": counted})
+        counted = ", ".join(f"{_part(report, name)} {units.shown(value, _INERTIA)}" for name, value in parts.items())
+        message = f"what turns has {whole} at the motor: {counted}"
         if missing := _not_given(report):
-            message = Message("{counted}; not given: {missing}", {"counted": message, "missing": missing})
+            message = f"{message}; not given: {missing}"
     return [
         units.record(
             message,
@@ -82,56 +75,53 @@ def inertia(report: DutyReport) -> list[Record]:
     ]
 
 
-def _part(report: DutyReport, name: str) -> Message:
+def _part(report: DutyReport, name: str) -> str:
     """A part of what turns, of the screw with what its inertia is that of, where it was computed."""
     shaft = report.case.turning_shaft
     if name != "screw" or shaft is None or report.case.axis is report.axis:
-        return Message(name)
-    numbers = {"diameter": Measured(shaft.diameter, _LENGTH), "length": Measured(shaft.length, _LENGTH)}
+        return name
+    diameter, length = units.shown(shaft.diameter, _LENGTH), units.shown(shaft.length, _LENGTH)
     if shaft.of_stroke:
-        return Message("screw (a cylinder of {diameter} as long as the stroke of {length}: give its length)", numbers)
-    return Message("screw (a cylinder of {diameter} and {length})", numbers)
+        return f"screw (a cylinder of {diameter} as long as the stroke of {length}: give its length)"
+    return f"screw (a cylinder of {diameter} and {length})"
 
 
-def _not_given(report: DutyReport) -> list[Message]:
-    return [Message(name) for name in ("screw", "motor", "coupling") if name not in report.axis.inertia_by]
+def _not_given(report: DutyReport) -> str:
+    return ", ".join(name for name in ("screw", "motor", "coupling") if name not in report.axis.inertia_by)
 
 
 def _brake(report: DutyReport) -> Record:
     brake = report.brake
     moving = [found for found in brake.conditions if found.falls or found.goes_on]
     if not brake.load_torque:
-        message = Message("no brake is needed to hold it: no load turns the screw at rest")
+        message = "no brake is needed to hold it: no load turns the screw at rest"
     elif not moving:
         least = min(found.safety for found in brake.conditions)
-        message = Message(
-            "stays with the motor off: friction from rest is at least {safety} times the torque of the load",
-            {"safety": Measured(least, digits=4)},
+        message = (
+            f"stays with the motor off: friction from rest is at least {units.number(least)} times the torque of "
+            "the load"
         )
         if least < brake.brake_factor:
-            margin = {"margin": Measured(100 * (least - 1), digits=2), "factor": Measured(brake.brake_factor, digits=6)}
-            message = Message(
-                "{stays}: a margin of {margin} % only, less than the factor {factor} of a brake; do not rely on it",
-                {"stays": message, **margin},
+            message = (
+                f"{message}: a margin of {units.number(100 * (least - 1), 2)} % only, less than the factor "
+                f"{units.number(brake.brake_factor, 6)} of a brake; do not rely on it"
             )
     else:
         goes = _way(report)
         everywhere = len(moving) == len(brake.conditions)
-        message = Message(
-            "{falls} with the motor off ({conditions}), after the stroke at up to {speed}; a brake is needed: {brake}, "
-            "{factor} times the {load} of the load without friction ({holding} hold it with its help)",
-            {
-                "falls": goes if brake.starts else Message("stays, but {falls} once it is started,", {"falls": goes}),
-                "conditions": Message("in all conditions") if everywhere else [Message(c.condition) for c in moving],
-                "speed": Measured(max(found.speed_after_stroke for found in moving), _SPEED),
-                "brake": Measured(brake.brake_torque, _TORQUE),
-                "factor": Measured(brake.brake_factor, digits=6),
-                "load": Measured(brake.load_torque, _TORQUE),
-                "holding": Measured(brake.holding_torque, _TORQUE),
-            },
+        falls = goes if brake.starts else f"stays, but {goes} once it is started,"
+        conditions = "in all conditions" if everywhere else ", ".join(c.condition for c in moving)
+        speed = units.shown(max(found.speed_after_stroke for found in moving), _SPEED)
+        factor = units.number(brake.brake_factor, 6)
+        load = units.shown(brake.load_torque, _TORQUE)
+        holding = units.shown(brake.holding_torque, _TORQUE)
+        message = (
+            f"{falls} with the motor off ({conditions}), after the stroke at up to {speed}; a brake is needed: "
+            f"{units.shown(brake.brake_torque, _TORQUE)}, {factor} times the {load} of the load without friction "
+            f"({holding} hold it with its help)"
         )
     if brake.load_torque and report.duty.starved:
-        message = Message("{brake}; with the smaller friction, that of the track starved of oil", {"brake": message})
+        message = f"{message}; with the smaller friction, that of the track starved of oil"
     return units.record(
         message,
         id="verdict.brake",
@@ -143,48 +133,42 @@ def _brake(report: DutyReport) -> Record:
     )
 
 
-def _way(report: DutyReport) -> Message:
+def _way(report: DutyReport) -> str:
     """What the load does with the axis: lower it, raise it (a counterweight), or move it along."""
     load, inclination = report.brake.conditions[0].load_torque, report.axis.inclination
     if not inclination:
-        return Message("moves")
-    return Message("falls") if (load > 0) == (inclination > 0) else Message("rises")
+        return "moves"
+    return "falls" if (load > 0) == (inclination > 0) else "rises"
 
 
 def _motor(report: DutyReport) -> list[Record]:
     if report.motor is None:
         return []
     failed = [check for check in report.motor.checks if check.holds is False]
-    names = [Message(check.name.removeprefix("motor_").replace("_", " ")) for check in failed]
-    message = (
-        Message("the motor does not suffice: {names}", {"names": names}) if failed else Message("the motor suffices")
-    )
+    names = ", ".join(check.name.removeprefix("motor_").replace("_", " ") for check in failed)
+    message = f"the motor does not suffice: {names}" if failed else "the motor suffices"
     if starvation.FULL_BATH in report.motor.torques:
-        message = Message(
-            "{verdict}; judged by the larger torque: {conditions}",
-            {"verdict": message, "conditions": _conditions(report.motor)},
-        )
+        message = f"{message}; judged by the larger torque: {_conditions(report.motor)}"
     severity: Severity = "error" if failed else "info"
     return [units.record(message, id="verdict.motor", subject="motor", severity=severity, holds=not failed)]
 
 
-def _conditions(against: MotorCheck) -> Message:
+def _conditions(against: MotorCheck) -> str:
     """The condition of the track that each torque is of: ``peak in a full bath of oil, RMS starved of oil``."""
     peak, rms = against.worst_torque[0], against.worst_rms[0]
-    both = {"peak": Message(peak), "rms": Message(rms)}
-    return Message("peak and RMS {peak}", both) if peak == rms else Message("peak {peak}, RMS {rms}", both)
+    return f"peak and RMS {peak}" if peak == rms else f"peak {peak}, RMS {rms}"
 
 
-def _with_condition(torque: float, condition: str) -> Measured | Message:
+def _with_condition(torque: float, condition: str) -> str:
     """A torque, and the condition of the track that it is of."""
-    value = Measured(torque, _TORQUE)
-    return Message("{torque} {condition}", {"torque": value, "condition": Message(condition)}) if condition else value
+    value = units.shown(torque, _TORQUE)
+    return f"{value} {condition}" if condition else value
 
 
 def _checks(report: DutyReport) -> Record:
     holds = all_hold(report.checks)
     words = with_unlikely(verdict_of(report.checks, passes=_PASSES), report.case)
-    message = Message("over the cycle: {verdict}", {"verdict": words})
+    message = f"over the cycle: {words}"
     severity: Severity = "error" if holds is False else "warning" if report.case.unlikely else "info"
     return units.record(message, id="verdict.checks", subject="checks", severity=severity, holds=holds)
 
@@ -205,9 +189,7 @@ def warnings(report: DutyReport) -> list[Record]:
     ]
 
 
-def _warning(
-    name: str, subject: str, message: Message, value: float, limit: float | None, quantity: Quantity
-) -> Record:
+def _warning(name: str, subject: str, message: str, value: float, limit: float | None, quantity: Quantity) -> Record:
     return units.record(
         message,
         id=f"duty.{name}",
@@ -226,29 +208,24 @@ def inertia_warnings(report: DutyReport) -> list[Record]:
     if not np.any(report.duty.states.acceleration):
         return []
     if not axis.inertia_by:
-        message = Message(
-            "the inertia of motor, coupling and screw is zero: no torque is counted that accelerates them, often a "
-            'quarter of the peak; give {inertia} = "45 kg cm^2"',
-            {"inertia": in_file("axis.inertia")},
+        message = (
+            "the inertia of motor, coupling and screw is zero: no torque is counted that accelerates them, often "
+            'a quarter of the peak; give [axis] inertia = "45 kg cm^2"'
         )
         return [_warning("no_inertia", "axis.inertia", message, 0.0, None, _INERTIA)]
     if not axis.inertia and not axis.motor_inertia:
-        message = Message(
-            'no torque is counted that accelerates: {missing}; give {inertia} = "20 kg cm^2"',
-            {"missing": _not_given(report), "inertia": in_file("axis.motor_inertia")},
+        message = (
+            f'no torque is counted that accelerates: {_not_given(report)}; give [axis] motor_inertia = "20 kg cm^2"'
         )
         return [_warning("no_inertia", "axis.motor_inertia", message, axis.turning_inertia, None, _INERTIA)]
     alone = 0.0 if shaft is None else shaft.inertia / float(axis.transmission_ratio) ** 2
     if not axis.inertia or alone <= axis.inertia:
         return []
-    message = Message(
-        "the inertia of motor, coupling and screw is given as {given}, and the screw alone has {alone}: leave it out "
-        "and give {motor}, and the screw counts as it is",
-        {
-            "given": Measured(float(axis.inertia), _INERTIA),
-            "alone": Measured(alone, _INERTIA),
-            "motor": in_file("axis.motor_inertia"),
-        },
+    given = units.shown(axis.inertia, _INERTIA)
+    message = (
+        f"the inertia of motor, coupling and screw is given as {given}, and the screw alone has "
+        f"{units.shown(alone, _INERTIA)}: leave it out and give [axis] motor_inertia, and the screw counts as it "
+        "is"
     )
     return [_warning("inertia_too_small", "axis.inertia", message, float(axis.inertia), alone, _INERTIA)]
 
@@ -260,13 +237,10 @@ def _open_cycle(report: DutyReport) -> list[Record]:
     if abs(left) <= least * max(states.stroke, 1e-12):
         return []
     one_way = getattr(report.motion, "returns", True) is False
-    message = Message(
-        "the motion ends {distance} from where it began: "
-        "the numbers are of this way alone, not of a cycle that repeats; {remedy}",
-        {
-            "distance": Measured(abs(left), _LENGTH),
-            "remedy": Message("return = true adds the way back") if one_way else Message("add a move back"),
-        },
+    remedy = "return = true adds the way back" if one_way else "add a move back"
+    message = (
+        f"the motion ends {units.shown(abs(left), _LENGTH)} from where it began: the numbers are of this way "
+        f"alone, not of a cycle that repeats; {remedy}"
     )
     return [_warning("open_cycle", "motion", message, left, 0.0, _LENGTH)]
 
@@ -284,10 +258,9 @@ def _jumps(report: DutyReport) -> list[Record]:
         if abs(after - before) <= floor:
             continue
         here, there = names[number], names[(number + 1) % len(ends)]
-        message = Message(
-            "the speed jumps from {before} (“{here}”) to {after} (“{there}”): no torque is counted for it; "
-            "put a move with a distance between them",
-            {"before": Measured(before, _SPEED), "here": here, "after": Measured(after, _SPEED), "there": there},
+        message = (
+            f"the speed jumps from {units.shown(before, _SPEED)} (“{here}”) to {units.shown(after, _SPEED)} "
+            f"(“{there}”): no torque is counted for it; put a move with a distance between them"
         )
         found.append(_warning("speed_jump", f"motion.phase {number + 1}", message, abs(after - before), 0.0, _SPEED))
     return found
@@ -303,11 +276,10 @@ def _short_stroke(report: DutyReport) -> list[Record]:
     stroke, needed = report.duty.states.stroke, loaded_circuit(report.case.screw)
     if stroke >= needed or stroke == 0:
         return []
-    message = Message(
-        "the stroke {stroke} is shorter than the loaded turns of the nut, "
-        "{turns}: the balls do not change their places, and grease is not spread; "
-        "put a longer stroke in between now and then",
-        {"stroke": Measured(stroke, _LENGTH), "turns": Measured(needed, _LENGTH)},
+    message = (
+        f"the stroke {units.shown(stroke, _LENGTH)} is shorter than the loaded turns of the nut, "
+        f"{units.shown(needed, _LENGTH)}: the balls do not change their places, and grease is not spread; put a "
+        "longer stroke in between now and then"
     )
     return [_warning("short_stroke", "motion.stroke", message, stroke, needed, _LENGTH)]
 
@@ -317,15 +289,12 @@ def _short_reversal(report: DutyReport) -> list[Record]:
     found = report.short_reversal
     if found is None:
         return []
-    values = {
-        "stroke": units.shown(found.stroke, TRAVEL, 3), "share": units.percent(BACK),
-        "travel": units.shown(found.back, TRAVEL, 3), "work": units.percent(found.work_share),
-    }  # fmt: skip
-    message = Message(
-        "friction changes its sign at once here, but after a reversal {share} of that of the screw are back within "
-        "{travel}, and the shortest stroke is {stroke}: to and fro over it the screw loses {work} of the work counted, "
-        "by a hypothesis (ballscrew reversal)",
-        values,
+    stroke = units.shown(found.stroke, TRAVEL, 3)
+    message = (
+        f"friction changes its sign at once here, but after a reversal {units.percent(BACK)} of that of the screw "
+        f"are back within {units.shown(found.back, TRAVEL, 3)}, and the shortest stroke is {stroke}: to and fro "
+        f"over it the screw loses {units.percent(found.work_share)} of the work counted, by a hypothesis "
+        "(ballscrew reversal)"
     )
     return [
         units.record(
@@ -344,25 +313,21 @@ def _too_fast(report: DutyReport) -> list[Record]:
     """The way out where the shaft would whirl, or the balls be too fast."""
     found: list[Record] = []
     for name, remedy in (
-        ("critical_speed", Message("hold the ends firmer, shorten the shaft, or take a greater lead")),
+        ("critical_speed", "hold the ends firmer, shorten the shaft, or take a greater lead"),
         (
             "diameter_speed_product",
-            Message("take a greater lead, or a nut made for such speeds, with its own limit of the DN value"),
+            "take a greater lead, or a nut made for such speeds, with its own limit of the DN value",
         ),
     ):
         check = _check(report, name)
         if check is None or check.holds is not False or check.utilisation is None:
             continue
         speed = float(np.max(np.abs(report.duty.states.speed)))
-        message = Message(
-            "{turning} are {times} times what the {check} permits: move at {largest} at most, {remedy}",
-            {
-                "turning": Measured(float(np.max(np.abs(report.duty.screw_speed))), _TURNING),
-                "times": Measured(check.utilisation, digits=3),
-                "check": check.title,
-                "largest": Measured(speed / check.utilisation, _SPEED),
-                "remedy": remedy,
-            },
+        turning = units.shown(np.max(np.abs(report.duty.screw_speed)), _TURNING)
+        largest = units.shown(speed / check.utilisation, _SPEED)
+        message = (
+            f"{turning} are {units.number(check.utilisation, 3)} times what the {check.title} permits: move at "
+            f"{largest} at most, {remedy}"
         )
         found.append(_warning(name, "motion.speed", message, speed, speed / check.utilisation, _SPEED))
     return found
@@ -380,34 +345,21 @@ def _beyond_motor(report: DutyReport) -> list[Record]:
     duty, motor, at = report.duty, against.motor, against.worst
     fastest, most = float(np.max(np.abs(duty.motor_speed))), float(motor.largest_speed)
     if fastest > most:
-        message = Message(
-            "the cycle turns the motor at up to {speed}, above its largest speed {largest}: "
-            "take a lower speed, a greater lead, or another ratio",
-            {"speed": Measured(fastest, _TURNING), "largest": Measured(most, _TURNING)},
+        message = (
+            f"the cycle turns the motor at up to {units.shown(fastest, _TURNING)}, above its largest speed "
+            f"{units.shown(most, _TURNING)}: take a lower speed, a greater lead, or another ratio"
         )
         return [_warning("motor_speed", "motor.largest_speed", message, fastest, most, _TURNING)]
     condition, largest = against.worst_torque
     torque = abs(largest)
     there = float(motor.peak_at(duty.motor_speed[at : at + 1])[0])
     highest = float(np.max(motor.peak_at(np.linspace(0.0, most, _CURVE_POINTS))))
-    values = {
-        "phase": duty.states.phases[int(duty.states.phase[at])],
-        "torque": _with_condition(torque, condition),
-        "speed": Measured(abs(float(duty.motor_speed[at])), _TURNING),
-        "there": Measured(there, _TORQUE),
-    }
+    phase = duty.states.phases[int(duty.states.phase[at])]
+    speed = units.shown(abs(float(duty.motor_speed[at])), _TURNING)
+    nowhere = "; its curve reaches that at no speed" if highest < torque else ""
     message = (
-        Message(
-            "“{phase}” asks for {torque} at {speed}, where the motor has {there}; its curve reaches that at no speed: "
-            "take a lower acceleration, a larger motor, or another ratio",
-            values,
-        )
-        if highest < torque
-        else Message(
-            "“{phase}” asks for {torque} at {speed}, where the motor has {there}: "
-            "take a lower acceleration, a larger motor, or another ratio",
-            values,
-        )
+        f"“{phase}” asks for {_with_condition(torque, condition)} at {speed}, where the motor has "
+        f"{units.shown(there, _TORQUE)}{nowhere}: take a lower acceleration, a larger motor, or another ratio"
     )
     return [_warning("motor_torque", "motor.curve", message, torque, there, _TORQUE)]
 
@@ -422,10 +374,9 @@ def _validity(report: DutyReport) -> list[Record]:
         condition = known.get(name)
         if not share or condition is None:
             continue
-        message = _PART_OF_TIME.of(condition=condition.message, share=Measured(share, digits=2))
         found.append(
             units.record(
-                message,
+                _for_a_share(condition.text, share),
                 id=f"validity.{name}",
                 subject=condition.subject,
                 severity="warning",
@@ -437,23 +388,24 @@ def _validity(report: DutyReport) -> list[Record]:
     return found
 
 
+def _for_a_share(condition: str, share: float) -> str:
+    return f"{condition} (in {units.number(share, 2)} of the time in motion)"
+
+
 def _validity_of_elements(report: DutyReport) -> list[Record]:
     """Conditions of bearings and guides that fail while the axis moves, with the share of that time."""
     states = report.duty.states
     weight = np.where(states.direction != 0, states.weight, 0.0)
-    known = {name: condition.message for name, condition in {**CONDITIONS, **NUT_CONDITIONS}.items()}
-    known[DIRECTION] = Message(
-        "one row carries no load in the other direction: it was computed for the size of the load"
-    )
+    known = {name: condition.text for name, condition in {**CONDITIONS, **NUT_CONDITIONS}.items()}
+    known[DIRECTION] = "one row carries no load in the other direction: it was computed for the size of the load"
     found: list[Record] = []
     for element, masks in report.duty.support_validity.items():
         for name, mask in masks.items():
             share = float(np.sum(weight * ~np.asarray(mask))) / max(float(np.sum(weight)), 1e-300)
             if share and name in known:
-                of_time = _PART_OF_TIME.of(condition=known[name], share=Measured(share, digits=2))
                 found.append(
                     units.record(
-                        Message("{element}: {condition}", {"element": Message(element), "condition": of_time}),
+                        f"{element}: {_for_a_share(known[name], share)}",
                         id=f"validity.{name}",
                         subject=element.replace(" ", "_"),
                         severity="warning",

@@ -10,9 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, InputError, both
+from ballscrew.basis.errors import Fault, InputError, spoken
 from ballscrew.basis.quantities import Quantity
-from ballscrew.basis.records import Message, Named
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.nut_tables import dynamic_rating
 from ballscrew.engine.evaluation.plan import Configuration
@@ -22,6 +21,7 @@ from ballscrew.evidence.calibration.constant_torque import constant_torque_misse
 from ballscrew.evidence.calibration.fit import fit as fitted
 from ballscrew.evidence.calibration.next_test import NextTest
 from ballscrew.evidence.calibration.oil_temperature import uses_temperatures
+from ballscrew.evidence.calibration.plausibility import shown_with_interval
 from ballscrew.evidence.calibration.problem import CONSTANT_TORQUE
 from ballscrew.evidence.calibration.response import resolve_input
 from ballscrew.files.torque_logs.torque_log import TorqueLog
@@ -34,8 +34,6 @@ _FLAGS: Mapping[str, str] = {f"fit.{name}": option.flag for name, option in opti
 _LIMITS = "fit.limits."
 #: Warnings that the log and the model do not belong together.
 _MISFITS = frozenset({"fit.not_converged", "fit.scatter", "fit.outliers", "fit.baseline_better"})
-_IMPLAUSIBLE = Message("implausible: {name} {value}")
-_NOT_IDENTIFIED = Message("the log does not determine: {names}")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -57,13 +55,13 @@ class FitReport:
         """
         for record in self.model.verdict_records:
             if record.holds is False:
-                values = record.message.values
-                return units.filled(_IMPLAUSIBLE.of(name=values["name"], value=values["value"]))
+                number = shown_with_interval(self.model.estimates[record.subject])
+                return f"implausible: {spoken(record.subject)} {number}"
         for record in self.model.warning_records:
             if record.id in _MISFITS:
                 return record.text
-        names = [Named(name) for name, estimate in self.model.estimates.items() if not estimate.identified]
-        return units.filled(_NOT_IDENTIFIED.of(names=both(names))) if names else ""
+        names = [spoken(name) for name, estimate in self.model.estimates.items() if not estimate.identified]
+        return f"the log does not determine: {' and '.join(names)}" if names else ""
 
 
 def fit(case: Case, log: TorqueLog, options: FitOptions, done: Callable[[int, int], None] | None = None) -> FitReport:
@@ -104,10 +102,10 @@ def fit(case: Case, log: TorqueLog, options: FitOptions, done: Callable[[int, in
         model = refit(options.free)
     except InputError as error:
         raise InputError(*(_with_option(fault) for fault in error.faults)) from None
-    of_model = units.in_display_units_of(model.warning_records)
+    of_model = model.warning_records
     warnings = [*constant_torque_missed(model, refit), *of_model, *case.doubts]
     if again:
-        message = Message("the case was fitted to this very log before: its errors are not taken as priors")
+        message = "the case was fitted to this very log before: its errors are not taken as priors"
         warnings.append(units.record(message, id="fit.same_log", subject="priors", severity="warning", holds=False))
     test: NextTest | None = None
     try:
@@ -115,7 +113,7 @@ def fit(case: Case, log: TorqueLog, options: FitOptions, done: Callable[[int, in
     except InputError as error:  # the fit is valid without a next test
         warnings += [
             units.record(
-                Message("no next test: {fault}", {"fault": _with_option(fault).message}),
+                f"no next test: {_with_option(fault)}",
                 id="fit.no_next_test",
                 subject="next_test",
                 severity="warning",
@@ -123,7 +121,7 @@ def fit(case: Case, log: TorqueLog, options: FitOptions, done: Callable[[int, in
             )
             for fault in error.faults
         ]
-    verdicts = units.in_display_units_of(model.verdict_records)
+    verdicts = model.verdict_records
     judged = dataclasses.replace(model, verdict_records=tuple(verdicts), warning_records=tuple(warnings))
     return FitReport(judged, test, log)
 

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import both
+from ballscrew.basis.errors import spoken
 from ballscrew.basis.output.sheet import (
     Axis,
     Band,
@@ -38,7 +38,6 @@ from ballscrew.basis.output.sheet import (
 )
 from ballscrew.basis.output.sheet import words as words_of
 from ballscrew.basis.quantities import Info, Quantity, quantities_of
-from ballscrew.basis.records import Message, Named
 from ballscrew.cases.case_files.case_file import Case
 from ballscrew.cases.case_files.descriptions import design, model_text
 from ballscrew.evidence.calibration.calibrated_model import CalibratedModel
@@ -52,7 +51,6 @@ from ballscrew.questions.fit.compute import FitReport
 from ballscrew.questions.fit.log import CONDITIONS
 from ballscrew.questions.shared.declared import cells
 from ballscrew.questions.shared.log_points import Numbers, some
-from ballscrew.questions.shared.text_tables import spoken
 
 _TORQUE = quantities_of(FrictionResult)["screw_torque"]
 _COUNT = Quantity("numbers", "1", Info("", "numbers"))
@@ -66,8 +64,6 @@ _LEAST_PART = 0.01
 _MOST_POINTS = 4000
 #: The axis of residuals reaches so many times their usual size.
 _WIDEST = 5
-_ERROR_LEFT = Message("{percent}% of the error of the {name}")
-_SPREAD_LEFT = Message("{percent}% of the spread assumed for the {name} (not identified)")
 _FIFTHS = ("lowest", "lower", "middle", "higher", "highest")
 #: Kinds of rows of a fit.
 KINDS = ("fitted", "held_out", "outlier")
@@ -86,10 +82,10 @@ def sheet(case: Case, report: FitReport) -> Sheet:
             _estimates(model),
             lines(_of_temperature(model)),
             warning_lines(model.warning_records),
-            Lines([Line(units.filled(trade_off(model)))]),
+            Lines([Line(trade_off(model))]),
             _scores(model),
             _trends(model),
-            Lines([Line(units.filled(message)) for message in _next_test(report)]),
+            Lines([Line(message) for message in _next_test(report)]),
             *_charts(report),
             _columns(model),
         ],
@@ -165,7 +161,7 @@ def _is_wandering(name: str) -> bool:
     return name in {quantity.name for quantity in TORQUE_WANDER.values()}
 
 
-def trade_off(model: CalibratedModel) -> Message:
+def trade_off(model: CalibratedModel) -> str:
     """What the log determines least, as one sentence: numbers that make up for each other."""
     least = model.identifiability.combinations[-1]
     values = {name: estimate.value for name, estimate in model.estimates.items()}
@@ -180,32 +176,27 @@ def trade_off(model: CalibratedModel) -> Message:
     sign = 1.0 if change > 0 else -1.0
     error = least.relative_error if least.identified else _TRADED / abs(change)
     one, *more = [_changed(name, sign * share * error) for name, share in [(first, change), *others]]
-    unidentified = [name for name in kept if not model.estimates[name].identified]
+    change_of_all = f"Trade-off: {one} with {' and '.join(more)}"
     if not least.identified:
-        message = Message("Trade-off: {one} with {others} makes no difference in this log")
-        if _combined_effect_is_known(model):
-            message = Message(
-                "Trade-off: {one} with {others} makes no difference in this log, which determines only their combined "
-                "effect"
-            )
-    elif unidentified:
-        message = Message("Trade-off: {one} with {others} fits the rows nearly as well; not identified: {names}")
-        return message.of(one=one, others=both(more), names=both(map(Named, unidentified)))
-    else:
-        message = Message("Trade-off: {one} with {others} fits the rows nearly as well (one standard error)")
-    return message.of(one=one, others=both(more))
+        effect = ", which determines only their combined effect" if _combined_effect_is_known(model) else ""
+        return f"{change_of_all} makes no difference in this log{effect}"
+    if unidentified := [name for name in kept if not model.estimates[name].identified]:
+        return f"{change_of_all} fits the rows nearly as well; not identified: {_named(unidentified)}"
+    return f"{change_of_all} fits the rows nearly as well (one standard error)"
 
 
-def _no_trade_off(model: CalibratedModel) -> Message:
+def _named(names: Iterable[str]) -> str:
+    return " and ".join(map(spoken, names))
+
+
+def _no_trade_off(model: CalibratedModel) -> str:
     """The sentence on a log in which no number makes up for another."""
     estimates = model.estimates
     if unidentified := [name for name, estimate in estimates.items() if not estimate.identified]:
-        message = Message("Trade-offs: none; the log does not determine: {names}")
-        return message.of(names=both(map(Named, unidentified)))
+        return f"Trade-offs: none; the log does not determine: {_named(unidentified)}"
     if with_prior := [name for name in estimates if not model.identifiability.identified[name]]:
-        message = Message("Trade-offs: none; the log determines {names} only together with what was known before")
-        return message.of(names=both(map(Named, with_prior)))
-    return Message("Trade-offs: none; the log determines each number by itself")
+        return f"Trade-offs: none; the log determines {_named(with_prior)} only together with what was known before"
+    return "Trade-offs: none; the log determines each number by itself"
 
 
 def _combined_effect_is_known(model: CalibratedModel) -> bool:
@@ -214,10 +205,9 @@ def _combined_effect_is_known(model: CalibratedModel) -> bool:
     return not model.has_few_rows and all(combination.identified for combination in others)
 
 
-def _changed(name: str, share: float) -> Message:
+def _changed(name: str, share: float) -> str:
     """``2.1 % more preload``."""
-    message = Message("{percent} % more {name}") if share > 0 else Message("{percent} % less {name}")
-    return message.of(percent=f"{abs(100 * share):.2g}", name=Named(name))
+    return f"{abs(100 * share):.2g} % {'more' if share > 0 else 'less'} {spoken(name)}"
 
 
 def _scores(model: CalibratedModel) -> Table:
@@ -251,28 +241,27 @@ def _trends(model: CalibratedModel) -> Table:
     return Table("residuals", "Residuals", ("", *_FIFTHS), rows, [note])
 
 
-def _next_test(report: FitReport) -> list[Message]:
+def _next_test(report: FitReport) -> list[str]:
     return [] if report.next_test is None else describe_next_test(report.next_test, report.model)
 
 
-def describe_next_test(test: NextTest, model: CalibratedModel) -> list[Message]:
+def describe_next_test(test: NextTest, model: CalibratedModel) -> list[str]:
     """Recommended next test, and the reduction of uncertainty it would give."""
     known: Mapping[str, Quantity] = {name: quantity for name, (_, quantity) in model.subject.inputs.items()}
-    where = [Message("{value}", {"value": units.shown(value, known[name], 3)}) for name, value in test.best.items()]
+    where = ", ".join(units.shown(value, known[name], 3) for name, value in test.best.items())
     readings = "one reading" if test.readings == 1 else f"{test.readings} readings"
-    message = Message("next test: {where}; {readings}")
     if model.rows.log.forward.any() and model.rows.log.backward.any() and test.readings > 1:
-        message = Message("next test: {where}; {readings}, half of them in each direction")
-    errors = [
-        (_ERROR_LEFT if model.estimates[name].identified else _SPREAD_LEFT).of(
-            percent=_percent(share), name=Named(name)
-        )
+        readings += ", half of them in each direction"
+    errors = ", ".join(
+        f"{_percent(share)}% of the error of the {spoken(name)}"
+        if model.estimates[name].identified
+        else f"{_percent(share)}% of the spread assumed for the {spoken(name)} (not identified)"
         for name, share in test.remaining_error.items()
-    ]
-    left = Message("it would leave {percent}% of the uncertainty of all together (a random test {random}%), {errors}")
+    )
     return [
-        message.of(where=where, readings=readings),
-        left.of(percent=_percent(test.best_volume), random=_percent(test.random_volume), errors=errors),
+        f"next test: {where}; {readings}",
+        f"it would leave {_percent(test.best_volume)}% of the uncertainty of all together "
+        f"(a random test {_percent(test.random_volume)}%), {errors}",
         *_beside_the_log(test, model, known),
     ]
 
@@ -281,27 +270,23 @@ def _percent(share: float) -> str:
     return f"{100 * share:.0f}"
 
 
-def _beside_the_log(test: NextTest, model: CalibratedModel, known: Mapping[str, Quantity]) -> list[Message]:
+def _beside_the_log(test: NextTest, model: CalibratedModel, known: Mapping[str, Quantity]) -> list[str]:
     """That the next test asks for more than the log has shown the rig to give, or that no such test was thought of."""
     log = model.rows.log
     logged = {"axial_load": log.axial_load, "screw_speed": np.abs(log.screw_speed)}
     ends = {name: (min(float(values.min()), 0.0), max(float(values.max()), 0.0)) for name, values in logged.items()}
     nearest = {name: min(max(test.best[name], low), high) for name, (low, high) in ends.items()}
     beyond = [
-        Message("{name} {value}", {"name": Named(name), "value": units.shown(end, known[name], 3)})
-        for name, end in nearest.items()
-        if test.best[name] != end
+        f"{spoken(name)} {units.shown(end, known[name], 3)}" for name, end in nearest.items() if test.best[name] != end
     ]
     if beyond:
-        return [Message("that is beyond the log, which ends at {ends}", {"ends": both(beyond)})]
+        return [f"that is beyond the log, which ends at {' and '.join(beyond)}"]
     if any(
         float(test.tests[name].max()) > high * (1 + 1e-9) or float(test.tests[name].min()) < low * (1 + 1e-9)
         for name, (low, high) in ends.items()
     ):
         return []
-    return [
-        Message("of the loads and speeds that the log has; --limits of ballscrew fit say what else the rig can give")
-    ]
+    return ["of the loads and speeds that the log has; --limits of ballscrew fit say what else the rig can give"]
 
 
 # -- charts and files -----------------------------------------------------------------------------

@@ -14,7 +14,6 @@ from ballscrew.axis.thermal.network import network_of, steady
 from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.case import Case
 from ballscrew.files.torque_logs.log_rows import Kind
 from ballscrew.files.torque_logs.torque_log import TorqueLog
@@ -39,10 +38,7 @@ def warm_log(case: Case, log: TorqueLog, kind: Kind = "unknown") -> tuple[Torque
         raise InputError(Fault(OPTION, "is given beside a log with temperatures", "", "leave it out"))
     found = log.kind if kind == "unknown" else kind
     if found != "friction":
-        problem = Message(
-            "needs a log of friction torque: of a torque that is {named} the heat is not known yet",
-            {"named": _named(found)},
-        )
+        problem = f"needs a log of friction torque: of a torque that is {_named(found)} the heat is not known yet"
         remedy = "log the temperature of the nut, or give a log of friction torque with --kind friction"
         raise InputError(Fault(OPTION, problem, "", remedy))
     surroundings = case.surroundings or Surroundings()

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ballscrew.basis.errors import spoken
 from ballscrew.basis.output.sheet import (
     Axis,
     Bar,
@@ -34,7 +35,6 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import design, model_text
 from ballscrew.evidence.moving_logs.linear_model import NAMES
 from ballscrew.evidence.moving_logs.motion_fit import LINEAR, POWER, QUANTITIES, SCREW, MotionEstimate, MotionFit
-from ballscrew.questions.shared.text_tables import spoken
 
 #: The models as they are shown, and their colours.
 SPOKEN = {LINEAR: "constant + viscous", POWER: "power of speed", SCREW: "screw model"}

@@ -14,7 +14,6 @@ from ballscrew.basis import units
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, InputError, faults_of, nearest, raise_if_any
 from ballscrew.basis.quantities import Count, Info, Quantity, Ratio, fields_of
-from ballscrew.basis.records import Message
 from ballscrew.cases.schema.case_schema import read_table
 from ballscrew.cases.schema.fields import section_of
 from ballscrew.physics.components.screw import BallScrew
@@ -183,7 +182,7 @@ def _bounds(given: Any, usual: Mapping[str, Span], nut: Any, faults: list[Fault]
     for name, ends in given.items():
         where = f"optimise.bounds.{name}"
         if name not in usual:
-            problem = Message('a nut of type "{nut}" has none', {"nut": nut}) if name in VARIABLES else "is not free"
+            problem = f'a nut of type "{nut}" has none' if name in VARIABLES else "is not free"
             faults.append(Fault(where, problem, str(ends), nearest(str(name), usual)))
             continue
         pair = ends if isinstance(ends, list | tuple) else [ends, ends]
@@ -195,12 +194,7 @@ def _bounds(given: Any, usual: Mapping[str, Span], nut: Any, faults: list[Fault]
             if len(values) != 2 or not 0 < values[0] <= values[1]:
                 sample = "[2, 5]" if VARIABLES[name].unit == "1" else '["20 mm", "63 mm"]'
                 faults.append(
-                    Fault(
-                        where,
-                        "is not a lower and an upper bound above zero",
-                        str(ends),
-                        Message("write {sample}", {"sample": sample}),
-                    )
+                    Fault(where, "is not a lower and an upper bound above zero", str(ends), f"write {sample}")
                 )
             else:
                 found[name] = (values[0], values[1])

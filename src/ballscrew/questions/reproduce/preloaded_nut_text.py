@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from ballscrew.basis import units
 from ballscrew.basis.output.wrapping import aligned
 from ballscrew.basis.quantities import Quantity
 from ballscrew.cases.case_files.descriptions import nut_text, operating_point
@@ -102,7 +101,7 @@ def page(found: PreloadedNut) -> str:
         contradiction=sentence(contradiction_of(found)),
         loaded=markdown_table(("", "value", f"{level(loaded)} band"), of_load, numbers=True),
         loaded_point=operating_point(loaded.case),
-        counts=units.filled(input_counts(loaded.band)),
+        counts=input_counts(loaded.band),
         options=UNLOADED_OPTIONS,
         case=CASE,
     )
@@ -132,7 +131,7 @@ def value_and_band(found: Banded, name: str) -> tuple[str, str]:
 
 def contradiction_of(found: PreloadedNut) -> str:
     """By how much the rules contradict each other."""
-    return units.filled(contradiction([one.beside for one in found.rules]))
+    return contradiction([one.beside for one in found.rules])
 
 
 def _is_held(one: RuleBesideBand) -> str:

@@ -7,7 +7,6 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, NamedTuple
 
-from ballscrew.basis import units
 from ballscrew.basis.quantities import Info, Unit
 from ballscrew.physics.moving_balls.ripple import Ripple
 from ballscrew.questions.ripple.compute import Range, RippleReport
@@ -71,7 +70,7 @@ def document(report: RippleReport) -> dict[str, Any]:
     return envelope(
         report.case,
         results,
-        assumed=map(units.filled, report.assumed),
+        assumed=report.assumed,
         warnings=report.case.implausible(),
         verdicts=report.verdicts,
     )

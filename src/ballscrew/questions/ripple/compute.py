@@ -15,7 +15,7 @@ from ballscrew.basis import units
 from ballscrew.basis.arrays import lazy
 from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity, Torque, quantities_of
-from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.physics.components.chain_force import ChainBallForce
 from ballscrew.physics.components.nut_losses import ReturnBraking
@@ -86,50 +86,32 @@ class RippleReport:
         return [self._size(), *(self._fault(name, found) for name, found in self.faults.items())]
 
     @lazy
-    def assumed(self) -> Sequence[Message]:
+    def assumed(self) -> Sequence[str]:
         """What a catalogue does not print, and what is left out."""
-        numbers = {
-            "gap": f"{self.given['gap']:g}",
-            "deviation": Measured(self.given["groove_deviation"], _DEVIATION),
-            "circuits": str(self.given["circuits"]),
-        }
+        gap, deviation, circuits = (self.given[name] for name in ("gap", "groove_deviation", "circuits"))
         return [
-            Message(
-                "in each circuit room for {gap} balls, grooves {deviation} off (root mean square), circuits in each "
-                "half: {circuits}; no catalogue has them"
-            ).of(**numbers),
-            Message("each circuit has grooves of its own; bodies are rigid, and balls have no inertia"),
-            Message("seals and other losses are left out"),
+            f"in each circuit room for {gap:g} balls, grooves {units.shown(deviation, _DEVIATION)} off "
+            f"(root mean square), circuits in each half: {circuits}; no catalogue has them",
+            "each circuit has grooves of its own; bodies are rigid, and balls have no inertia",
+            "seals and other losses are left out",
         ]
 
     def _size(self) -> Record:
         found = self.ripple
         most = max(found.orders, key=lambda one: one.amplitude)
-        message = Message(
-            "the torque goes up and down by {range}, {share} of its mean; its greatest order is {order} per turn "
-            "({name}), {amplitude}"
-        )
-        message = message.of(
-            range=_torque(found.peak_to_peak),
-            share=units.percent(found.relative),
-            order=f"{most.order:.3g}",
-            name=Message(most.name),
-            amplitude=_torque(most.amplitude),
+        message = (
+            f"the torque goes up and down by {_torque(found.peak_to_peak)}, {units.percent(found.relative)} of its "
+            f"mean; its greatest order is {most.order:.3g} per turn ({most.name}), {_torque(most.amplitude)}"
         )
         return units.record(message, id="ripple.size", subject="peak_to_peak", value=found.peak_to_peak, unit="N m")
 
     def _fault(self, name: str, found: Ripple) -> Record:
         shown = shows(self.ripple, found)
-        words = (
-            "{fault}: torque shows it, its mean is {mean} and its range over the mean {range} of what they were"
-            if shown
-            else "{fault}: torque is a poor sensor of it, its mean is {mean} and its range over the mean {range} of "
-            "what they were"
-        )
-        message = Message(words).of(
-            fault=name,
-            mean=units.percent(found.mean / self.ripple.mean),
-            range=units.percent(found.relative / self.ripple.relative),
+        mean = units.percent(found.mean / self.ripple.mean)
+        range_over_mean = units.percent(found.relative / self.ripple.relative)
+        message = (
+            f"{name}: torque {'shows it' if shown else 'is a poor sensor of it'}, its mean is {mean} and its range "
+            f"over the mean {range_over_mean} of what they were"
         )
         return units.record(message, id=f"ripple.{name.partition('=')[0]}", subject="torque", holds=shown)
 
@@ -207,8 +189,8 @@ def _range(found: Sequence[Ripple]) -> Range | None:
     return Range(len(found), float(low), float(median), float(high))
 
 
-def _torque(value: float) -> Measured:
-    return Measured(value, _KNOWN["peak_to_peak"], 3)
+def _torque(value: float) -> str:
+    return units.shown(value, _KNOWN["peak_to_peak"], 3)
 
 
 # -- faults as people write them ------------------------------------------------------------------

@@ -52,7 +52,7 @@ def sheet(report: RippleReport) -> Sheet:
             *_range(report),
             _orders(ripples),
             *_charts(ripples),
-            Lines([Line(f"assumed: {units.filled(message)}", "small") for message in report.assumed]),
+            Lines([Line(f"assumed: {message}", "small") for message in report.assumed]),
             *_files(ripples),
         ],
     )

@@ -12,12 +12,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.basis import units
 from ballscrew.basis.errors import InputError
 from ballscrew.basis.judgements import Judgement, said
 from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import Quantity, quantities_of
-from ballscrew.basis.records import Message, Record, Value
+from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.nut_tables import dynamic_rating
 from ballscrew.physics.components.contact import RaceState
@@ -102,7 +101,7 @@ class Run:
         return traits_of(self.case.model.slip).curvature_alone
 
     @property
-    def judged(self) -> tuple[dict[str, Any], dict[str, Value]]:
+    def judged(self) -> tuple[dict[str, Any], dict[str, str]]:
         """The values and the words of the verdicts."""
         friction, nut = self.friction, self.nut
         values = {name: getattr(friction, name) for name in _OF_RESULT}
@@ -119,7 +118,7 @@ class Run:
         return values | of_maker, words
 
     def _said(self, rows: Sequence[Judgement]) -> list[Record]:
-        return said(rows, *self.judged, units.filled)
+        return said(rows, *self.judged)
 
     @property
     def verdicts(self) -> list[Record]:
@@ -143,7 +142,7 @@ class Run:
         except InputError:  # of a geometry that no standard has ratings for
             return []
         values = {"preload": self.nut.preload, "dynamic_load_rating": rating, "implausible_preload": False}
-        found = said([PRELOAD_ABOVE_RATING], values, {"rating_source": Message(source)}, units.filled)
+        found = said([PRELOAD_ABOVE_RATING], values, {"rating_source": source})
         # who has been told once that the number cannot be is not told twice
         is_known = bool(found) and any(one.subject == "nut.preload" for one in case.implausible())
         return [] if is_known else found
@@ -152,7 +151,7 @@ class Run:
     def conditions(self) -> list[Record]:
         """The warnings of the friction but starvation, which is a verdict, those of the case, and a heavy preload."""
         found = [record for record in self.friction.warning_records if record.id != starvation.STARVED]
-        return [*units.in_display_units_of(found), *self.case.doubts, *self._heavy_preload()]
+        return [*found, *self.case.doubts, *self._heavy_preload()]
 
 
 # -- evaluation -----------------------------------------------------------------------------------

@@ -8,19 +8,11 @@ from typing import Any, NamedTuple
 from ballscrew.basis import units
 from ballscrew.basis.judgements import said
 from ballscrew.basis.quantities import Ratio
-from ballscrew.basis.records import Message, Record, Value
+from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.makers_rules import BY_RULE, OfRule, by_rules
 from ballscrew.physics.friction.verdicts import RULE_OF_MAKER
 from ballscrew.questions.run.nut_state import NutState
-
-_LINE = Message("drag torque without seals {torque}; by the rules of makers: {rules}")
-_OWN = Message("{rule}, its maker, {torque} (model / rule {ratio})")
-_OTHER = Message("{rule} {torque} (model / rule {ratio})")
-_CONTRADICTION = Message(
-    "the rules of makers contradict each other here by a factor of {factor}; "
-    "none of them accounts for oil, speed or balls"
-)
 
 
 class BesideRule(NamedTuple):
@@ -30,14 +22,12 @@ class BesideRule(NamedTuple):
     ratio: Ratio
 
     @property
-    def values(self) -> dict[str, Value]:
-        """The rule, its torque and the ratio, for messages."""
-        rule, torque = self.by_rule.rule, self.by_rule.torque
-        return {
-            "rule": rule.label,
-            "torque": units.shown(torque, BY_RULE[rule.name]),
-            "ratio": units.fixed(self.ratio, 2),
-        }
+    def text(self) -> str:
+        """``Rexroth, its maker, 0.41 N m (model / rule 0.93)``."""
+        rule = self.by_rule.rule
+        own = ", its maker," if self.by_rule.is_own else ""
+        torque = units.shown(self.by_rule.torque, BY_RULE[rule.name])
+        return f"{rule.label}{own} {torque} (model / rule {units.fixed(self.ratio, 2)})"
 
     @property
     def label(self) -> str:
@@ -53,23 +43,27 @@ def beside_rules(case: Case, nut: NutState | None) -> Sequence[BesideRule]:
     return [BesideRule(one, nut.drag_of_balls / one.torque) for one in by_rules(case)]
 
 
-def messages(case: Case, nut: NutState | None) -> list[Message]:
+def messages(case: Case, nut: NutState | None) -> list[str]:
     """The torque of the balls beside all rules, and by how much the rules contradict each other."""
     found = beside_rules(case, nut)
     if nut is None or not found:
         return []
-    rules = [(_OWN if one.by_rule.is_own else _OTHER).of(**one.values) for one in found]
+    rules = ", ".join(one.text for one in found)
     torque = units.shown(nut.drag_of_balls, BY_RULE[found[0].by_rule.rule.name])
-    return [_LINE.of(torque=torque, rules=rules), contradiction(found)]
+    return [f"drag torque without seals {torque}; by the rules of makers: {rules}", contradiction(found)]
 
 
-def contradiction(found: Sequence[BesideRule]) -> Message:
+def contradiction(found: Sequence[BesideRule]) -> str:
     """By how much the rules contradict each other."""
     torques = [float(one.by_rule.torque) for one in found]
-    return _CONTRADICTION.of(factor=units.fixed(max(torques) / min(torques), 2))
+    factor = units.fixed(max(torques) / min(torques), 2)
+    return (
+        f"the rules of makers contradict each other here by a factor of {factor}; none of them accounts for oil, "
+        "speed or balls"
+    )
 
 
-def judged(case: Case, nut: NutState | None) -> tuple[dict[str, Any], dict[str, Value]]:
+def judged(case: Case, nut: NutState | None) -> tuple[dict[str, Any], dict[str, str]]:
     """The values and the words of the verdict on the rule of the nut's own maker; none with spacer balls.
 
     The rules are of nuts full of balls.
@@ -79,10 +73,10 @@ def judged(case: Case, nut: NutState | None) -> tuple[dict[str, Any], dict[str, 
         return {}, {}
     rule, torque = own.by_rule.rule, own.by_rule.torque
     values = {"rule_of_maker": torque, "preload_drag_of_balls": nut.drag_of_balls}
-    return values, {"rule": rule.label, "range": Message(rule.range)}
+    return values, {"rule": rule.label, "range": rule.range}
 
 
 def verdicts(case: Case, nut: NutState | None) -> list[Record]:
     """What the rule of the nut's own maker gives, where the model is not near it."""
     values, words = judged(case, nut)
-    return said([RULE_OF_MAKER], values | {"screw_speed": case.operation.screw_speed}, words, units.filled)
+    return said([RULE_OF_MAKER], values | {"screw_speed": case.operation.screw_speed}, words)

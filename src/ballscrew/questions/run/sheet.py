@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from ballscrew.basis import units
 from ballscrew.basis.output.sheet import (
     Cell,
     Cells,
@@ -197,7 +196,7 @@ def drag_label(losses: Sequence[str], *, included: bool) -> str:
 def rules_contradict(run: Run) -> list[str]:
     """By how much the rules of makers contradict each other; nothing of a nut without preload."""
     rules = beside_rules(run.case, run.nut)
-    return [units.filled(contradiction(rules))] if rules else []
+    return [contradiction(rules)] if rules else []
 
 
 def _of_loss(name: str, case: Case) -> str:

@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal, NamedTuple
 
 from ballscrew.basis import units
 from ballscrew.basis.quantities import Force, Info, Length, Ratio, Torque, fields_of, quantities_of
-from ballscrew.basis.records import Message, documents
+from ballscrew.basis.records import documents
 from ballscrew.cases.case_files import provenance
 from ballscrew.cases.screw_tables.nut_kinds import NUT_FIELDS
 from ballscrew.physics.friction.starvation import STARVED
@@ -289,10 +289,11 @@ def candidate_document(ranked: Ranked, need: Need, model: str | None = None) -> 
 def verdict(found: Candidate) -> str:
     """All checks in a few words, with the utilisation of those that fail."""
     if found.complete:
-        said = verdict_of(found.checks, passes=Message("holds"), by_how_much=True)
+        said = verdict_of(found.checks, passes="holds", by_how_much=True)
     else:
-        said = Message("cannot hold: {names}", {"names": [failing(check) for check in found.failed]})
-    text = units.filled(with_unlikely(said, found.case))
+        names = ", ".join(failing(check) for check in found.failed)
+        said = f"cannot hold: {names}"
+    text = with_unlikely(said, found.case)
     limit = found.rigid_lift_off_load
     if limit is not None:
         text += f"; preload lost (rigid bodies: above {units.shown(limit, _LIFT_OFF)})"

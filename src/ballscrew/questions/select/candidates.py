@@ -14,7 +14,7 @@ from ballscrew.axis.thermal.network import nut_length
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Duration, Force, Length, fields_of
-from ballscrew.basis.records import Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.screw_tables.catalogue import assumed, case_text
@@ -391,15 +391,15 @@ class Starved(NamedTuple):
     def of(cls, found: Checked, report: DutyReport | None) -> Starved:
         """Under load and without, each judged by itself: under load oil may matter little, and without it much."""
         loaded = found.run.friction.starvation if report is None else duty_verdicts.starved(report)
-        return cls(units.in_display_units_of(loaded), _without_load(found))
+        return cls(loaded, _without_load(found))
 
     @property
     def records(self) -> list[Record]:
         """The record under load; where there is none that of the torque without load."""
         if self.under_load or self.without_load is None:
             return [*self.under_load]
-        remark = Message("drag torque of the nut")
-        return units.in_display_units_of(starvation.records([self.without_load], remark))
+        remark = "drag torque of the nut"
+        return starvation.records([self.without_load], remark)
 
 
 def objectives(

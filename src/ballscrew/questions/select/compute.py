@@ -14,8 +14,6 @@ import numpy as np
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Duration
-from ballscrew.basis.records import Message
-from ballscrew.basis.units import filled_text
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.compiler.kernels import kernel as kernels
@@ -158,10 +156,8 @@ def select(
     ready = _prepared(need, rows, words, objectives, settings, keep_going=keep_going)
     asked, every, table = ready.need, ready.variants, ready.table
     if "running_time" not in asked.tables.get("limits", {}):
-        note = filled_text(
-            "no life was asked for: what lives less than {hours} h is ranked after the others",
-            hours=units.grouped(round(USUAL_LIFE / 3600)),
-        )
+        hours = units.grouped(round(USUAL_LIFE / 3600))
+        note = f"no life was asked for: what lives less than {hours} h is ranked after the others"
         asked = asked.with_note(note)
     recorded = _worth_recording(asked, every)
 
@@ -177,7 +173,7 @@ def select(
     # a variant that no maker could build, such as a preload beyond its rating, is left out of the shipped rows, too
     found = each({one.label: one for one in every}, work, keep_going=keep_going or table is None, done=done)
     if asked.length_is_stroke:  # each candidate says its own length
-        asked = asked.with_note(filled_text("unsupported length: {words}", words=Message(LENGTH_OF_STROKE)))
+        asked = asked.with_note(f"unsupported length: {LENGTH_OF_STROKE}")
     candidates = list(found.found.values())
     return Selection(
         asked,
@@ -250,13 +246,12 @@ def _prepared(
         raise InputError(Fault("need.price_index", "no such row", ", ".join(unknown), "names are those of the rows"))
     every = list(variants(asked, chosen, table))
     if any(assumes_preload(asked, one) for one in every):
-        note = filled_text(
-            "preloads of {shares} of the dynamic load rating where a row lists none: none was given",
-            shares=", ".join(USUAL_PRELOADS),
+        note = (
+            f"preloads of {', '.join(USUAL_PRELOADS)} of the dynamic load rating where a row lists none: none was given"
         )
         asked = asked.with_note(note)
     if len(every) > MOST_VARIANTS:
-        remedy = Message("name fewer; {most_variants} at most", {"most_variants": str(MOST_VARIANTS)})
+        remedy = f"name fewer; {MOST_VARIANTS} at most"
         raise InputError(Fault("need", "has too many combinations", str(len(every)), remedy))
     return _Prepared(asked, names, every, table, notes)
 

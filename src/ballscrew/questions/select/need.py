@@ -14,8 +14,6 @@ from pydantic import Field
 from ballscrew.basis import units
 from ballscrew.basis.errors import MISSING, Fault, InputError, closest, nearest, raise_if_any
 from ballscrew.basis.quantities import Quantity, fields_of
-from ballscrew.basis.records import Message
-from ballscrew.basis.units import filled_text
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.schema.case_schema import read_table, sections
 from ballscrew.cases.schema.fields import section_of
@@ -146,9 +144,7 @@ def _named(tables: Mapping[str, Any], faults: list[Fault]) -> dict[str, Any]:
         name = _SECTIONS.get(key, key)
         if name in made:
             same = " and ".join(f"[{other}]" for other in tables if _SECTIONS.get(other, other) == name)
-            faults.append(
-                Fault(name, "is given twice", "", Message("{same} are the same: leave one out", {"same": same}))
-            )
+            faults.append(Fault(name, "is given twice", "", f"{same} are the same: leave one out"))
         elif isinstance(value, dict) and name not in known:
             faults.append(Fault(key, "unknown section", "", nearest(key, known[: -len(_SECTIONS)]), id=_UNKNOWN))
         else:
@@ -192,11 +188,7 @@ def _unknown(where: str, key: str, value: Any, known: Iterable[str]) -> Fault:
     found = closest(key, [*SHORT_NAMES, *known, *sections()])
     names = {place: name for name, place in reversed([*SHORT_NAMES.items()])}
     listed = dict.fromkeys([*reversed([*names.values()]), *known])
-    remedy = (
-        Message('did you mean "{found}"?', {"found": found})
-        if found
-        else Message("known: {names}", {"names": ", ".join(listed)})
-    )
+    remedy = f'did you mean "{found}"?' if found else f"known: {', '.join(listed)}"
     return Fault(where, "unknown name", str(value), remedy, id=_UNKNOWN)
 
 
@@ -230,16 +222,9 @@ def _put(made: dict[str, Any], place: str, value: Any, where: str, faults: list[
     section, _, field = place.partition(".")
     table = made.setdefault(section, {})
     if not isinstance(table, dict):
-        faults.append(Fault(section, "must be a table", str(table), Message("write [{section}]", {"section": section})))
+        faults.append(Fault(section, "must be a table", str(table), f"write [{section}]"))
     elif field in table:
-        faults.append(
-            Fault(
-                where,
-                "is given twice",
-                str(value),
-                Message("{place} stands for the same: leave one out", {"place": place}),
-            )
-        )
+        faults.append(Fault(where, "is given twice", str(value), f"{place} stands for the same: leave one out"))
     else:
         table[field] = value
 
@@ -255,11 +240,7 @@ def _need(tables: dict[str, Any], folder: Path, name: str, faults: list[Fault], 
     has_feed = "feed" in own
     if has_feed and isinstance(units.parse("", own["feed"], _PLAIN), float):
         given = str(own.pop("feed"))
-        faults.append(
-            Fault(
-                "need.feed", "needs a unit", given, Message('write "{given} m/s", or "{given} m/min"', {"given": given})
-            )
-        )
+        faults.append(Fault("need.feed", "needs a unit", given, f'write "{given} m/s", or "{given} m/min"'))
     values = read_table("need", need_section(), own, faults)
     if not isinstance(rows, str):
         faults.append(Fault("need.rows", "must be text", str(rows), 'write rows = "rexroth 40x"'))
@@ -291,12 +272,7 @@ def _need(tables: dict[str, Any], folder: Path, name: str, faults: list[Fault], 
     raise_if_any(_misfit(tables.get("installation"), required))
     by_stroke = _installation(tables, required, notes)
     if required.accuracy:
-        notes.append(
-            filled_text(
-                "grade {grade} of ISO 3408-3 is not judged: no row lists its grades; ask the maker",
-                grade=required.accuracy,
-            )
-        )
+        notes.append(f"grade {required.accuracy} of ISO 3408-3 is not judged: no row lists its grades; ask the maker")
     if objectives is None and prices:
         names = (*names, "price_index")
     return Need(
@@ -334,7 +310,7 @@ def need_section() -> Any:
 def _section(tables: Mapping[str, Any], name: str, faults: list[Fault]) -> dict[str, Any]:
     found = tables.get(name, {})
     if not isinstance(found, dict):
-        faults.append(Fault(name, "must be a table", str(found), Message("write [{name}]", {"name": name})))
+        faults.append(Fault(name, "must be a table", str(found), f"write [{name}]"))
         return {}
     return dict(found)
 
@@ -383,11 +359,11 @@ def _oils(tables: dict[str, Any], notes: list[str], assumed: list[str], faults: 
     if not named and not any(key in table for key in _OIL):
         named = [{"grade": GRADE}]
         assumed.append("lubricant.grade")
-        notes.append(filled_text("oil {grade}: none was given", grade=GRADE))
+        notes.append(f"oil {GRADE}: none was given")
     if "temperature" not in table and "viscosity" not in table:
         table["temperature"] = TEMPERATURE
         assumed.append("lubricant.temperature")
-        notes.append(filled_text("oil at {temperature}: no temperature was given", temperature=TEMPERATURE))
+        notes.append(f"oil at {TEMPERATURE}: no temperature was given")
     tables.pop("lubricant", None)
     return [{**table, **oil} for oil in named] or [table]
 
@@ -427,10 +403,7 @@ def _installation(tables: dict[str, Any], required: Requirements, notes: list[st
     table = tables.get("installation")
     if required.stroke is None and table is None:
         notes.append(
-            filled_text(
-                "inertia: that of a shaft of {length}, to compare diameters; no length was given",
-                length=units.in_unit(USUAL_LENGTH, "m"),
-            )
+            f"inertia: that of a shaft of {units.in_unit(USUAL_LENGTH, 'm')}, to compare diameters; no length was given"
         )
     if required.stroke is None or (isinstance(table, dict) and "unsupported_length" in table):
         return False

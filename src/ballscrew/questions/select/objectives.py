@@ -8,7 +8,6 @@ from collections.abc import Mapping, Sequence
 
 from ballscrew.basis.errors import Fault, nearest, raise_if_any
 from ballscrew.basis.quantities import Info, Length, Mass, MomentOfInertia, Quantity
-from ballscrew.basis.records import Message
 from ballscrew.cases.case_files.case import Case
 from ballscrew.questions.select.requirements import Requirements
 
@@ -58,9 +57,7 @@ def objectives_named(names: Sequence[str], where: str, known: Sequence[str] = tu
     none.
     """
     faults = [Fault(where, "unknown objective", str(n), nearest(str(n), known)) for n in names if n not in known]
-    faults += (
-        [] if names else [Fault(where, "is empty", "", Message("name some of {names}", {"names": ", ".join(known)}))]
-    )
+    faults += [] if names else [Fault(where, "is empty", "", f"name some of {', '.join(known)}")]
     raise_if_any(faults)
     return tuple(dict.fromkeys(names))
 

@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
+from ballscrew.basis import units
 from ballscrew.basis.quantities import Force, Ratio, quantities_of
-from ballscrew.basis.records import Measured, Message
 from ballscrew.cases.case_files.case import Case
 from ballscrew.physics.friction import directions
 from ballscrew.physics.sizing.checks import Check
@@ -22,10 +22,9 @@ from ballscrew.questions.select.requirements import ALLOWED, FORBIDDEN, Requirem
 #: The checks of :func:`by_loads`.
 BY_LOADS = ("preload", "remaining_preload", "inertia", "step")
 _LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
-_LEFT = Message("preload that the largest load leaves on the relieved half or flank")
-_NO_PRELOAD = Message("a preload is asked for, and this nut has none: name the kinds of nuts that have one")
+_LEFT = "preload that the largest load leaves on the relieved half or flank"
+_NO_PRELOAD = "a preload is asked for, and this nut has none: name the kinds of nuts that have one"
 _RIGIDITY = quantities_of(AxialRigidity)["nut"]
-_NOT_KNOWN = Message("{what}: not known here")
 
 
 def by_loads(
@@ -62,11 +61,11 @@ def of_friction(
     """A check for each other requirement that is set."""
     bounds = (
         _bounded(
-            Check.at_most, Message("torque on the shaft"),
+            Check.at_most, "torque on the shaft",
             "drive_torque", numbers["drive_torque"], required.largest_drive_torque, "N m",
         ),
         _bounded(
-            Check.at_most, Message("drag torque of the nut"),
+            Check.at_most, "drag torque of the nut",
             "preload_torque", numbers["preload_torque"], required.largest_preload_torque, "N m",
         ),
         _rigidity(required, found, numbers["rigidity"]),
@@ -81,9 +80,9 @@ def kept_preload(preload: Force, largest_load: Force, balls: BallLoads) -> Check
         return None
     left, limit = float(balls.remaining_preload), float(balls.rigid_lift_off_load)
     holds = left > 0
-    message = Message(
-        "preload that the largest load leaves on the relieved half or flank: some; rigid bodies lose it above {load}",
-        {"load": Measured(limit, _LIFT_OFF)},
+    message = (
+        "preload that the largest load leaves on the relieved half or flank: some; rigid bodies lose it above "
+        f"{units.shown(limit, _LIFT_OFF)}"
     )
     if not holds and not limit <= abs(largest_load):  # what rigid bodies would bear says nothing here
         message = _LEFT
@@ -102,13 +101,13 @@ def preload_used(preload: Force, left: Force, load: Force, rigid_lift_off_load: 
 
 
 def _bounded(
-    check: Callable[..., Check], message: Message, name: str, value: float, limit: float | None, unit: str
+    check: Callable[..., Check], message: str, name: str, value: float, limit: float | None, unit: str
 ) -> Check | None:
     """A check against a limit, none without one; a value that is no number is not judged."""
     if limit is None:
         return None
     if math.isnan(value):
-        return Check.saying(_NOT_KNOWN.of(what=message), name, None, limit, unit, None, None)
+        return Check.saying(f"{message}: not known here", name, None, limit, unit, None, None)
     return check(message, name, value, limit, unit)
 
 
@@ -122,16 +121,14 @@ def _rigidity(required: Requirements, found: Checked, of_balls: float) -> Check 
     by_standard = found.nut.rigidity
     corrected, nut, drive = (float(value) for value in (by_standard.nut_corrected, by_standard.nut, by_standard.drive))
     printed = nut if math.isnan(corrected) else corrected
-    shown = {
-        "balls": Measured(of_balls, _RIGIDITY), "nut": Measured(printed, _RIGIDITY), "drive": Measured(drive, _RIGIDITY)
-    }  # fmt: skip
-    message = Message("rigidity of the nut under the load")
+    message = "rigidity of the nut under the load"
     if not math.isnan(printed):
-        message = Message(
-            "the smaller of the balls under the load, {balls}, and of the nut by ISO 3408-4, {nut}", shown
+        message = (
+            f"the smaller of the balls under the load, {units.shown(of_balls, _RIGIDITY)}, and of the nut by ISO "
+            f"3408-4, {units.shown(printed, _RIGIDITY)}"
         )
     if not math.isnan(drive):
-        message = Message("{rigidity}; nut, shaft and bearings together {drive}", {**shown, "rigidity": message})
+        message = f"{message}; nut, shaft and bearings together {units.shown(drive, _RIGIDITY)}"
     return _bounded(
         Check.at_least, message, "rigidity", float(np.fmin(of_balls, printed)), required.least_rigidity, "N/m"
     )
@@ -141,9 +138,9 @@ def _inertia(required: Requirements, case: Case, value: float) -> Check | None:
     """Inertia of the shaft; not judged where its length is not known."""
     limit = required.largest_inertia
     if limit is not None and shaft_length(required, case) is None:
-        message = Message("not judged: give the length of the shaft, or the stroke")
+        message = "not judged: give the length of the shaft, or the stroke"
         return Check.saying(message, "inertia", None, limit, "kg m^2", None, None, "installation.unsupported_length")
-    return _bounded(Check.at_most, Message("inertia of a solid shaft"), "inertia", value, limit, "kg m^2")
+    return _bounded(Check.at_most, "inertia of a solid shaft", "inertia", value, limit, "kg m^2")
 
 
 def step(required: Requirements, lead: float) -> Check | None:
@@ -151,7 +148,7 @@ def step(required: Requirements, lead: float) -> Check | None:
     if required.largest_step is None or required.counts_per_turn is None:
         return None
     count = lead / required.counts_per_turn
-    return _bounded(Check.at_most, Message("travel of one count"), "step", count, required.largest_step, "m")
+    return _bounded(Check.at_most, "travel of one count", "step", count, required.largest_step, "m")
 
 
 def back_driving(required: Requirements, found: Checked) -> Check | None:
@@ -165,23 +162,21 @@ def back_driving(required: Requirements, found: Checked) -> Check | None:
         return None
     load = found.run.at_rest.axial_load
     if not load:
-        return Check.saying(Message("not judged: no load"), "back_driving", None, None, "N m", None, None)
+        return Check.saying("not judged: no load", "back_driving", None, None, "N m", None, None)
     friction, way = found.run.friction, math.copysign(1.0, load)
     flooded = directions.holding_torque(friction.ideal_torque, friction.flooded_torque)
     left = (way * float(torque) for torque in (found.run.at_rest.holding_torque, friction.holding_torque, flooded))
     known = [value for value in left if not math.isnan(value)]
     if not known:
-        return Check.saying(
-            Message("not judged: outside of what the model knows"), "back_driving", None, 0.0, "N m", None, None
-        )
+        return Check.saying("not judged: outside of what the model knows", "back_driving", None, 0.0, "N m", None, None)
     if required.back_driving == FORBIDDEN:
         value = max(known)
         return Check.saying(
-            Message("torque that the load has left: at most none"), "back_driving", value, 0.0, "N m", None, value <= 0
+            "torque that the load has left: at most none", "back_driving", value, 0.0, "N m", None, value <= 0
         )
     value = min(known)
     return Check.saying(
-        Message("torque that the load has left: more than none"), "back_driving", value, 0.0, "N m", None, value > 0
+        "torque that the load has left: more than none", "back_driving", value, 0.0, "N m", None, value > 0
     )
 
 
@@ -191,10 +186,10 @@ def _of_axis(required: Requirements, report: DutyReport) -> Check | None:
         return None
     brake = report.brake
     if required.back_driving == FORBIDDEN:
-        message = Message("torque that holds the axis with the motor off, in any condition")
+        message = "torque that holds the axis with the motor off, in any condition"
         return Check.saying(message, "back_driving", brake.holding_torque, 0.0, "N m", None, not brake.falls)
     every = all(found.falls for found in brake.conditions)
     least = min(found.holding_torque for found in brake.conditions)
     return Check.saying(
-        Message("torque that the load has left in every condition"), "back_driving", least, 0.0, "N m", None, every
+        "torque that the load has left in every condition", "back_driving", least, 0.0, "N m", None, every
     )

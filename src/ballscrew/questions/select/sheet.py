@@ -26,7 +26,6 @@ from ballscrew.basis.output.sheet import (
 )
 from ballscrew.basis.output.wrapping import wrapped
 from ballscrew.basis.quantities import fields_of
-from ballscrew.basis.records import Message
 from ballscrew.questions.check import sheet as check_sheet
 from ballscrew.questions.duty import verdicts as duty_verdicts
 from ballscrew.questions.duty.compute import NUMBERS, DutyReport
@@ -219,8 +218,7 @@ def compared_with(found: Selection) -> list[str]:
     for name in dict.fromkeys(check.name for check in every if check.holds is False and check.limit):
         own = sorted((check for check in every if check.name == name), key=lambda check: check.limit or 0.0)
         limits = dict.fromkeys(check_lines.shown(check, check.limit) for check in (own[0], own[-1]))
-        sources = (check.message.values.get("source") for check in own)
-        makers = Counter(units.filled(source) for source in sources if isinstance(source, Message))
+        makers = Counter(check.whose_limit for check in own if check.whose_limit)
         words = [
             " to ".join(limits),
             *_OF_LIMIT.get(name, ()),
@@ -259,7 +257,7 @@ def beside_rules(found: Selection) -> list[str]:
     if best is None or best.candidate.run is None:
         return []
     run = best.candidate.run.run
-    said = "; ".join(map(units.filled, makers.messages(run.case, run.nut)))
+    said = "; ".join(makers.messages(run.case, run.nut))
     return [f"{best.rank}: {said}"] if said else []
 
 

@@ -7,8 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, NamedTuple
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import each_of
-from ballscrew.basis.records import Message, Named, Record
+from ballscrew.basis.records import Record
 from ballscrew.cases.case_files import case_file
 from ballscrew.engine.uncertainty.sensitivity import HALF, METHODS
 from ballscrew.engine.uncertainty.sobol import Estimate
@@ -114,33 +113,28 @@ def _input(report: SensitivityReport, name: str) -> SensitiveInput:
 
 def verdicts(report: SensitivityReport) -> list[Record]:
     """The inputs to measure next in order to halve the band."""
-    result, meaning = report.result, Message(report.result.quantity.info.meaning)
+    result, meaning = report.result, report.result.quantity.info.meaning
 
-    def verdict(
-        name: str, subject: str, message: Message, value: float | None = None, holds: bool | None = None
-    ) -> Record:
+    def verdict(name: str, subject: str, message: str, value: float | None = None, holds: bool | None = None) -> Record:
         limit = None if value is None else HALF
         return units.record(message, id=f"sensitivity.{name}", subject=subject, value=value, limit=limit, holds=holds)
 
     if result.is_constant:
-        message = Message("the {meaning} does not depend on any of these inputs", {"meaning": meaning})
+        message = f"the {meaning} does not depend on any of these inputs"
         return [verdict("constant", result.output, message)]
     if result.method == "morris":
-        message = Message("screening ranks the inputs; what to find out next: --method sobol")
+        message = "screening ranks the inputs; what to find out next: --method sobol"
         return [verdict("screening", result.output, message)]
     if result.to_halve is None:
-        message = Message("to know all of these inputs would not halve the band of the {meaning}", {"meaning": meaning})
+        message = f"to know all of these inputs would not halve the band of the {meaning}"
         return [verdict("not_halved", result.output, message, holds=False)]
     inputs, left = result.to_halve
-    names = [Named(name, report.describe(name)) for name in inputs]
-    message = Message(
-        "to halve the band of the {meaning}, find out: {names} (leaves {left})",
-        {"meaning": meaning, "names": each_of(names), "left": units.percent(left)},
-    )
+    names = [report.describe(name) for name in inputs]
+    message = f"to halve the band of the {meaning}, find out: {', '.join(names)} (leaves {units.percent(left)})"
     records = [verdict("to_halve", ",".join(inputs), message, left, True)]
     if len(names) > 1:
         alone = result.explained_variance[0].remaining
-        message = Message("{name} alone leaves {left}", {"name": names[0], "left": units.percent(alone)})
+        message = f"{names[0]} alone leaves {units.percent(alone)}"
         records.append(verdict("first_input", inputs[0], message, alone, False))
     return records
 
@@ -150,14 +144,9 @@ def warnings(case: case_file.Case, report: SensitivityReport) -> list[Record]:
     records = case.implausible()
     result = report.result
     if result.left_out:
-        message = Message(
-            "{samples} samples or trajectories are left out as they have no number",
-            {"samples": units.fixed(result.left_out)},
-        )
+        message = f"{units.fixed(result.left_out)} samples or trajectories are left out as they have no number"
         of_samples = {"subject": result.output, "value": float(result.left_out), "limit": 0.0}
         records.append(units.record(message, id="sensitivity.left_out", severity="warning", holds=False, **of_samples))
     if case.calibration is not None:
-        records.append(
-            units.record(Message(CORRELATED), id="sensitivity.correlated", subject="calibration", severity="warning")
-        )
+        records.append(units.record(CORRELATED, id="sensitivity.correlated", subject="calibration", severity="warning"))
     return records

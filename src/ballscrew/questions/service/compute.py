@@ -6,10 +6,9 @@ import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Quantity, quantities_of
-from ballscrew.basis.records import Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.uncertain_inputs import all_of, joint_of
 from ballscrew.engine.evaluation.plan import Configuration
@@ -27,7 +26,7 @@ from ballscrew.questions.service.options import ReadingOptions, ServiceOptions
 from ballscrew.questions.shared.options import options_of
 
 TORQUE: Quantity = quantities_of(FrictionResult)["screw_torque"]
-_OF_PRELOAD = Message("so with the preload found; in a full bath the same torque asks for a smaller one")
+_OF_PRELOAD = "so with the preload found; in a full bath the same torque asks for a smaller one"
 #: Flags of the command line by the fields in which a service finds faults.
 _FLAGS: Mapping[str, str] = {
     **{
@@ -112,7 +111,7 @@ def of_logs(
         )
     except InputError as error:
         raise InputError(*(_with_option(fault) for fault in error.faults)) from None
-    records = tuple(units.in_display_units_of(change.warning_records))
+    records = tuple(change.warning_records)
     return ServiceReport(dataclasses.replace(change, warning_records=records), of_case=case.implausible())
 
 
@@ -142,7 +141,7 @@ def _starved(case: Case, found: PreloadEstimate, measured: Reading) -> list[Reco
     oil = case.lubricant if measured.temperature is None else case.lubricant.at(measured.temperature)
     subject = Configuration(case.model, case.screw, oil).changed({PRELOAD: found.preload})
     points = {"axial_load": 0.0, "screw_speed": measured.screw_speed}
-    return units.in_display_units_of(subject.starvation(points, _OF_PRELOAD))
+    return subject.starvation(points, _OF_PRELOAD)
 
 
 def distributions(case: Case) -> dict[str, Distribution]:

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from ballscrew.basis import units
+from ballscrew.basis.errors import spoken
 from ballscrew.basis.output.sheet import (
     Axis,
     Bar,
@@ -29,7 +30,6 @@ from ballscrew.basis.output.sheet import (
     warning_lines,
 )
 from ballscrew.basis.quantities import Info, Quantity, fields_of
-from ballscrew.basis.records import Message, Named, Value
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.descriptions import design, model_text, nut_text
 from ballscrew.evidence.service.preload_estimate import PreloadEstimate
@@ -40,11 +40,6 @@ from ballscrew.questions.service.compute import TORQUE, ServiceReport
 from ballscrew.questions.service.points import curves
 
 #: Causes of an interval that are no input of the model.
-_CAUSES = {
-    "nominal preload": Message("nominal preload"),
-    "temperature of the new log": Message("temperature of the new log"),
-    "temperature of the worn log": Message("temperature of the worn log"),
-}
 #: Causes of an interval that are named.
 _MOST_CAUSES = 3
 #: A cause that is less than this share of an interval is not named.
@@ -77,7 +72,7 @@ def sheet(case: Case, report: ServiceReport) -> Sheet:
             verdict_lines([first]),
             *([_preloads(case, report)] if has_change else []),
             lines(_logs(report)),
-            Lines([Line(units.filled(cause)) for cause in causes(report)]),
+            Lines([Line(cause) for cause in causes(report)]),
             warning_lines(warnings),
             Lines([Line(f"note: {record.text}") for record in remarks]),
             Lines([Line(f"with the preload of the {origin}: {record.text}") for record in others]),
@@ -96,25 +91,19 @@ def names(report: ServiceReport) -> list[str]:
     return [label if log.source is None else log.source[0] for label, log in logs.items()]
 
 
-def causes(report: ServiceReport) -> list[Message]:
+def causes(report: ServiceReport) -> list[str]:
     """What the interval comes from, the largest cause first."""
     by_cause = report.change.ratio_shares if report.change is not None else {}
     by_cause = report.preload.shares if report.preload is not None else by_cause
     shares = sorted(((share, name) for name, share in by_cause.items() if math.isfinite(share)), reverse=True)
-    largest = [
-        Message("{cause} ({percent}%)", {"cause": _cause(name), "percent": f"{100 * share:.0f}"})
-        for share, name in shares[:_MOST_CAUSES]
-        if share >= _LEAST_CAUSE
-    ]
+    largest = ", ".join(
+        f"{spoken(name)} ({100 * share:.0f}%)" for share, name in shares[:_MOST_CAUSES] if share >= _LEAST_CAUSE
+    )
     if not largest:
         return []
     if sum(share for share, _ in shares[:_MOST_CAUSES]) > _MOST:
-        return [Message("most of the interval is from: {causes}", {"causes": largest})]
-    return [Message("no cause makes most of the interval; the largest: {causes}", {"causes": largest})]
-
-
-def _cause(name: str) -> Value:
-    return _CAUSES.get(name, Named(name))
+        return [f"most of the interval is from: {largest}"]
+    return [f"no cause makes most of the interval; the largest: {largest}"]
 
 
 def _logs(report: ServiceReport) -> list[str]:

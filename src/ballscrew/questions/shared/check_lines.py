@@ -7,10 +7,10 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ballscrew.basis import units
+from ballscrew.basis.errors import in_file
 from ballscrew.basis.output.plain_numbers import plain
 from ballscrew.basis.output.sheet import Cell, Number, Share, Table
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.basis.records import Message, in_file
 from ballscrew.cases.case_files.case import Case
 from ballscrew.physics.sizing.checks import Check
 from ballscrew.physics.sizing.sources import QUALIFICATIONS
@@ -73,13 +73,13 @@ def verdict_of(check: Check) -> str:
     """The verdict on a check, by formulas of which source; of one that is not judged the source of its value alone."""
     said = {True: "passes", False: "FAILS", None: ""}[check.holds]
     by = None if check.source is None or check.value is None else QUALIFICATIONS[check.source]
-    return "; ".join(filter(None, [said, "" if by is None else units.filled(by)]))
+    return "; ".join(filter(None, [said, "" if by is None else by]))
 
 
-def with_unlikely(verdict: Message, case: Case) -> Message:
+def with_unlikely(verdict: str, case: Case) -> str:
     """A verdict, and the inputs of the case that are unlikely: what is computed with them may hold by a slip."""
-    names = [Message("{input}", {"input": in_file(name)}) for name in case.unlikely]
-    return Message("{verdict}; unlikely: {names}", {"verdict": verdict, "names": names}) if names else verdict
+    names = ", ".join(map(in_file, case.unlikely))
+    return f"{verdict}; unlikely: {names}" if names else verdict
 
 
 def source_document(check: Check) -> dict[str, Any]:
@@ -87,4 +87,4 @@ def source_document(check: Check) -> dict[str, Any]:
     if check.source is None:
         return {}
     said = QUALIFICATIONS[check.source]
-    return {"source": check.source, "source_text": None if said is None else units.filled(said)}
+    return {"source": check.source, "source_text": None if said is None else said}

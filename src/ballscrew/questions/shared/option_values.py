@@ -12,7 +12,6 @@ from typing import Any, TypeVar, cast
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, either, fault_of, nearest, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.basis.records import Message
 from ballscrew.questions.shared.options import OptionField, Range, options_of
 
 T = TypeVar("T")
@@ -54,7 +53,7 @@ def _as_it_is(_option: OptionField, given: Any, _faults: list[Fault]) -> Any:
 def _choice(option: OptionField, given: str, faults: list[Fault]) -> str:
     if given not in option.choices:
         known = either((each for each in option.choices if each != option.default), quote="")
-        problem = Message("unknown {noun}", {"noun": option.option.noun or option.name})
+        problem = f"unknown {option.option.noun or option.name}"
         faults.append(Fault(option.flag, problem, given, known))
     return given
 
@@ -63,7 +62,7 @@ def _names(option: OptionField, given: Sequence[str], faults: list[Fault]) -> Se
     names = [name.strip() for text in given for name in text.split(",") if name.strip()]
     if not names and option.default:
         usual = ",".join(option.default)
-        remedy = Message("write {flag} {example}", {"flag": option.flag, "example": usual})
+        remedy = f"write {option.flag} {usual}"
         faults.append(Fault(option.flag, "has no names", ", ".join(given), remedy))
     return names
 
@@ -76,8 +75,8 @@ def _texts(option: OptionField, given: Mapping[str, str] | Sequence[str], faults
         name, equals, value = text.partition("=")
         if not equals or not name.strip() or not value.strip():
             noun = option.option.noun or "text"
-            remedy = Message("write {flag} {example}", {"flag": option.flag, "example": option.option.example})
-            faults.append(Fault(option.flag, Message("is not name={noun}", {"noun": noun}), text, remedy))
+            remedy = f"write {option.flag} {option.option.example}"
+            faults.append(Fault(option.flag, f"is not name={noun}", text, remedy))
         found[name.strip()] = value.strip()
     return found
 
@@ -87,7 +86,7 @@ def _quantity(option: OptionField, text: str, faults: list[Fault]) -> float | No
     said, flag = option.option, option.flag
     if said.is_difference and units.unit_in(text) not in ("K", "kelvin", ""):
         number = text.replace(units.unit_in(text), "").strip()
-        remedy = Message('write {flag} "{number} K"', {"flag": flag, "number": number})
+        remedy = f'write {flag} "{number} K"'
         faults.append(Fault(flag, "is a difference of temperatures, in K", text, remedy))
         return None
     info = Info("", said.meaning, said.shown_in, above=said.above, at_least=said.at_least)
@@ -119,9 +118,7 @@ def _ranges(flag: str, given: Sequence[str], known: Mapping[str, Quantity], faul
         name, equals, values = text.partition("=")
         name, (low, colon, high) = name.strip(), values.strip().partition(":")
         if not equals or not colon:
-            faults.append(
-                Fault(flag, "is not name=low:high", text, Message('write {flag} name="low:high unit"', {"flag": flag}))
-            )
+            faults.append(Fault(flag, "is not name=low:high", text, f'write {flag} name="low:high unit"'))
         elif name not in known:
             faults.append(Fault(f"{flag} {name}", "unknown name", "", nearest(name, known)))
         else:

@@ -34,11 +34,6 @@ def ends_or_dashes(low: Any, high: Any, quantity: Quantity) -> tuple[str, str]:
     return shown_or_dash(low, quantity, -1), shown_or_dash(high, quantity, 1)
 
 
-def spoken(name: str) -> str:
-    """The last part of a name, without underscores."""
-    return name.rpartition(".")[2].replace("_", " ")
-
-
 def markdown_table(heading: Sequence[str], rows: Sequence[Sequence[str]], *, numbers: bool = False) -> str:
     """A table in Markdown; bars in cells are escaped. Columns of ``numbers`` after the first are set to the right."""
     marks = ["---", *["--:" if numbers else "---"] * (len(heading) - 1)]

@@ -9,7 +9,7 @@ from typing import Annotated, Any, NamedTuple
 import xarray as xr
 
 from ballscrew.basis import units
-from ballscrew.basis.records import Measured, Message, Record, documents
+from ballscrew.basis.records import Record, documents
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.provenance import of_case
 from ballscrew.engine.uncertainty.bands import ENDS, inner_end, inner_levels
@@ -115,10 +115,7 @@ def warnings(dataset: xr.Dataset) -> list[Record]:
     count = int(valid.size - valid.sum())
     if not count:
         return []
-    message = Message(
-        "{count} of {all} points lie outside the model's validity",
-        {"count": Measured(count, digits=9), "all": Measured(valid.size, digits=9)},
-    )
+    message = f"{units.number(count, 9)} of {units.number(valid.size, 9)} points lie outside the model's validity"
     return [
         units.record(
             message,

@@ -20,7 +20,7 @@ from ballscrew.basis.atomic_files import check_writable
 from ballscrew.basis.errors import Fault, InputError, either, fault_of, nearest, raise_if_any
 from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import Quantity
-from ballscrew.basis.records import Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case_file import Case
 from ballscrew.cases.schema.case_schema import name_of_law
 from ballscrew.engine.evaluation.engines import FEW_POINTS
@@ -223,8 +223,8 @@ def _faults_of_axes(asked: _Asked) -> list[Fault]:
     if "ball_to_ball_force" in axes and not traits_of(case.model.ball_force).uses_imposed_force:
         law = case.model.ball_force
         names = either(f"ball_force.{name}" for name in coefficients(law)) if coefficients(law) else None
-        remedy = "leave it out" if names is None else Message("vary {names}", {"names": names})
-        problem = Message('does not count with ball_force = "{law}"', {"law": name_of_law("ball_force", law)})
+        remedy = "leave it out" if names is None else f"vary {names}"
+        problem = f'does not count with ball_force = "{name_of_law("ball_force", law)}"'
         faults.append(Fault("sweep.ball_to_ball_force", problem, "", remedy))
     of_temperature = [name for name in OF_TEMPERATURE if "temperature" in axes and name in axes]
     faults += [Fault(f"sweep.{n}", "goes with the temperature", "", "vary one of the two") for n in of_temperature]
@@ -290,14 +290,7 @@ def _file_faults(to: Path | None, lengths: Sequence[int]) -> list[Fault]:
         return [Fault("--to", "unknown kind of file", str(to), "end it in .csv, .xlsx, .nc or .zarr")]
     missing = [name for name in _NEEDS[kind] if importlib.util.find_spec(name) is None]
     if missing:
-        return [
-            Fault(
-                "--to",
-                Message("needs {names}", {"names": " and ".join(missing)}),
-                str(to),
-                'pip install "ballscrew[data]"',
-            )
-        ]
+        return [Fault("--to", f"needs {' and '.join(missing)}", str(to), 'pip install "ballscrew[data]"')]
     too_wide = len(lengths) == 2 and lengths[1] >= _XLSX_COLUMNS
     if kind == ".xlsx" and (math.prod(lengths) >= _XLSX_ROWS or too_wide):
         return [Fault("--to", "too large for a worksheet", " x ".join(map(str, lengths)), "write .nc or .csv")]
@@ -322,7 +315,7 @@ def _axis(where: str, text: str, quantity: Quantity) -> np.ndarray | Fault:
             where,
             "bad number of values",
             span["count"],
-            Message("start:stop:count, count from 1 to {longest_axis}", {"longest_axis": units.grouped(_LONGEST_AXIS)}),
+            f"start:stop:count, count from 1 to {units.grouped(_LONGEST_AXIS)}",
         )
     numbers = np.linspace(values[0], values[1], int(span["count"]))
     if quantity.info.whole and np.any(numbers % 1):
@@ -335,25 +328,17 @@ def _fault_of_range(where: str, text: str, quantity: Quantity) -> Fault | None:
     span = _RANGE.fullmatch(text)
     if span is None and (ends := _FROM_TO.fullmatch(text)):
         unit = f" {ends['unit']}" if ends["unit"] else _blank_unit(quantity)
-        remedy = Message(
-            'write "{ends}:{ends_2}:5{unit}" for five values, ends included',
-            {"ends": ends["start"], "ends_2": ends["stop"], "unit": unit},
-        )
+        remedy = f'write "{ends["start"]}:{ends["stop"]}:5{unit}" for five values, ends included'
         return Fault(where, "is not start:stop:count", text, remedy)
     if span is None and ":" in text:
         return Fault(
             where,
             "is not start:stop:count",
             text,
-            Message('write "1:10:4{blank_unit}", count a whole number', {"blank_unit": _blank_unit(quantity)}),
+            f'write "1:10:4{_blank_unit(quantity)}", count a whole number',
         )
     if span and quantity.unit != "1" and not span["unit"]:
-        return Fault(
-            where,
-            "needs a unit",
-            text,
-            Message('write "{text} {shown_in}"', {"text": text, "shown_in": quantity.shown_in}),
-        )
+        return Fault(where, "needs a unit", text, f'write "{text} {quantity.shown_in}"')
     return None
 
 
@@ -493,12 +478,12 @@ def implausible(case: Case, plan: Plan) -> list[Record]:
     """A warning for each input that no ball screw has, at some point of the sweep."""
     subject = Configuration(case.model, case.screw, case.lubricant)
     there = {name: np.asarray(value) for name, value in unvaried(case, plan).items()}
-    return [*units.in_display_units_of(subject.implausible({**there, **plan.axes})), *case.doubts]
+    return [*subject.implausible({**there, **plan.axes}), *case.doubts]
 
 
 def starved(dataset: xr.Dataset) -> list[Record]:
     """A warning where points of a sweep are starved of oil, with both torques at the one that is so the most."""
-    return units.in_display_units_of(starvation_of(dataset.attrs))
+    return starvation_of(dataset.attrs)
 
 
 def unvaried(case: Case, plan: Plan) -> dict[str, Any]:

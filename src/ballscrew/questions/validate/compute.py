@@ -12,7 +12,6 @@ from typing import Any
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, fault_of, nearest, raise_if_any
-from ballscrew.basis.records import Message
 from ballscrew.cases.schema.case_schema import MODELS
 from ballscrew.cases.screw_tables.catalogue import COLUMNS
 from ballscrew.evidence.validation.entries import CONDITIONS, Conditions, Entry, Point, ValidationSet, Values
@@ -80,7 +79,8 @@ def request(
         faults.append(Fault("--card", "goes with no set, rows or conditions", "", "a card has its own"))
     if summary and (cards or to is not None or report is not None):
         problem = "is a table of the sets" if cards else "is no picture and no paper"
-        remedy = Message("leave {option} out", {"option": "--card" if cards else "--to" if to else "--report"})
+        option = "--card" if cards else "--to" if to else "--report"
+        remedy = f"leave {option} out"
         faults.append(Fault("--summary", problem, "", remedy))
     given = _conditions(grade, temperature, speed, faults)
     raise_if_any(faults)
@@ -118,7 +118,7 @@ def _sets(names: Sequence[str], model: FrictionModel) -> tuple[list[ValidationSe
     wanted = [SETS[name] for name in dict.fromkeys(names)] or list(SETS.values())
     cannot = [data.name for data in wanted if data.four_contacts and 4 not in traits_of(model.slip).contacts_per_ball]
     if names and cannot:
-        problem = Message("model {model} knows no balls with four contacts", {"model": model.name})
+        problem = f"model {model.name} knows no balls with four contacts"
         raise InputError(*(Fault(name, problem, "", "take the model reference") for name in cannot))
     notes = [f"{name}: left out, the model {model.name} knows no balls with four contacts" for name in cannot]
     return [data for data in wanted if data.name not in cannot], notes

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from ballscrew.basis import units
-from ballscrew.basis.records import Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.basis.records import documents as documents_of
 from ballscrew.evidence.validation.entries import Entry, Point, ValidationSet
 from ballscrew.questions.shared.declared import attributes
@@ -95,7 +95,7 @@ def checks(entry: Entry) -> list[Record]:
     share = entry.share_in_band
     if share is None:
         return []
-    message = Message("{share} of the rows lie in their band", {"share": units.percent(share)})
+    message = f"{units.percent(share)} of the rows lie in their band"
     return [
         units.record(
             message,
@@ -115,17 +115,17 @@ def warnings(entry: Entry) -> list[Record]:
     rows = Counter(record.id for record in every)
     first = {record.id: record for record in reversed(every)}
     records = [
-        _rows_record(first[name].name, first[name].subject, first[name].message, count) for name, count in rows.items()
+        _rows_record(first[name].name, first[name].subject, first[name].text, count) for name, count in rows.items()
     ]
     missing = len(entry.points) - len(entry.counted)
     if missing:
-        records.append(_rows_record("no_number", entry.data.name, Message("the model gives no number"), missing))
+        records.append(_rows_record("no_number", entry.data.name, "the model gives no number", missing))
     return records
 
 
-def _rows_record(name: str, subject: str, message: Message, rows: int) -> Record:
+def _rows_record(name: str, subject: str, message: str, rows: int) -> Record:
     return units.record(
-        Message("{rows} rows: {message}", {"rows": units.fixed(rows), "message": message}),
+        f"{units.fixed(rows)} rows: {message}",
         id=f"validation.{name}",
         subject=subject,
         severity="warning",

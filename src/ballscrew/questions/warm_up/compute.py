@@ -35,8 +35,6 @@ from ballscrew.basis.quantities import (
     Unit,
     fields_of,
 )
-from ballscrew.basis.records import Message
-from ballscrew.basis.units import filled_text
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 from ballscrew.physics.components.materials import Lubricant
@@ -190,62 +188,53 @@ def assumed_of(case: Case, given: Surroundings, network: Network, stroke: Length
     found = [*_assumed_sizes(case, given, network)]
     if stroke is not None and given.stroke is None:
         length = units.shown(stroke, PLACE)
-        found.append(filled_text("to and fro over {stroke}, half the shaft, under the load of the case", stroke=length))
+        found.append(f"to and fro over {length}, half the shaft, under the load of the case")
     if any(network.bearing_power):
         first, last = (units.shown(power, SERIES["friction_power"], 3) for power in network.bearing_power)
-        found.append(
-            filled_text(
-                "bearings make {first} at the fixed end and {last} at the other, whatever they warm up to",
-                first=first,
-                last=last,
-            )
-        )
+        found.append(f"bearings make {first} at the fixed end and {last} at the other, whatever they warm up to")
     else:
         found.append("no heat of the support bearings: their friction is not given ([bearings.fixed])")
     defaults = {field.name: field.default for field in dataclasses.fields(Surroundings)}
     for name in OF_DEFAULTS:
         if getattr(given, name) == defaults[name] and name not in case.given_surroundings:
-            meaning, value = Message(_OF[name].info.meaning), units.shown(defaults[name], _OF[name])
-            found.append(filled_text("{meaning} {value}: the default", meaning=meaning, value=value))
+            meaning, value = _OF[name].info.meaning, units.shown(defaults[name], _OF[name])
+            found.append(f"{meaning} {value}: the default")
     return found
 
 
 def _assumed_sizes(case: Case, given: Surroundings, network: Network) -> Iterator[str]:
     """Conductances and sizes of nut and shaft that are not given."""
     if given.ball_conductance is None:
-        yield filled_text(
-            "{conductance} from nut to shaft: balls at rest and grease of {grease} W/(m K) in a gap of {gap} ball "
-            "diameters; a factor of three either way is possible",
-            conductance=units.shown(network.ball_conductance, _OF["ball_conductance"]),
-            grease=f"{GREASE_CONDUCTIVITY:g}",
-            gap=f"{GAP_SHARE:g}",
+        conductance = units.shown(network.ball_conductance, _OF["ball_conductance"])
+        yield (
+            f"{conductance} from nut to shaft: balls at rest and grease of {GREASE_CONDUCTIVITY:g} W/(m K) in a "
+            f"gap of {GAP_SHARE:g} ball diameters; a factor of three either way is possible"
         )
     if given.shaft_convection is None:
         convection = units.shown(network.shaft.convection, _OF["shaft_convection"])
-        yield filled_text(
-            "{convection} from the shaft to the air by the mean speed, a recalled formula; "
-            "a factor of two either way is possible",
-            convection=convection,
+        yield (
+            f"{convection} from the shaft to the air by the mean speed, a recalled formula; a factor of two "
+            "either way is possible"
         )
     if given.nut_mass is None:
         mass, wall = units.shown(network.nut_mass, _OF["nut_mass"]), f"{NUT_WALL:g}"
-        yield filled_text("nut of {mass}: {wall} times as wide as the screw", mass=mass, wall=wall)
+        yield f"nut of {mass}: {wall} times as wide as the screw"
     if given.shaft_length is None:
         length = units.shown(network.shaft.length, _OF["shaft_length"])
         if case.installation is None:
-            yield filled_text("shaft of {length}: not given, an assumption", length=length)
+            yield f"shaft of {length}: not given, an assumption"
         else:
-            yield filled_text("shaft of {length}: the length of [installation]", length=length)
+            yield f"shaft of {length}: the length of [installation]"
 
 
 def check_hours(hours: float, cool_down: float) -> None:
     """Raise :class:`~ballscrew.basis.errors.InputError` for times that are none."""
     faults: list[Fault] = []
     if not 0 < hours <= LONGEST:
-        problem = Message("must be above 0 and at most {most}", {"most": units.to_significant(LONGEST, 6)})
+        problem = f"must be above 0 and at most {units.to_significant(LONGEST, 6)}"
         faults.append(Fault("--hours", problem, f"{hours:g}", "write --hours 4"))
     if not 0 <= cool_down <= LONGEST:
-        problem = Message("must be 0 to {most}", {"most": units.to_significant(LONGEST, 6)})
+        problem = f"must be 0 to {units.to_significant(LONGEST, 6)}"
         faults.append(Fault("--cool-down", problem, f"{cool_down:g}", "write --cool-down 1"))
     raise_if_any(faults)
 

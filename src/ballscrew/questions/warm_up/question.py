@@ -65,16 +65,13 @@ def _files(place: Path, has_band: bool) -> dict[Path, str]:
     """The files of a place: itself if it ends as one, or those of a folder, which is made. They can be written."""
     from ballscrew.basis.atomic_files import check_writable, write_error
     from ballscrew.basis.errors import Fault, InputError
-    from ballscrew.basis.records import Message
     from ballscrew.questions.shared import row_tables
     from ballscrew.questions.shared.chart_files import SUFFIXES
 
     known = (*row_tables.KINDS, *SUFFIXES)
     if place.suffix and not place.is_dir():
         if place.suffix.lower() not in known:
-            remedy = Message(
-                "end it in {names} or {known}, or name a folder", {"names": ", ".join(known[:-1]), "known": known[-1]}
-            )
+            remedy = f"end it in {', '.join(known[:-1])} or {known[-1]}, or name a folder"
             raise InputError(Fault(_TO, "unknown kind of file", str(place), remedy))
         files = {place: ""}
     else:

@@ -16,7 +16,7 @@ from ballscrew.axis.thermal.surroundings import Surroundings
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Force, Info, Length, Quantity, Ratio, Temperature, Torque, quantities_of
-from ballscrew.basis.records import Measured, Message, Record
+from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.friction import starvation
@@ -37,14 +37,6 @@ if TYPE_CHECKING:
 
 OPTION = "--self-heating"
 _TORQUE = quantities_of(FrictionResult)["screw_torque"]
-_HEATED = Message(
-    "self-heating: oil at {oil} in place of {given} (nut {nut}); friction torque {warm}, not {cold}; "
-    "stability margin of the thermal loop {margin}, thermal runaway at 0"
-)
-_HEATED_WITH_PRELOAD = Message(
-    "self-heating: oil at {oil} in place of {given} (nut {nut}), preload {preload} in place of {before}; "
-    "friction torque {warm}, not {cold}; stability margin of the thermal loop {margin}, thermal runaway at 0"
-)
 #: The friction torques that a starved one has beside it, warm and as given.
 WARM, GIVEN = (
     Quantity(f"self_heating.{name}", "N m", Info("M_S", meaning))
@@ -136,28 +128,26 @@ class SelfHeating:
             for quantity, *both in zip((WARM, GIVEN), given, flooded, strict=True)
             if np.isfinite(both).all()
         ]
-        return units.in_display_units_of(starvation.records(numbers))
+        return starvation.records(numbers)
 
     @property
     def _record(self) -> Record:
         end, found = self.equilibrium, self.numbers
-        numbers = {
-            "oil": Measured(found.oil_temperature, TEMPERATURE),
-            "given": Measured(found.oil_temperature_given, TEMPERATURE),
-            "nut": Measured(end.nut_temperature, TEMPERATURE),
-            "warm": Measured(self.torque, _TORQUE),
-            "cold": Measured(self.torque_given, _TORQUE),
-        }
+        oil, given, nut = (
+            units.shown(temperature, TEMPERATURE)
+            for temperature in (found.oil_temperature, found.oil_temperature_given, end.nut_temperature)
+        )
+        preload = ""
         if end.network.preload_set:
-            quantity = EQUILIBRIUM["preload"]
-            message = _HEATED_WITH_PRELOAD.of(
-                **numbers,
-                margin=end.shown_margin,
-                preload=Measured(float(end.preload), quantity),
-                before=Measured(float(end.network.preload_set), quantity),
+            now, before = (
+                units.shown(force, EQUILIBRIUM["preload"]) for force in (end.preload, end.network.preload_set)
             )
-        else:
-            message = _HEATED.of(**numbers, margin=end.shown_margin)
+            preload = f", preload {now} in place of {before}"
+        message = (
+            f"self-heating: oil at {oil} in place of {given} (nut {nut}){preload}; friction torque "
+            f"{units.shown(self.torque, _TORQUE)}, not {units.shown(self.torque_given, _TORQUE)}; stability margin of "
+            f"the thermal loop {end.shown_margin}, thermal runaway at 0"
+        )
         return units.record(
             message,
             id="verdict.self_heating",

@@ -8,7 +8,7 @@ import numpy as np
 
 from ballscrew.axis.motion.states import Numbers
 from ballscrew.basis import units
-from ballscrew.basis.records import Measured, Message, Record, in_file
+from ballscrew.basis.records import Record
 from ballscrew.physics.friction import starvation
 from ballscrew.physics.friction.plausibility import implausible
 from ballscrew.questions.warm_up.compute import AT_END, AT_START, PLACE, SERIES, WarmUpReport
@@ -35,11 +35,11 @@ def _starved(report: WarmUpReport) -> list[Record]:
     numbers = [starvation.BothTorques(AT_START, *start)]
     if np.isfinite(end).all():
         numbers.append(starvation.BothTorques(AT_END, *end))
-    said = units.in_display_units_of(starvation.records(numbers))
+    said = starvation.records(numbers)
     ends = full.warm_up.equilibrium
     if ends.exists or not report.warm_up.equilibrium.exists:
         return said
-    message = Message("in a full bath of oil there is no steady state: thermal runaway, or too hot for the model")
+    message = "in a full bath of oil there is no steady state: thermal runaway, or too hot for the model"
     record = units.record(
         message,
         id="verdict.equilibrium_of_full_bath",
@@ -60,17 +60,16 @@ def _preload(report: WarmUpReport) -> list[Record]:
     start, at = float(found.preload[0]), _farthest(found.preload[found.works])
     farthest = float(found.preload[at])
     lost = farthest <= 0
-    values = {"start": _force(start), "end": _force(farthest), "change": _change(farthest, start)}
     message = (
-        Message("the preload {start} is lost at work: the nut grows away from the shaft", values)
+        f"the preload {_force(start)} is lost at work: the nut grows away from the shaft"
         if lost
-        else Message("the preload goes from {start} to {end} ({change}) at work", values)
+        else f"the preload goes from {_force(start)} to {_force(farthest)} ({_change(farthest, start)}) at work"
     )
     worst = float(found.preload[_farthest(found.preload)])
     if abs(worst - start) > _FARTHER * abs(farthest - start):
-        message = Message(
-            "{preload}, and while it stands to {worst} ({change}): nut and shaft cool at their own rates",
-            {"preload": message, "worst": _force(worst), "change": _change(worst, start)},
+        message = (
+            f"{message}, and while it stands to {_force(worst)} ({_change(worst, start)}): nut and shaft cool at "
+            "their own rates"
         )
     return [
         units.record(
@@ -89,14 +88,14 @@ def _farthest(preload: Numbers) -> int:
     return int(np.argmax(np.abs(preload - preload[0])))
 
 
-def _force(value: float) -> Measured:
-    return Measured(value, SERIES["preload"])
+def _force(value: float) -> str:
+    return units.shown(value, SERIES["preload"])
 
 
-def _change(value: float, start: float) -> Message:
+def _change(value: float, start: float) -> str:
     """A change in whole per cent, with its sign."""
-    percent = {"percent": Measured(float(abs(round(100 * (value / start - 1)))))}
-    return Message("+{percent} %", percent) if value >= start else Message("-{percent} %", percent)
+    percent = abs(round(100 * (value / start - 1)))
+    return f"{'+' if value >= start else '-'}{units.number(percent)} %"
 
 
 def warnings(report: WarmUpReport) -> list[Record]:
@@ -104,7 +103,7 @@ def warnings(report: WarmUpReport) -> list[Record]:
     case = report.case
     warmest = case.lubricant.at(float(np.max(report.warm_up.oil_temperature)))
     parts = {"surroundings": report.surroundings, "lubricant": warmest}
-    strange = [*case.implausible(), *units.in_display_units_of(implausible(parts))]
+    strange = [*case.implausible(), *implausible(parts)]
     once = {(record.id, record.subject): record for record in strange}
     return [*once.values(), *_assumed_length(report), *_own_temperatures(report)]
 
@@ -113,23 +112,18 @@ def band_records(found: WarmUpBandReport) -> list[Record]:
     """What is not in the bands: how halves are braced, and samples that have no steady state or leave what is known."""
     bands, said = found.bands, list[Record]()
     if bands.warm_up.network.by_bracing:
-        message = Message(
-            "the bands have the radial growth alone: how the halves of the nut are braced moves the preload farther; "
-            "give {bracing}",
-            {"bracing": in_file("surroundings.bracing")},
+        message = (
+            "the bands have the radial growth alone: how the halves of the nut are braced moves the preload "
+            "farther; give [surroundings] bracing"
         )
         said.append(units.record(message, id="band.bracing", subject="preload", severity="warning"))
     away, lost = 1 - bands.steady_share, 1 - float(bands.known_share[-1])
     if not away and not lost:
         return said
-    message = Message(
-        "{away} % of {count} samples have no steady state within the range of oil and preload, and "
-        "{lost} % leave it before the end: from then on they are not in the bands, whose ends are too narrow",
-        {
-            "away": Measured(100 * away, digits=2),
-            "count": Measured(bands.count, digits=9),
-            "lost": Measured(100 * lost, digits=2),
-        },
+    message = (
+        f"{units.number(100 * away, 2)} % of {units.number(bands.count, 9)} samples have no steady state within "
+        f"the range of oil and preload, and {units.number(100 * lost, 2)} % leave it before the end: from then on "
+        "they are not in the bands, whose ends are too narrow"
     )
     fields = {"id": "band.no_steady_state", "subject": "equilibrium", "severity": "warning", "value": away}
     return [*said, units.record(message, **fields)]
@@ -139,10 +133,9 @@ def _assumed_length(report: WarmUpReport) -> list[Record]:
     if not report.length_is_assumed:
         return []
     length = report.warm_up.network.shaft.length
-    message = Message(
-        "the length of the shaft is not given and taken as {length}, on which the growth depends: "
-        "give surroundings.shaft_length, or an [installation]",
-        {"length": Measured(float(length), PLACE)},
+    message = (
+        f"the length of the shaft is not given and taken as {units.shown(length, PLACE)}, on which the growth "
+        "depends: give surroundings.shaft_length, or an [installation]"
     )
     return [
         units.record(
@@ -160,7 +153,7 @@ def _own_temperatures(report: WarmUpReport) -> list[Record]:
     given = report.duty.states.temperature
     if np.isnan(given).all():
         return []
-    message = Message(
+    message = (
         "the motion has temperatures of the oil of its own, which do not count: the oil is as warm as nut and shaft"
     )
     return [units.record(message, id="warm_up.own_temperatures", subject="motion.segment", severity="warning")]
@@ -172,10 +165,10 @@ def _long_cycle(report: WarmUpReport) -> list[Record]:
         return []
     cycle, hours = report.duty.states.cycle_time, float(report.warm_up.time[report.last_at_work])
     shown = SERIES["time"]
-    message = Message(
-        "a cycle takes {cycle} of {time}: the heat goes along with the nut; torque is the mean of a cycle at the oil "
-        "and preload of each instant, and the steady state that of heat spread over the stroke",
-        {"cycle": Measured(cycle, shown, 3), "time": Measured(hours, shown, 3)},
+    message = (
+        f"a cycle takes {units.shown(cycle, shown, 3)} of {units.shown(hours, shown, 3)}: the heat goes along "
+        "with the nut; torque is the mean of a cycle at the oil and preload of each instant, and the steady "
+        "state that of heat spread over the stroke"
     )
     return [
         units.record(
