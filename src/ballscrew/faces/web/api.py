@@ -50,6 +50,7 @@ from ballscrew.faces.web.bodies import (
     refuse_paths,
 )
 from ballscrew.faces.web.endpoint_parts import (
+    always,
     as_bytes,
     as_json,
     cancellable,
@@ -232,7 +233,7 @@ def select(body: NeedOfTable, done: Deadline) -> Response:
     return as_json(selection_documents.document(selection))
 
 
-@post(router, "/select/plan", NeedBody, select_answers.Plan)
+@post(router, "/select/plan", NeedBody, select_answers.Plan, is_quick=lambda body: body.table is None)
 def select_plan(body: NeedOfTable, _: Deadline) -> Response:
     """What a selection would do: its candidates, its time, and the inputs without which checks are not judged."""
     options, need = option_values.read(SelectOptions, dict(body)), _need(body)
@@ -252,7 +253,7 @@ def optimise(body: NeedOnly, done: Deadline) -> Response:
     return with_sheet(optimise_documents.document(search), optimise_sheet(search))
 
 
-@post(router, "/optimise/plan", OptimiseBody, optimise_answers.OptimisePlan)
+@post(router, "/optimise/plan", OptimiseBody, optimise_answers.OptimisePlan, is_quick=always)
 def optimise_plan(body: NeedOnly, _: Deadline) -> Response:
     """What an optimisation would do: its designs, and about its time."""
     options, need = option_values.read(OptimiseOptions, dict(body)), _need(body)
@@ -279,7 +280,7 @@ def _search(options: OptimiseOptions) -> dict[str, Any]:
 # -- of a catalogue, and of the program -------------------------------------------------------------
 
 
-@post(router, "/own-nut", OwnNutBody, catalogue_answers.OwnNut, is_quick=True)
+@post(router, "/own-nut", OwnNutBody, catalogue_answers.OwnNut, is_quick=always)
 def own_nut(body: OwnNutBody, _: object) -> Response:
     """A case of few numbers, what was estimated in it: the document of ``ballscrew catalogue own --json``."""
     return as_json(own_nuts.document(own_nut_of(body.numbers)))

@@ -26,7 +26,7 @@ from ballscrew.faces.web.bodies import Body, case_of, read
 from ballscrew.faces.web.jobs import API, Jobs
 from ballscrew.faces.web.kept_answers import KeptAnswers, Question
 from ballscrew.faces.web.problems import Refused
-from ballscrew.faces.web.request_queue import Deadline, RequestQueue
+from ballscrew.faces.web.request_queue import Deadline, RequestQueue, out_of_time
 from ballscrew.questions.run import compute as runs
 
 Answer = TypeVar("Answer")
@@ -108,6 +108,11 @@ def queue_of(request: Request) -> RequestQueue:
     return found
 
 
+def always(_: object) -> bool:
+    """True of any body."""
+    return True
+
+
 def post(
     router: APIRouter,
     path: str,
@@ -117,17 +122,18 @@ def post(
     name: str = "",
     description: str | None = None,
     responses: Mapping[int | str, dict[str, Any]] | None = None,
-    is_quick: bool = False,
+    is_quick: Callable[[Any], bool] = lambda _: False,
 ) -> Callable[[Callable[[Any, Deadline], Response]], Callable[[Any, Deadline], Response]]:
     """A decorator for the work of an address: it gets the body, and answers.
 
-    Its name and its description are those of the work, unless they are given.
+    Its name and its description are those of the work, unless they are given. It is heavy work, unless the body is one
+    of which ``is_quick`` is true.
     """
 
     def add(work: Callable[[Any, Deadline], Response]) -> Callable[[Any, Deadline], Response]:
         async def answer(request: Request) -> Response:
             body = await read(request, kind)
-            if is_quick:
+            if is_quick(body):
                 return await queue_of(request).quick(lambda: work(body, Deadline(math.inf)))
             return await heavy(request, lambda done: work(body, done))
 
@@ -201,19 +207,33 @@ async def _disconnected(request: Request) -> None:
 
 
 async def of_run(request: Request, tables: Mapping[str, Any], work: Callable[[runs.Run], Response]) -> Response:
-    """Work on the run of a case, cancelled when the client disconnects."""
-    return await cancellable(request, of_tables(queue_of(request), tables, work))
+    """Work on the run of a case, cancelled when the client disconnects; that of many balls is done as heavy work."""
+
+    async def answer() -> Response:
+        case, answers = await _quick(queue_of(request), tables, work)
+        return answers[0] if answers else await processed(request, lambda _: work(documents.run_of(case, tables)))
+
+    return await cancellable(request, answer())
 
 
 async def of_tables(requests: RequestQueue, tables: Mapping[str, Any], work: Callable[[runs.Run], Answer]) -> Answer:
-    """Quick work on the run of a case; heavy work where many balls are computed one by one."""
-
-    def quick() -> tuple[case_file.Case, tuple[Answer, ...]]:
-        case = case_of(tables)
-        many = limits.balls_of(case) > limits.MANY_BALLS
-        return case, () if many else (work(documents.run_of(case, tables)),)
-
-    case, answers = await requests.quick(quick)
+    """Work on the run of a case in a thread, which is refused where it takes longer than that may be blocked."""
+    case, answers = await _quick(requests, tables, work)
     if answers:
         return answers[0]
+    if limits.has_long_motion(case):
+        raise out_of_time(requests.time_limit)
     return await requests.heavy(memory.releasing(lambda _: work(documents.run_of(case, tables))))
+
+
+async def _quick(
+    requests: RequestQueue, tables: Mapping[str, Any], work: Callable[[runs.Run], Answer]
+) -> tuple[case_file.Case, tuple[Answer, ...]]:
+    """A case and the answer to quick work on its run; none where many balls are computed one by one."""
+
+    def answer() -> tuple[case_file.Case, tuple[Answer, ...]]:
+        case = case_of(tables)
+        is_heavy = limits.balls_of(case) > limits.MANY_BALLS or limits.has_long_motion(case)
+        return case, () if is_heavy else (work(documents.run_of(case, tables)),)
+
+    return await requests.quick(answer)

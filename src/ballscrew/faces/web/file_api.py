@@ -40,7 +40,7 @@ from ballscrew.faces.web.bodies import (
     refuse_nulls,
 )
 from ballscrew.faces.web.documents import texts
-from ballscrew.faces.web.endpoint_parts import as_json, heavy, post, with_sheet
+from ballscrew.faces.web.endpoint_parts import always, as_json, heavy, post, with_sheet
 from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.faces.web.sent_files import written
 from ballscrew.files.torque_logs.preview import preview
@@ -74,7 +74,7 @@ def open_file(body: OpenBody, _: Deadline) -> Response:
     return as_json({"kind": file.kind, "designs": designs, "comments": file.comments, "notes": list(file.notes)})
 
 
-@post(router, "/toml", CaseBody, responses=openapi.text("application/toml"), is_quick=True)
+@post(router, "/toml", CaseBody, responses=openapi.text("application/toml"), is_quick=always)
 def toml(body: CaseBody, _: object) -> Response:
     """The case as a file, ready for ``ballscrew run``."""
     case_of(body.case)

@@ -33,6 +33,8 @@ USUAL_BALLS_IN_ALL = 250_000
 SHORT_POINTS, SHORT_POINTS_OF_NUT, SHORT_BALLS = 1_000, 200, 5_000
 #: With more balls than this, a single point is heavy work.
 MANY_BALLS = 300
+#: States of a motion times balls that are computed one by one, which take a thread some seconds.
+MOST_BALLS_IN_MOTION = 250_000
 #: Columns of a log, and the lines at its top in which they are counted.
 MOST_COLUMNS, _FIRST_LINES = 1_000, 5_000
 #: Balls with two contacts that take as long as one with four.
@@ -94,6 +96,12 @@ def is_short(case: Case, plan: sweeps.Plan) -> bool:
     points = _points_of(plan)
     most = SHORT_POINTS if case.nut is None else SHORT_POINTS_OF_NUT
     return points <= most and points * balls_of(case) <= SHORT_BALLS
+
+
+def has_long_motion(case: Case) -> bool:
+    """Test whether the checks of a case take a thread long, which compute the balls at all states of its motion."""
+    balls = balls_of(case)
+    return case.motion is not None and balls > 0 and len(case.motion.states().time) * balls > MOST_BALLS_IN_MOTION
 
 
 def samples_of(case: Case, requested: int | None = None) -> int | None:
