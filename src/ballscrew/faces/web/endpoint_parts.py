@@ -164,7 +164,7 @@ async def processed(request: Request, work: Callable[[Deadline], Any]) -> Any:
     """
     guard: Jobs | None = request.app.state.guard
     if guard is None:
-        return await queue_of(request).heavy(work)
+        return await queue_of(request).heavy(work if request.app.state.ends_with_work else memory.releasing(work))
     address = request.url.path.removeprefix(API)
     answer = await guard.answer(address, request.url.query, request.state.body)
     return Response(answer.body, answer.status, media_type=answer.media_type)

@@ -58,7 +58,7 @@ def application(
     app.state.answers = KeptAnswers()
     app.state.modules = Modules()
     app.state.jobs = jobs or Jobs(app.state.requests.time_limit)
-    app.state.guard = jobs
+    app.state.guard, app.state.ends_with_work = jobs, False
     app.include_router(api.router)
     description = functools.cache(lambda: json.dumps(openapi.document(app)).encode())
 
@@ -116,7 +116,7 @@ async def _defect(_: Request, __: Exception) -> Response:
 
 def in_process(app: FastAPI, requests: RequestQueue) -> FastAPI:
     """The application of a server in a fork of it, which does the work itself."""
-    app.state.requests, app.state.guard = requests, None
+    app.state.requests, app.state.guard, app.state.ends_with_work = requests, None, True
     return app
 
 
