@@ -172,8 +172,8 @@ def mixed(
 def slowest(address: str) -> Iterator[tuple[str, str, int, float]]:
     """Seconds of the slowest requests that are let through, alone."""
     from ballscrew.faces.web.bodies import MOST_BALLS
-    from ballscrew.faces.web.limits import MOST_BALLS_IN_ALL, MOST_POINTS, MOST_POINTS_OF_NUT, MOST_SAMPLES
-    from ballscrew.faces.web.log_bodies import MOST_LOGS
+    from ballscrew.faces.web.limits import MOST_POINTS, MOST_SAMPLES, USUAL_BALLS_IN_ALL
+    from ballscrew.questions.condition.question import MOST_LOGS
 
     deviations = {"ball_diameter": "2 um", "lead": "3 um"}
     ball = {**CASE, "model": {"name": "reference"}}
@@ -184,75 +184,39 @@ def slowest(address: str) -> Iterator[tuple[str, str, int, float]]:
     oversize = {**double, "nut": {"type": "oversize-balls", "preload": "3 kN"}}
     log = (EXAMPLES / "nut_new.csv").read_text(encoding="utf-8")
     logs = [{"name": f"{i}.csv", "text": f"{log}\n# {i}\n"} for i in range(MOST_LOGS)]
-    points = {"two nuts": MOST_BALLS_IN_ALL // (2 * MOST_BALLS), "oversize": MOST_BALLS_IN_ALL // (3 * MOST_BALLS)}
+    points = {"two nuts": USUAL_BALLS_IN_ALL // (2 * MOST_BALLS), "oversize": USUAL_BALLS_IN_ALL // (3 * MOST_BALLS)}
     asked = [
         ("run", f"{2 * MOST_BALLS} balls one by one", {"case": double}),
         ("sweep", f"{MOST_POINTS} points",
          {"case": ball, "vary": {"axial_load": f"1:9000:{MOST_POINTS} N"}, "outputs": two}),
-        ("sweep", f"{MOST_POINTS_OF_NUT} points, nut",
-         {"case": rigid, "vary": {"axial_load": f"1:9000:{MOST_POINTS_OF_NUT} N"}}),
-        ("sweep", f"{MOST_BALLS_IN_ALL} balls, two nuts",
+        ("sweep", "2000 points, nut",
+         {"case": rigid, "vary": {"axial_load": "1:9000:2000 N"}}),
+        ("sweep", f"{USUAL_BALLS_IN_ALL} balls, two nuts",
          {"case": double, "vary": {"axial_load": f"1:9000:{points['two nuts']} N"}}),
-        ("sweep", f"{MOST_BALLS_IN_ALL} balls, oversize",
+        ("sweep", f"{USUAL_BALLS_IN_ALL} balls, oversize",
          {"case": oversize, "vary": {"axial_load": f"1:9000:{points['oversize']} N"}}),
         ("compare", "two nuts", {"case": double}),
         ("compare", "oversize", {"case": oversize}),
         ("band", f"{MOST_SAMPLES} samples", {"case": ball, "samples": MOST_SAMPLES}),
-        ("band", f"{MOST_BALLS_IN_ALL} balls, two nuts", {"case": double, "samples": points["two nuts"]}),
-        ("band", f"{MOST_BALLS_IN_ALL} balls, oversize", {"case": oversize, "samples": points["oversize"]}),
+        ("band", f"{USUAL_BALLS_IN_ALL} balls, two nuts", {"case": double, "samples": points["two nuts"]}),
+        ("band", f"{USUAL_BALLS_IN_ALL} balls, oversize", {"case": oversize, "samples": points["oversize"]}),
         ("report", "a ball", {"case": ball}),
-        ("report", f"{MOST_BALLS_IN_ALL} balls, two nuts", {"case": double}),
+        ("report", f"{USUAL_BALLS_IN_ALL} balls, two nuts", {"case": double}),
         ("axis", "a moving axis", {"case": moved(0)}),
         ("own-nut", "all numbers", {"numbers": OWN_NUT}),
         ("condition", f"{MOST_LOGS} logs", {"case": SERVICE, "tests": logs, "keep_going": True}),
     ]  # fmt: skip
     with httpx.Client(base_url=address, timeout=60, trust_env=False) as client:
-        for what, case in (("a ball", ball), ("two nuts", double)):
-            samples = most_samples(case)
+        for what, case, samples in (("a ball", ball, 65_536), ("two nuts", double, 128)):
             asked.append(("sensitivity", f"{what}, {samples} samples", {"case": case, "samples": samples}))
         for path, what, body in asked:
             before = time.perf_counter()
             answer = client.post(f"/api/v1/{path}", json=body)
             yield path, what, answer.status_code, time.perf_counter() - before
-        body = longest_search(client)
+        body = {"need": NEED, "generations": 200}
         before = time.perf_counter()
         status = as_job(client, "optimise", body)
         yield "optimise", f"{body['generations']} generations, a job", status, time.perf_counter() - before
-
-
-def most_samples(case: dict[str, Any]) -> int:
-    """The samples of a sensitivity that are let through, a power of two."""
-    from ballscrew.basis.errors import InputError
-    from ballscrew.cases.case_files import case_file
-    from ballscrew.faces.web.limits import samples_of_sensitivity
-    from ballscrew.questions.sensitivity.options import SensitivityOptions
-
-    built = case_file.build(case)
-    samples = 2
-    while True:
-        try:
-            samples_of_sensitivity(built, SensitivityOptions(samples=2 * samples))
-        except InputError:
-            return samples
-        samples *= 2
-
-
-def longest_search(client: httpx.Client) -> dict[str, Any]:
-    """The body of a search of as many generations as are let through."""
-
-    def body(generations: int) -> dict[str, Any]:
-        return {"need": NEED, "generations": generations}
-
-    def is_refused(generations: int) -> bool:
-        return client.post("/api/v1/optimise/plan", json=body(generations)).status_code != httpx.codes.OK
-
-    least, most = 1, 2
-    while not is_refused(most):
-        least, most = most, 2 * most
-    while most - least > 1:
-        middle = (least + most) // 2
-        least, most = (least, middle) if is_refused(middle) else (middle, most)
-    return body(least)
 
 
 def as_job(client: httpx.Client, path: str, body: dict[str, Any]) -> int:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import httpx
 
-from ballscrew.faces.web import bodies, connections, jobs, limits, log_bodies, problems, request_queue
+from ballscrew.faces.web import bodies, connections, job_process, jobs, limits, problems, request_queue
 from ballscrew.faces.web.server import application
 
 #: The case of the examples, as Python source.
@@ -91,7 +91,7 @@ def limits_table() -> str:
     rows = {
         "bytes of a body": bodies.MOST_BYTES,
         "bytes of the head of a request": connections.LONGEST_HEAD,
-        "bytes of a body with a log": log_bodies.MOST_LOG_BYTES,
+        "bytes of a body with a log": bodies.MOST_LOG_BYTES,
         "columns of a log": limits.MOST_COLUMNS,
         "values in a body": bodies.MOST_VALUES,
         "characters of a text": bodies.LONGEST_TEXT,
@@ -100,13 +100,11 @@ def limits_table() -> str:
         "loaded balls of a nut, if each has its own load": bodies.MOST_BALLS,
         "axes of a sweep": limits.MOST_AXES,
         "points of a sweep": limits.MOST_POINTS,
-        "points of a sweep of a whole nut": limits.MOST_POINTS_OF_NUT,
         "values that a sweep returns": limits.MOST_RETURNED,
         "samples of a band": limits.MOST_SAMPLES,
-        "samples of a band of a whole nut": limits.MOST_SAMPLES_OF_NUT,
-        "balls over all points or samples (a ball with four contacts counts as three)": limits.MOST_BALLS_IN_ALL,
         "seconds of processor for a request": request_queue.TIME_LIMIT,
         "seconds of processor for a job": jobs.LONGER * request_queue.TIME_LIMIT,
+        "MiB of memory for a request or a job": job_process.MOST_MEMORY >> 20,
         "heavy requests computed at a time, and as many jobs": request_queue.HEAVY,
         "heavy requests in the queue, and jobs": request_queue.MOST_WAITING,
         "seconds that a job goes on unless somebody asks about it": jobs.LEFT_ALONE,

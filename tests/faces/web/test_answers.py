@@ -79,10 +79,10 @@ def test_a_defect_is_said(monkeypatch):
     from ballscrew.faces.web import api
     from ballscrew.faces.web.server import application
 
-    def wrong():
+    def wrong(*_):
         raise ArithmeticError("secret")
 
-    monkeypatch.setattr(api, "_schema", wrong)
+    monkeypatch.setattr(api, "kept", wrong)
 
     async def ask():
         transport = httpx.ASGITransport(application(), raise_app_exceptions=False)

@@ -148,7 +148,7 @@ def test_check_of_a_row_without_a_nut(server, elastic):
 
 def test_compare(server, tables, tmp_path):
     found = server.post("compare", {"case": tables}).json()
-    assert_same(found, document("compare", written(tables, tmp_path), "--json"))
+    assert_as_command(found, ("compare", written(tables, tmp_path)))
 
 
 def banded():
@@ -268,10 +268,7 @@ def test_warm_up(server, tmp_path):
     for more, line in (
         ({"hours": 0.0}, "--hours: must be above 0 and at most 8766 (0) · write --hours 4"),
         ({"samples": 8}, "--samples: needs --band (8) · add --band"),
-        (
-            {"band": True, "samples": 5000},
-            "--samples: too many (5,000) · 1,024 at most here; the rest by ballscrew warm-up",
-        ),
+        ({"band": True, "samples": 100_000}, "--samples: too many (100,000) · 65,536 at most here"),
     ):
         found = server.post("warm-up", {"case": tables, **more})
         assert found.status_code == 422
@@ -289,7 +286,7 @@ def test_axis(server, tmp_path):
 
 
 def test_reversal(server, tmp_path):
-    """Over a travel, and from rest; what nobody can wait for is refused before it is computed."""
+    """Over a travel, and from rest."""
     tables = tables_of(next(path for path in EXAMPLES if path.stem == "service"), ["operation.screw_speed=6 rpm"])
     case = written(tables, tmp_path)
     body = {"case": tables, "from_rest": True, "travel": "50 um", "inertia": "2e-3 kg m^2", "gap": 0.25}
@@ -300,14 +297,9 @@ def test_reversal(server, tmp_path):
     assert max(found["results"]["travel"]) == pytest.approx(50e-6)
     ids = [one["id"] for one in found["warnings"]]
     assert ids == ["reversal.hypothesis", "reversal.work_of_elements", "reversal.first_range"]
-    light = {**tables, "nut": {**tables["nut"], "preload": "1 N"}}
-    for asked, line in (
-        ({"case": tables, "travel": "-1 mm"}, "--travel: must be positive (-1 mm)"),
-        ({"case": light}, "--travel: takes too many steps of the contacts"),
-    ):
-        refusal = server.post("reversal", asked)
-        assert refusal.status_code == 422
-        assert refusal.json()["lines"][0].startswith(line)
+    refusal = server.post("reversal", {"case": tables, "travel": "-1 mm"})
+    assert refusal.status_code == 422
+    assert refusal.json()["lines"][0].startswith("--travel: must be positive (-1 mm)")
     still = {**tables, "operation": {**tables["operation"], "screw_speed": "0 rpm"}}
     refusal = server.post("reversal", {"case": still})
     assert refusal.json()["lines"] == refused("reversal", case, "--set", "operation.screw_speed=0 rpm")
@@ -317,7 +309,7 @@ def test_reversal(server, tmp_path):
 
 
 def test_ripple(server, tmp_path):
-    """With a fault and other grooves; more nuts and balls than anybody waits for are refused."""
+    """With a fault and other grooves."""
     small = ["screw.loaded_balls=20", "nut.preload=1.5 kN"]
     tables = tables_of(next(path for path in EXAMPLES if path.stem == "service"), small)
     case = written(tables, tmp_path)
@@ -327,15 +319,8 @@ def test_ripple(server, tmp_path):
     assert_as_command(found, ("ripple", case, *flags))
     assert [one["fault"] for one in found["results"]["faults"]] == ["preload=0.35"]
     for more, line in (
-        ({"seeds": 1000}, "--seeds: takes too many nuts (1,000) · 8 at most here with faults and seeds"),
-        ({"fault": ["all"], "seeds": 4}, "--seeds: takes too many nuts (10)"),
-        ({"turns": 1e300}, "--turns: takes too many balls"),
-        ({"return_balls": 10**9}, "--turns: takes too many balls"),
-        ({"gap": 1e9}, "--turns: takes too many balls"),
+        ({"return_balls": 10**300}, "--return-balls: too large"),
         ({"fault": ["rust"]}, "--fault: unknown"),
-        ({"groove_deviation": "1 km"}, "--groove-deviation: deviates too far"),
-        ({"fault": ["groove=1e9"]}, "--fault: deviates too far"),
-        ({"fault": ["spall=1 mm x 1 m"]}, "--fault: deviates too far"),
         ({"seeds": -1}, "--seeds: must be at least one (-1)"),
     ):
         refusal = server.post("ripple", {"case": tables, **more})

@@ -1,6 +1,6 @@
 """The cards that take logs, and the hand-over: each walked through whole."""
 
-from ballscrew.faces.web.log_bodies import ServiceBody, examples_with_logs
+from ballscrew.faces.web.body_examples import examples
 
 from .shown_sheets import drawn, shows
 from .test_page_access import violations
@@ -28,7 +28,7 @@ def given_logs(here):
     """Put the logs of the example of the API into the card of the service."""
     page = here.page
     page.wait_for_selector("#service-worn", state="attached")
-    body = examples_with_logs(ServiceBody, case_of(here))["paper"]
+    body = examples("ServiceBody")["paper"]
     for name in ("worn", "new"):
         file = {"name": body[name]["name"], "mimeType": "text/csv", "buffer": body[name]["text"].encode()}
         page.set_input_files(f"#service-{name}", file)

@@ -16,19 +16,8 @@ from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.faces.cli import main
 from ballscrew.faces.cli.options import Output, with_flags
 from ballscrew.faces.report.options import ReportOptions
-from ballscrew.faces.web.bodies import (
-    AxisBody,
-    BandBody,
-    NeedBody,
-    OptimiseBody,
-    ReportBody,
-    ReversalBody,
-    RippleBody,
-    SensitivityBody,
-    SweepBody,
-    WarmUpBody,
-)
-from ballscrew.faces.web.log_bodies import ConditionBody, FitBody, HandOverBody, ServiceBody
+from ballscrew.faces.web import question_api
+from ballscrew.faces.web.bodies import BandBody, FitBody, HandOverBody, NeedBody, OptimiseBody, ReportBody, SweepBody
 from ballscrew.faces.web.vocabulary import OPTIONS, vocabulary
 from ballscrew.questions.axis.options import AxisOptions
 from ballscrew.questions.band.options import BandOptions
@@ -78,20 +67,14 @@ COMMANDS = {
 }
 #: The body of the API for the options of a question.
 BODIES = {
-    AxisOptions: AxisBody,
     BandOptions: BandBody,
-    ConditionOptions: ConditionBody,
     FitOptions: FitBody,
     HandOverOptions: HandOverBody,
     OptimiseOptions: OptimiseBody,
     ReportOptions: ReportBody,
-    ReversalOptions: ReversalBody,
-    RippleOptions: RippleBody,
     SelectOptions: NeedBody,
-    SensitivityOptions: SensitivityBody,
-    ServiceOptions: ServiceBody,
     SweepOptions: SweepBody,
-    WarmUpOptions: WarmUpBody,
+    **{cls: question_api.BODIES[each.name] for each in question_api.QUESTIONS for cls in each.sent_options},
 }
 
 

@@ -12,7 +12,7 @@ import typer
 
 from ballscrew.faces.cli.options import Output, file_option
 from ballscrew.faces.cli.progress import progress
-from ballscrew.questions.shared.question import CaseOptions, File, Question, Request
+from ballscrew.questions.shared.question import CaseFile, CaseOptions, File, Question, Request
 
 
 def command_of(question: Question) -> Callable[..., None]:
@@ -22,7 +22,10 @@ def command_of(question: Question) -> Callable[..., None]:
     def command(*, case_options: CaseOptions, output: Output, written: Mapping[str, Any], **given: Any) -> None:
         to = _paths(given[flag])
         read = {file.name: _paths(given[file.name]) for file in question.reads}
-        work = question.prepare(Request(files=read, case_options=case_options, written=written, to=to))
+        cases = [CaseFile(path, case_options) for file in question.reads if file.is_case for path in read[file.name]]
+        case = cases[0] if cases else None
+        request = Request(files=read, case=case, case_options=case_options, written=written, to=to)
+        work = question.prepare(request)
         if work.files is None:
             _check_files(to, flag)  # last of the checks, as it makes folders
         with progress(work.name) if work.name else contextlib.nullcontext(_no_bar) as done:

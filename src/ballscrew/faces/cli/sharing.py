@@ -201,14 +201,21 @@ def serve(
     listening = _listening(host, port)
     from ballscrew.faces.web import connections, guard, server
     from ballscrew.faces.web.job_process import Forks
+    from ballscrew.faces.web.jobs import Jobs
     from ballscrew.faces.web.request_queue import TIME_LIMIT, RequestQueue
 
     name = f"[{host}]" if ":" in host else host
     hosts = guard.LOOPBACK if host in _LOOPBACK else ("*",) if host in _ANY else (name.lower(), *guard.LOOPBACK)
-    application = server.application(hosts, RequestQueue(TIME_LIMIT if time_limit is None else time_limit))
+    limit = TIME_LIMIT if time_limit is None else time_limit
+    jobs = Jobs(limit)
+    application = server.application(hosts, RequestQueue(limit), jobs)
     server.warm_up()
     if sys.platform == "linux":  # elsewhere a fork is not safe, or there is none
-        application.state.jobs.start = Forks(lambda requests: server.application(requests=requests), listening)
+        jobs.start = Forks(
+            lambda requests: server.in_process(application, requests),
+            listening,
+            rehearsal=lambda: server.rehearsal(application),
+        )
     address = f"http://{name}:{listening.getsockname()[1]}"
     typer.echo(f"ballscrew in the browser: {address} · API: {address}/api · Ctrl-C ends it")
     if host not in _LOOPBACK:

@@ -10,8 +10,7 @@ import hashlib
 import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
-from typing import Any, ClassVar, NoReturn, TypeVar
+from typing import Any, ClassVar, NamedTuple, NoReturn, TypeVar
 
 import anyio
 from pydantic import BaseModel, ConfigDict, Field, create_model
@@ -22,21 +21,16 @@ from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case_file import Case
 from ballscrew.cases.schema.case_schema import read_table
-from ballscrew.cases.schema.duty_schema import TRAJECTORY
 from ballscrew.faces.report.options import ReportOptions
-from ballscrew.faces.web.limits import check_motion
 from ballscrew.faces.web.problems import Refused
 from ballscrew.physics.sizing.catalogue import catalogue
-from ballscrew.questions.axis.options import AxisOptions
 from ballscrew.questions.band.options import BandOptions
+from ballscrew.questions.fit.options import FitOptions
+from ballscrew.questions.hand_over.options import HandOverOptions
 from ballscrew.questions.optimise.options import OptimiseOptions
-from ballscrew.questions.reversal.options import ReversalOptions
-from ballscrew.questions.ripple.options import RippleOptions
 from ballscrew.questions.select.options import SelectOptions
-from ballscrew.questions.sensitivity.options import SensitivityOptions
 from ballscrew.questions.shared.options import body_fields
 from ballscrew.questions.sweep.options import SweepOptions
-from ballscrew.questions.warm_up.options import WarmUpOptions
 
 #: A case file has one or two kilobytes.
 MOST_BYTES = 65_536
@@ -50,8 +44,8 @@ MOST_BALLS = 500
 #: Seconds for a body to arrive.
 READ_TIMEOUT = 10.0
 
-#: Bytes of a request with a project or a table of screws.
-MOST_FILE_BYTES = 1_048_576
+#: Bytes of a request with a project or a table of screws, and with a log: some 100,000 rows as text.
+MOST_FILE_BYTES, MOST_LOG_BYTES = 1_048_576, 4_194_304
 
 B = TypeVar("B", bound="Body")
 Tables = dict[str, Any]
@@ -80,35 +74,6 @@ class CaseBody(Body):
 def body_of(name: str, base: type[B], options: type, words: str) -> type[B]:
     """A body with a field for each option of a dataclass beside those of another body."""
     return create_model(name, __base__=base, __doc__=words, **body_fields(options))
-
-
-class MovingBody(CaseBody):
-    """A case of an axis; one with a motion needs no operating point."""
-
-
-AxisBody = body_of(
-    "AxisBody",
-    MovingBody,
-    AxisOptions,
-    "A case with an installation, and places of its nut.",
-)
-
-
-class DutyBody(MovingBody):
-    """A case with an axis and its motion; in place of that perhaps the ``trace`` of one that was recorded."""
-
-    most_bytes: ClassVar[int] = MOST_FILE_BYTES
-    files: ClassVar[tuple[str, ...]] = ("trace",)
-
-    trace: SentFile | None = None
-
-
-WarmUpBody = body_of(
-    "WarmUpBody",
-    CaseBody,
-    WarmUpOptions,
-    "A case that warms up by its motion or its operating point, the hours of work and of rest, perhaps with bands.",
-)
 
 
 class NeedOnly(Body):
@@ -181,16 +146,6 @@ ReportBody = body_of(
     ReportOptions,
     "A case, other designs beside it, samples of the band, and what may stand below the title: a project, and a date.",
 )
-ReversalBody = body_of("ReversalBody", CaseBody, ReversalOptions, "A case, and what is asked of its reversal.")
-RippleBody = body_of(
-    "RippleBody",
-    CaseBody,
-    RippleOptions,
-    "A case, and what is asked of its torque over the angle; without faults unless some are named.",
-)
-SensitivityBody = body_of(
-    "SensitivityBody", CaseBody, SensitivityOptions, "A case, and what is asked of its uncertain inputs."
-)
 BandBody = body_of("BandBody", CaseBody, BandOptions, "A case, and the options of its band.")
 SweepBody = body_of(
     "SweepBody",
@@ -200,10 +155,42 @@ SweepBody = body_of(
 )
 
 
+class LogBody(CaseBody):
+    """A case and a log whose columns are asked for, with those that are given by hand."""
+
+    most_bytes: ClassVar[int] = MOST_LOG_BYTES
+    files: ClassVar[tuple[str, ...]] = ("log",)
+
+    log: SentFile
+    columns: dict[str, str] = Field(default_factory=dict)
+
+
+FitBody = body_of(
+    "FitBody",
+    LogBody,
+    FitOptions,
+    "A case, a log of torques, and the options of ``ballscrew fit``, as text with units.",
+)
+
+
+class TargetBody(CaseBody):
+    """A case, and a target."""
+
+    to: str = Field(strict=True)
+
+
+HandOverBody = body_of(
+    "HandOverBody",
+    TargetBody,
+    HandOverOptions,
+    "A case, a target, and the options of ``ballscrew hand-over``, as text.",
+)
+
+
 async def read(request: Request, kind: type[Body]) -> Any:
     """The body of a request as one of the kinds above. Raises :class:`~ballscrew.faces.web.problems.Refused`."""
     content = await content_of(request, kind.most_bytes)
-    request.state.digest = hashlib.sha256(content).digest()
+    request.state.body, request.state.digest = content, hashlib.sha256(content).digest()
     value = _json(content)
     _count(_without_contents(value, kind.files), kind.most_values)
     faults: list[Fault] = []
@@ -328,24 +315,32 @@ def _texts(value: Any) -> list[str]:
     return [value] if isinstance(value, str) else []
 
 
-def case_of(tables: Mapping[str, Any], *, moves: bool = False, trace: Path | None = None) -> Case:
-    """The case that the tables of a request describe. Raises :class:`~ballscrew.basis.errors.InputError`.
+class SentCase(NamedTuple):
+    """The case of a request; no value in its tables is read as a path."""
 
-    No value in them is read as a path. One that ``moves`` has an axis and a motion; a recorded motion, in a file that
-    came with the request, takes the place of that of the tables.
-    """
-    refuse_paths(tables)
-    if trace is not None:
-        tables = {**tables, "motion": {"kind": TRAJECTORY, "file": str(trace)}}
-    case = case_file.build(tables, rows=catalogue(), moves=moves)
-    if case.nut is not None and case.nut.one_by_one and case.screw.loaded_balls > MOST_BALLS:
-        given, remedy = (
-            f"{case.screw.loaded_balls:g}",
-            f"{MOST_BALLS} at most where balls differ or bodies are elastic",
-        )
-        raise InputError(Fault("screw.loaded_balls", "too many to compute one by one", given, remedy))
-    check_motion(case)
-    return case
+    sent: Mapping[str, Any]
+
+    def tables(self) -> dict[str, Any]:
+        """The tables. Raises :class:`~ballscrew.basis.errors.InputError` for names of files in them."""
+        refuse_paths(self.sent)
+        return dict(self.sent)
+
+    def build(self, tables: Mapping[str, Any], *, moves: bool = False) -> Case:
+        """The case of tables. Raises :class:`~ballscrew.basis.errors.InputError`."""
+        case = case_file.build(tables, rows=catalogue(), moves=moves)
+        if case.nut is not None and case.nut.one_by_one and case.screw.loaded_balls > MOST_BALLS:
+            given, remedy = (
+                f"{case.screw.loaded_balls:g}",
+                f"{MOST_BALLS} at most where balls differ or bodies are elastic",
+            )
+            raise InputError(Fault("screw.loaded_balls", "too many to compute one by one", given, remedy))
+        return case
+
+
+def case_of(tables: Mapping[str, Any]) -> Case:
+    """The case that the tables of a request describe. Raises :class:`~ballscrew.basis.errors.InputError`."""
+    case = SentCase(tables)
+    return case.build(case.tables())
 
 
 def refuse_paths(tables: Mapping[str, Any]) -> None:

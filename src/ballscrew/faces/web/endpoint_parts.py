@@ -5,11 +5,13 @@ from __future__ import annotations
 import asyncio
 import functools
 import gzip
+import inspect
 import json
+import math
 from collections.abc import Callable, Coroutine, Mapping
 from typing import Any, TypeVar
 
-from fastapi import Request
+from fastapi import APIRouter, Request
 from fastapi.routing import APIRoute
 from starlette.datastructures import Headers
 from starlette.responses import Response
@@ -19,11 +21,12 @@ from ballscrew.basis.output import sheet as sheets
 from ballscrew.basis.output.json_text import plain
 from ballscrew.basis.output.sheet import Sheet
 from ballscrew.cases.case_files import case_file
-from ballscrew.faces.web import documents, limits, memory
-from ballscrew.faces.web.bodies import CaseBody, case_of, read
+from ballscrew.faces.web import documents, limits, memory, openapi
+from ballscrew.faces.web.bodies import Body, case_of, read
+from ballscrew.faces.web.jobs import API, Jobs
 from ballscrew.faces.web.kept_answers import KeptAnswers, Question
 from ballscrew.faces.web.problems import Refused
-from ballscrew.faces.web.request_queue import Deadline, RequestQueue
+from ballscrew.faces.web.request_queue import Deadline, RequestQueue, out_of_time
 from ballscrew.questions.run import compute as runs
 
 Answer = TypeVar("Answer")
@@ -105,9 +108,66 @@ def queue_of(request: Request) -> RequestQueue:
     return found
 
 
+def always(_: object) -> bool:
+    """True of any body."""
+    return True
+
+
+def post(
+    router: APIRouter,
+    path: str,
+    kind: type[Body],
+    model: Any = None,
+    *,
+    name: str = "",
+    description: str | None = None,
+    responses: Mapping[int | str, dict[str, Any]] | None = None,
+    is_quick: Callable[[Any], bool] = lambda _: False,
+) -> Callable[[Callable[[Any, Deadline], Response]], Callable[[Any, Deadline], Response]]:
+    """A decorator for the work of an address: it gets the body, and answers.
+
+    Its name and its description are those of the work, unless they are given. It is heavy work, unless the body is one
+    of which ``is_quick`` is true.
+    """
+
+    def add(work: Callable[[Any, Deadline], Response]) -> Callable[[Any, Deadline], Response]:
+        async def answer(request: Request) -> Response:
+            body = await read(request, kind)
+            if is_quick(body):
+                return await queue_of(request).quick(lambda: work(body, Deadline(math.inf)))
+            return await heavy(request, lambda done: work(body, done))
+
+        router.add_api_route(
+            path,
+            answer,
+            methods=["POST"],
+            name=name or work.__name__,
+            description=description or inspect.getdoc(work),
+            response_model=model,
+            responses={**(openapi.problems_of() if responses is None else responses)},
+            openapi_extra=openapi.body(kind),
+        )
+        return work
+
+    return add
+
+
 async def heavy(request: Request, work: Callable[[Deadline], Any]) -> Any:
-    """Heavy work, cancelled when the client disconnects; its memory is given back, and its answer is kept."""
-    return await computed_once(request, lambda: queue_of(request).heavy(memory.releasing(work)))
+    """Heavy work, cancelled when the client disconnects; its answer is kept."""
+    return await computed_once(request, lambda: processed(request, work))
+
+
+async def processed(request: Request, work: Callable[[Deadline], Any]) -> Any:
+    """Heavy work: in a process of its own, which answers the request as a whole, where there is a guard.
+
+    The process itself has none: it works in a thread.
+    """
+    guard: Jobs | None = request.app.state.guard
+    if guard is None:
+        return await queue_of(request).heavy(work if request.app.state.ends_with_work else memory.releasing(work))
+    address = request.url.path.removeprefix(API)
+    answer = await guard.answer(address, request.url.query, request.state.body)
+    return Response(answer.body, answer.status, media_type=answer.media_type)
 
 
 async def computed_once(request: Request, work: Callable[[], Coroutine[Any, Any, Any]]) -> Any:
@@ -146,26 +206,34 @@ async def _disconnected(request: Request) -> None:
         pass
 
 
-async def of_body(request: Request, work: Callable[[runs.Run], Response]) -> Response:
-    """Work on the run of the case in the body."""
-    body: CaseBody = await read(request, CaseBody)
-    return await of_run(request, body.case, work)
-
-
 async def of_run(request: Request, tables: Mapping[str, Any], work: Callable[[runs.Run], Response]) -> Response:
-    """Work on the run of a case, cancelled when the client disconnects."""
-    return await cancellable(request, of_tables(queue_of(request), tables, work))
+    """Work on the run of a case, cancelled when the client disconnects; that of many balls is done as heavy work."""
+
+    async def answer() -> Response:
+        case, answers = await _quick(queue_of(request), tables, work)
+        return answers[0] if answers else await processed(request, lambda _: work(documents.run_of(case, tables)))
+
+    return await cancellable(request, answer())
 
 
 async def of_tables(requests: RequestQueue, tables: Mapping[str, Any], work: Callable[[runs.Run], Answer]) -> Answer:
-    """Quick work on the run of a case; heavy work where many balls are computed one by one."""
-
-    def quick() -> tuple[case_file.Case, tuple[Answer, ...]]:
-        case = case_of(tables)
-        many = limits.balls_of(case) > limits.MANY_BALLS
-        return case, () if many else (work(documents.run_of(case, tables)),)
-
-    case, answers = await requests.quick(quick)
+    """Work on the run of a case in a thread, which is refused where it takes longer than that may be blocked."""
+    case, answers = await _quick(requests, tables, work)
     if answers:
         return answers[0]
+    if limits.has_long_motion(case):
+        raise out_of_time(requests.time_limit)
     return await requests.heavy(memory.releasing(lambda _: work(documents.run_of(case, tables))))
+
+
+async def _quick(
+    requests: RequestQueue, tables: Mapping[str, Any], work: Callable[[runs.Run], Answer]
+) -> tuple[case_file.Case, tuple[Answer, ...]]:
+    """A case and the answer to quick work on its run; none where many balls are computed one by one."""
+
+    def answer() -> tuple[case_file.Case, tuple[Answer, ...]]:
+        case = case_of(tables)
+        is_heavy = limits.balls_of(case) > limits.MANY_BALLS or limits.has_long_motion(case)
+        return case, () if is_heavy else (work(documents.run_of(case, tables)),)
+
+    return await requests.quick(answer)

@@ -10,10 +10,9 @@ from starlette.responses import Response
 
 from ballscrew.basis.errors import Fault, InputError, nearest
 from ballscrew.faces.web import openapi
-from ballscrew.faces.web.bodies import content_of
+from ballscrew.faces.web.bodies import MOST_LOG_BYTES, content_of
 from ballscrew.faces.web.endpoint_parts import as_bytes
 from ballscrew.faces.web.jobs import Job, Jobs
-from ballscrew.faces.web.log_bodies import MOST_LOG_BYTES
 from ballscrew.faces.web.problems import Refused
 from ballscrew.questions.shared import file_answer as file_answers
 

@@ -9,8 +9,10 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import math
 import os
 import pickle
+import select
 import signal
 import socket
 import subprocess
@@ -20,7 +22,7 @@ import threading
 import time
 import traceback
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO, Any, NoReturn
@@ -31,6 +33,9 @@ from ballscrew.faces.web.request_queue import RequestQueue
 
 #: Seconds between two messages on how much has been computed.
 EVERY = 0.2
+#: Bytes that a process may write to, without its stack and shared memory; and seconds after which the system ends one
+#: that does not end itself at its limit.
+MOST_MEMORY, GRACE = 2 << 30, 2
 #: A lower priority than that of the server, which answers quick requests meanwhile.
 _NICE = 5
 #: The program of a process that starts from nothing.
@@ -164,10 +169,16 @@ def spawned() -> Process:
 class Forks:
     """Processes that are forks of one process, which is itself a fork of this one as it is now, without threads."""
 
-    def __init__(self, application: Application, *closed: socket.socket) -> None:
+    def __init__(
+        self,
+        application: Application,
+        *closed: socket.socket,
+        rehearsal: Callable[[], Iterator[None]] = lambda: iter(()),
+    ) -> None:
         """Fork the process of which others are forked, which answer by the application.
 
-        It closes the sockets, which are for the server alone.
+        It closes the sockets, which are for the server alone. While nothing is asked of it it does the steps of the
+        rehearsal, so that forks find loaded and recorded what they need.
         """
         here, there = socket.socketpair()
         with warnings.catch_warnings(action="ignore"):  # BLAS has threads; it is made for forks
@@ -175,7 +186,7 @@ class Forks:
         if pid == 0:
             for one in (here, *closed):
                 one.close()
-            _fork_for_each(there, application)
+            _fork_for_each(there, application, rehearsal)
         there.close()
         self._control, self._lock = here, threading.Lock()
 
@@ -197,7 +208,9 @@ class Forks:
         return Process(os.fdopen(requests, "wb"), os.fdopen(messages, "rb"), _kill_group)
 
 
-def _fork_for_each(control: socket.socket, application: Application) -> NoReturn:
+def _fork_for_each(
+    control: socket.socket, application: Application, rehearsal: Callable[[], Iterator[None]]
+) -> NoReturn:
     """Fork a process for each pair of pipes that comes, until the server ends.
 
     It never returns into what the server was doing when it forked this, whatever happens.
@@ -206,19 +219,27 @@ def _fork_for_each(control: socket.socket, application: Application) -> NoReturn
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C ends the server, and that ends this
         signal.signal(signal.SIGTERM, signal.SIG_DFL)
         signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nobody asks how they ended
+        for _ in rehearsal():
+            while select.select([control], [], [], 0)[0]:
+                _fork_next(control, application)
         while True:
-            said, pipes, _, _ = socket.recv_fds(control, 1, 2)
-            if not said:
-                os._exit(0)
-            if len(pipes) == 2:  # fewer come where this has too many files open
-                _fork_one(control, application, pipes)
-            for pipe in pipes:
-                os.close(pipe)
+            _fork_next(control, application)
     except BaseException:
         traceback.print_exc()
         sys.stderr.flush()
     finally:
         os._exit(1)
+
+
+def _fork_next(control: socket.socket, application: Application) -> None:
+    """Fork a process for the next pair of pipes; end with the server."""
+    signal_byte, pipes, _, _ = socket.recv_fds(control, 1, 2)
+    if not signal_byte:
+        os._exit(0)
+    if len(pipes) == 2:  # fewer come where this has too many files open
+        _fork_one(control, application, pipes)
+    for pipe in pipes:
+        os.close(pipe)
 
 
 def _fork_one(control: socket.socket, application: Application, pipes: Sequence[int]) -> None:
@@ -265,11 +286,12 @@ def answer_one(application: Application, requests: IO[bytes], messages: IO[bytes
     with contextlib.suppress(AttributeError, OSError):  # not on every system
         os.nice(_NICE)
     start = computed()
+    _limit(asked.limit)
     for watch in (lambda: _end_with(requests), lambda: _count(asked.limit, start, tell)):
         threading.Thread(target=watch, daemon=True).start()
     try:
         tempfile.tempdir = asked.folder
-        answer = asyncio.run(_answered(application, asked, tell))
+        answer = asyncio.run(answered(application, asked, tell))
         tell(Computed(computed() - start))
         tell(answer)
     except BaseException:
@@ -277,6 +299,20 @@ def answer_one(application: Application, requests: IO[bytes], messages: IO[bytes
         sys.stderr.flush()
         os._exit(1)
     os._exit(0)  # nothing that libraries left is waited for
+
+
+def _limit(seconds: float) -> None:
+    """Let the system limit memory and processor time, also of work that never looks at the clock."""
+    if sys.platform == "win32":  # it has no such limits; the watch of the time is there
+        return
+    import resource
+
+    with contextlib.suppress(ValueError, OSError):  # a lower limit holds already
+        resource.setrlimit(resource.RLIMIT_DATA, (MOST_MEMORY, MOST_MEMORY))
+    if seconds < sys.maxsize:
+        most = math.ceil(computed() + seconds) + GRACE
+        with contextlib.suppress(ValueError, OSError):
+            resource.setrlimit(resource.RLIMIT_CPU, (most, most))
 
 
 def computed() -> float:
@@ -302,7 +338,7 @@ def _count(limit: float, start: float, tell: Callable[[Message], None]) -> None:
             os._exit(1)
 
 
-async def _answered(application: Application, asked: Asked, tell: Callable[[Message], None]) -> Answer:
+async def answered(application: Application, asked: Asked, tell: Callable[[Message], None]) -> Answer:
     """The answer of the application, called as by a server."""
     queue = RequestQueue(
         time_limit=float("inf"),

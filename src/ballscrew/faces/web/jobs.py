@@ -1,6 +1,7 @@
-"""Jobs: requests that take long, each in a process of its own; started, asked for, and cancelled by a secret name.
+"""Requests in processes of their own: those that are waited for, and jobs, which take longer.
 
-Their answers are kept for a while, so that a page that was loaded again finds them.
+A process has limits on processor time and memory. A job is started, asked for, and cancelled by a secret name; its
+answer is kept for a while, so that a page that was loaded again finds it.
 """
 
 from __future__ import annotations
@@ -23,6 +24,8 @@ from ballscrew.faces.web.job_process import Answer, Asked, Computed, Message, Ou
 from ballscrew.faces.web.problems import Refused
 from ballscrew.faces.web.request_queue import HEAVY, MOST_WAITING, TIME_LIMIT, busy, closing, out_of_time
 
+#: The addresses of the API begin so.
+API = "/api/v1/"
 #: A job may compute as many times as long as a request that is waited for.
 LONGER = 30
 #: Seconds for which an answer is kept, and after which a job ends that nobody has asked about.
@@ -38,9 +41,9 @@ State = Literal["waiting", "running", "finished", "failed", "cancelled"]
 class Job:
     """One request: how far it is, and what it has found."""
 
-    def __init__(self, address: str, query: str, body: bytes) -> None:
+    def __init__(self, address: str, query: str, body: bytes, *, is_waited_for: bool = False) -> None:
         self.id = secrets.token_urlsafe(18)
-        self.address, self.query = address, query
+        self.address, self.query, self.is_waited_for = address, query, is_waited_for
         self.state: State = "waiting"
         self.finished = self.total = 0
         #: Seconds of processor.
@@ -76,7 +79,7 @@ class Job:
         """Run the process to its end."""
         if self.has_ended:
             return
-        self.state = "running"
+        self.state, begun = "running", time.monotonic()
         loop = asyncio.get_running_loop()
         messages: asyncio.Queue[Message | None] = asyncio.Queue()
         with tempfile.TemporaryDirectory(prefix="ballscrew-", ignore_cleanup_errors=True) as folder:
@@ -88,7 +91,7 @@ class Job:
 
             def listen() -> None:
                 with contextlib.suppress(RuntimeError, OSError):  # the loop is closed, or the process was killed
-                    process.ask(Asked(f"/api/v1/{self.address}", self.query, self._body, limit, folder))
+                    process.ask(Asked(f"{API}{self.address}", self.query, self._body, limit, folder))
                     self._body = b""
                 message: Message | None = Computed(0.0)
                 while message is not None:
@@ -102,6 +105,8 @@ class Job:
                 self._take(message, limit)
         if not self.has_ended and not process.has_begun:
             self.end("failed", _no_process(""))
+        elif not self.has_ended and time.monotonic() > begun + limit:  # the system has ended it, as it said nothing
+            self._take(OutOfTime(), limit)
         elif not self.has_ended:
             fault = Fault("server", "has a defect", "", "please report your request")
             self.end("failed", _problem(500, fault))
@@ -113,12 +118,13 @@ class Job:
             case Computed():
                 self.computed = message.seconds
             case Row():
-                if not self.has_ended and self._size + len(message.document) <= MOST_ROWS:
+                if not (self.has_ended or self.is_waited_for) and self._size + len(message.document) <= MOST_ROWS:
                     self._size += len(message.document)
                     self.rows.append(message.document)
                     self._wake()
             case OutOfTime():
-                self.end("failed", _refused(out_of_time(limit, is_job=True)))
+                refused = out_of_time(limit, is_job=not self.is_waited_for, command=self.address)
+                self.end("failed", _refused(refused))
             case Answer():
                 self.end("finished" if message.status == 200 else "failed", message)
 
@@ -147,14 +153,33 @@ class Jobs:
     """The jobs of one server."""
 
     def __init__(self, time_limit: float = TIME_LIMIT, start: Callable[[], Process] = spawned) -> None:
-        #: Seconds of processor that one job may take.
-        self.limit = LONGER * time_limit
+        #: Seconds of processor that one request and one job may take.
+        self.time_limit, self.limit = time_limit, LONGER * time_limit
         self.start = start
-        self._limiter = CapacityLimiter(HEAVY)
+        self._limiter, self._waited_for = CapacityLimiter(HEAVY), CapacityLimiter(HEAVY)
+        self._requests: set[Job] = set()
         self._jobs: dict[str, Job] = {}
         self._tasks: set[asyncio.Task[None]] = set()
         self._closed = False
         self._forget_next: asyncio.TimerHandle | None = None
+
+    async def answer(self, address: str, query: str, body: bytes) -> Answer:
+        """The answer to a request that is waited for; its work is killed where nobody waits any more."""
+        waiting = self._waited_for.statistics().tasks_waiting
+        if waiting >= MOST_WAITING:
+            raise busy(waiting)
+        job = Job(address, query, body, is_waited_for=True)
+        self._requests.add(job)
+        try:
+            async with self._waited_for:
+                if self._closed:
+                    raise closing()
+                await job.run(self.start, self.time_limit)
+        finally:
+            self._requests.discard(job)
+            job.cancel()
+        assert job.answer is not None
+        return job.answer
 
     def begin(self, address: str, query: str, body: bytes) -> Job:
         """A new job; it runs when those before it have. Raises :class:`Refused` where too many wait."""
@@ -192,9 +217,9 @@ class Jobs:
         self._closed = True
         if self._forget_next is not None:
             self._forget_next.cancel()
-        for job in self._jobs.values():
+        for job in (*self._jobs.values(), *self._requests):
             job.end("failed", _refused(closing()))
-        self._limiter.total_tokens = math.inf
+        self._limiter.total_tokens = self._waited_for.total_tokens = math.inf
 
     async def _run(self, job: Job) -> None:
         watch = asyncio.ensure_future(self._watch(job))

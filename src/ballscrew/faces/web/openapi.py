@@ -10,21 +10,7 @@ from pydantic import BaseModel
 
 from ballscrew.cases.schema.case_schema import json_schema
 from ballscrew.faces.web import problems
-from ballscrew.faces.web.bodies import (
-    BandBody,
-    CaseBody,
-    MovingBody,
-    NeedBody,
-    OpenBody,
-    OptimiseBody,
-    OwnNutBody,
-    ProjectBody,
-    SensitivityBody,
-    SweepBody,
-    WarmUpBody,
-)
-from ballscrew.faces.web.log_bodies import examples_with_logs
-from ballscrew.faces.web.vocabulary import vocabulary
+from ballscrew.faces.web.body_examples import examples
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.questions.shared.answer_parts import Problem
 
@@ -42,54 +28,11 @@ def body(kind: type[BaseModel]) -> dict[str, Any]:
     schema = kind.model_json_schema()
     if "case" in schema["properties"]:
         schema["properties"]["case"] = {"$ref": f"{_THERE}{_CASE}"}
-    content = {"schema": schema, "examples": {name: {"value": value} for name, value in _bodies(kind).items()}}
-    return {"requestBody": {"required": True, "content": {"application/json": content}}}
-
-
-def _bodies(kind: type[BaseModel]) -> dict[str, Any]:
-    """Bodies to try: the paper's screw, and one with an elastic nut."""
-    paper = vocabulary()["starts"]["paper"]["case"]
-    nut = {
-        "screw": {"catalogue": next(name for name, row in catalogue().items() if row.nut == "double")},
-        "nut": {"preload": "7 %"},
-        "bodies": {},
-        "lubricant": {"grade": "ISO VG 100", "temperature": "40 degC"},
-        "operation": {"axial_load": "2 kN", "screw_speed": "300 rpm"},
+    content = {
+        "schema": schema,
+        "examples": {name: {"value": value} for name, value in examples(kind.__name__).items()},
     }
-    if kind is NeedBody:
-        need = {"force": "2 kN", "feed": "15 m/min", "length": "1 m", "ends": "fixed-supported", "life": "20000 h"}
-        return {"few": {"need": {**need, "preload": "2 %"}, "words": "rexroth 32x"}}
-    if kind is OwnNutBody:
-        return {"few": {"numbers": {"d0": "40 mm", "lead": "10 mm", "turns": "2x2.5", "Ca": "52.7 kN"}}}
-    if kind is OptimiseBody:
-        need = {"force": "2 kN", "feed": "15 m/min", "length": "1 m", "ends": "fixed-supported", "life": "20000 h"}
-        few = {"population": 8, "generations": 2, "members": 2}
-        return {"few": {"need": {**need, "optimise": {"elastic_generations": 0}}, **few}}
-    if kind is OpenBody:
-        text = 'lubricant.grade = "ISO VG 68"\nscrew.catalogue = "hiwin-40-20k4"\n'
-        return {"case": {"file": {"name": "case.toml", "text": text}}}
-    if kind is ProjectBody:
-        return {"two": {"designs": [{"name": name, "case": case} for name, case in (("paper", paper), ("nut", nut))]}}
-    if issubclass(kind, MovingBody):
-        moving: dict[str, Any] = {
-            "axis": {"mass": "400 kg", "inclination": "90 deg"},
-            "motion": {"kind": "trapezoid", "stroke": "0.5 m", "speed": "10 m/min", "acceleration": "0.5 g"},
-            "installation": {"unsupported_length": "1 m", "ends": "fixed-supported"},
-        }
-        return {name: {"case": {**case, **moving}} for name, case in (("paper", paper), ("nut", nut))}
-    if issubclass(kind, CaseBody) and (found := examples_with_logs(kind, paper)):
-        return found
-    more: dict[str, Any] = {}
-    if kind is SweepBody:
-        more = {"vary": {"axial_load": "100:4000:5 N", "screw_speed": "10, 100 rpm"}, "outputs": ["efficiency"]}
-    if kind is WarmUpBody:
-        more = {"hours": 1.0, "band": True, "samples": 16}
-        paper = {**paper, "lubricant": {"grade": "ISO VG 100", "temperature": "40 degC"}}
-    if kind is SensitivityBody:
-        more = {"samples": 16}
-    if kind is BandBody:
-        more = {"samples": 64, "level": 0.9}
-    return {"paper": {"case": paper, **more}, "nut": {"case": nut, **more}}
+    return {"requestBody": {"required": True, "content": {"application/json": content}}}
 
 
 def problems_of(*others: int) -> dict[int | str, dict[str, Any]]:

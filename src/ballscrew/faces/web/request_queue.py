@@ -226,17 +226,16 @@ def busy(waiting: int) -> Refused:
     return Refused(429, Fault("server", "is busy", f"{waiting} requests are waiting", "try again soon"))
 
 
-def out_of_time(seconds: float, *, is_job: bool = False) -> Refused:
+def out_of_time(seconds: float, *, is_job: bool = False, command: str = "") -> Refused:
     """The refusal of work that has computed for too long; it would do so again, so no client shall send it again.
 
     A request has its id, by which a client knows that a job has more time.
     """
     given = f"{seconds:g} s of processor time"
-    remedy = (
-        "ask for less at a time, or start the server with a longer time limit"
-        if is_job
-        else "start it as a job, ask for less at a time, or start the server with a longer time limit"
-    )
+    remedies = ["ask for less at a time", "start the server with a longer time limit"]
+    remedies[:0] = [] if is_job else ["start it as a job"]
+    remedies += [f"use ballscrew {command}"] if command else []
+    remedy = f"{', '.join(remedies[:-1])}, or {remedies[-1]}"
     id = "" if is_job else OUT_OF_TIME
     return Refused(422, Fault("server", "stopped the work, which took too long", given, remedy, id=id))
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,7 +18,6 @@ from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Quantity, quantities_of
 from ballscrew.basis.records import Record
-from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.case import Case
 
 #: Places within the travel that the terminal shows.
@@ -173,11 +171,9 @@ class ChainReport:
         return units.shown(self.chain.position[at], SERIES["position"])
 
 
-def load(path: str | Path, settings: Sequence[str], model: str | None = None, *, allow_code: bool = False) -> Case:
-    """The case of a file; its motion counts where it has one, or else its operating point."""
-    tables = case_file.override(case_file.read(path), settings)
-    moves = "motion" in tables and "axis" in tables
-    return case_file.build(tables, model, Path(path).parent, allow_code=allow_code, moves=moves)
+def moves(tables: Mapping[str, Any]) -> bool:
+    """True of the tables of a case whose motion counts, and not its operating point."""
+    return "motion" in tables and "axis" in tables
 
 
 @overflow_as_input_error()

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from ballscrew.questions.axis.options import AxisOptions
 from ballscrew.questions.shared.options import Option
-from ballscrew.questions.shared.question import Answer, Question, Request, Work
+from ballscrew.questions.shared.question import Answer, Endpoint, Question, Request, Work
 
 
 def _prepare(request: Request) -> Work:
@@ -12,17 +14,21 @@ def _prepare(request: Request) -> Work:
     from ballscrew.questions.axis.answer import document
     from ballscrew.questions.axis.sheet import sheet
 
-    options = request.options(AxisOptions)
-    case_options = request.case_options
-    case = compute.load(
-        request.case_file, case_options.settings, case_options.model, allow_code=case_options.allow_code
-    )
+    options, case = request.options(AxisOptions), request.load(compute.moves)
 
     def answer(_: object) -> Answer:
         report = compute.chain_of(case, options.at)
         return Answer(sheet(report), lambda: document(report), f"{len(report.chain.position)} places")
 
     return Work(answer)
+
+
+def _response() -> Any:
+    from ballscrew.questions.axis.answer import ChainResults
+    from ballscrew.questions.shared.answer_parts import Assumed
+    from ballscrew.questions.shared.declared import response
+
+    return response(ChainResults, "Chain", beside=Assumed)
 
 
 QUESTION = Question(
@@ -39,4 +45,5 @@ QUESTION = Question(
     files=Option("Also write a table (.csv, .xlsx) or a picture; may be repeated.", short="-o", metavar="FILE"),
     has_several_files=True,
     prepare=_prepare,
+    endpoint=Endpoint(response=_response),
 )

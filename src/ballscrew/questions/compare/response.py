@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 from ballscrew.questions.compare.answer import ByRules, Compared
-from ballscrew.questions.shared.answer_parts import Provenance, Record, Tables, field
+from ballscrew.questions.shared.answer_parts import Provenance, Record, Shown, Tables, field
 from ballscrew.questions.shared.declared import schema
 
 _Compared: Any = schema(Compared)
 _ByRules: Any = schema(ByRules)
 
 
-class Compare(_Compared, _ByRules):
+class Compare(_Compared, _ByRules, Shown):
     """All models and all laws side by side."""
 
     inputs: Tables

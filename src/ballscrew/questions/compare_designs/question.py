@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import Annotated
+from typing import Annotated, Any
 
 from ballscrew.questions.shared.options import Option
-from ballscrew.questions.shared.question import SELF_HEATING, Answer, File, Question, Request, Work
+from ballscrew.questions.shared.question import SELF_HEATING, Answer, Done, Endpoint, File, Question, Request, Work
 
 _OWN = Option("Of several designs: each at its own load and speed, not at those of the first.")
 
@@ -24,7 +24,8 @@ def _prepare(request: Request) -> Work:
     from ballscrew.questions.compare_designs.compute import is_one_case
 
     options = request.options(CompareOptions)
-    is_one = is_one_case(request.files["cases"])
+    paths = request.files["cases"]
+    is_one = not paths or is_one_case(paths)
     if is_one and options.own:
         raise InputError(Fault("--own", "is for several designs", "", "name several case files, or a project"))
     if not is_one and options.self_heating:
@@ -39,16 +40,16 @@ def _models(request: Request, options: CompareOptions) -> Work:
     from ballscrew.questions.compare.sheet import sheet
     from ballscrew.questions.warm_up.self_heating_document import with_self_heating
 
-    case = request.case_options.load(request.files["cases"][0])
+    case = request.load()
 
-    def answer(_: object) -> Answer:
+    def answer(done: Done) -> Answer:
         heating = None
         if options.self_heating:
             from ballscrew.questions.warm_up.self_heating import self_heating
 
             heating = self_heating(case)
         warm = case if heating is None else heating.warm
-        compared = comparison(warm)
+        compared = comparison(warm, done)
         return Answer(
             sheet(warm, compared, () if heating is None else heating.records),
             lambda: with_self_heating(document(warm, compared), heating),
@@ -70,6 +71,12 @@ def _designs(request: Request, options: CompareOptions) -> Work:
     return Work(answer)
 
 
+def _response() -> Any:
+    from ballscrew.questions.compare.response import Compare
+
+    return Compare
+
+
 QUESTION = Question(
     name="compare",
     help="""Models and laws side by side, or several designs.
@@ -86,6 +93,7 @@ QUESTION = Question(
             "cases",
             "Case file (TOML); or several, or a project, for designs side by side.",
             metavar="CASE...",
+            is_case=True,
             is_repeated=True,
         ),
     ),
@@ -93,4 +101,5 @@ QUESTION = Question(
     files=Option("Also write a table (.csv, .xlsx) or a picture (.png, .svg, .pdf).", short="-o", metavar="FILE"),
     has_options_last=True,
     prepare=_prepare,
+    endpoint=Endpoint(response=_response, options=()),
 )

@@ -2,9 +2,24 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from ballscrew.questions.condition.options import ConditionOptions
 from ballscrew.questions.shared.options import Option
-from ballscrew.questions.shared.question import CASE_OF_LOGS, Answer, Done, File, Question, Request, Work
+from ballscrew.questions.shared.question import (
+    CASE_OF_LOGS,
+    Answer,
+    Done,
+    Endpoint,
+    File,
+    Question,
+    Request,
+    Sent,
+    Work,
+)
+
+#: Logs of one condition; more tests stand in a table.
+MOST_LOGS = 100
 
 
 def _prepare(request: Request) -> Work:
@@ -29,11 +44,19 @@ def _check_files(request: Request) -> None:
     from ballscrew.basis.errors import Fault, raise_if_any
 
     faults: list[Fault] = []
-    if not request.files["case"]:
+    if request.case is None:
         faults.append(Fault("--case", "missing", "", "give the case file of the screw: --case FILE"))
     if not request.files["tests"]:
         faults.append(Fault("TABLE", "missing", "", "give a table with a row for each test, or the logs of the tests"))
     raise_if_any(faults)
+
+
+def _response() -> Any:
+    from ballscrew.questions.condition.answer import ConditionResults
+    from ballscrew.questions.shared.answer_parts import OfLogs
+    from ballscrew.questions.shared.declared import response
+
+    return response(ConditionResults, "Condition", beside=OfLogs)
 
 
 QUESTION = Question(
@@ -57,4 +80,5 @@ QUESTION = Question(
     case_texts={"settings": 'Change a value: --set nut.preload="4 kN ± 10 %".'},
     files=Option("Also write tables (.xlsx, .csv) or a picture (.pdf, .png, .svg).", metavar="FILE"),
     prepare=_prepare,
+    endpoint=Endpoint(response=_response, files=(Sent("tests", "tests", most=MOST_LOGS),)),
 )

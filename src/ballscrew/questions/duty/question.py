@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import dataclasses
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from ballscrew.questions.duty.options import DutyOptions
 from ballscrew.questions.shared.options import Option
-from ballscrew.questions.shared.question import Answer, Done, Question, Request, Work
+from ballscrew.questions.shared.question import Answer, Done, Endpoint, Question, Request, Sent, Work
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -22,15 +22,17 @@ class TraceOptions:
 
 
 def _prepare(request: Request) -> Work:
+    from ballscrew.cases.schema.duty_schema import TRAJECTORY
     from ballscrew.questions.duty import answer as documents
     from ballscrew.questions.duty import compute
     from ballscrew.questions.duty.sheet import sheet
 
     options, trace = request.options(DutyOptions), request.options(TraceOptions).trace
-    tables = request.case_options.tables(request.case_file)
+    assert request.case is not None
+    tables = request.case.tables()
     if trace is not None:
-        tables["motion"] = {"kind": "trajectory", "file": str(Path(trace).absolute())}
-    case = request.case_options.build(tables, request.case_file.parent, moves=True)
+        tables["motion"] = {"kind": TRAJECTORY, "file": str(Path(trace).absolute())}
+    case = request.case.build(tables, moves=True)
 
     def answer(done: Done) -> Answer:
         report = compute.duty(case)
@@ -43,6 +45,13 @@ def _prepare(request: Request) -> Work:
         return Answer(sheet(report, bands), lambda: documents.with_band(bands), size)
 
     return Work(answer, "band" if options.is_banded else "")
+
+
+def _response() -> Any:
+    from ballscrew.questions.duty.answer import DutyResults
+    from ballscrew.questions.shared.declared import response
+
+    return response(DutyResults, "Duty", judged=True)
 
 
 QUESTION = Question(
@@ -60,4 +69,5 @@ QUESTION = Question(
     has_several_files=True,
     has_options_last=True,
     prepare=_prepare,
+    endpoint=Endpoint(response=_response, options=(), files=(Sent("trace", "trace", is_optional=True),)),
 )

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from ballscrew.questions.reversal.options import ReversalOptions
 from ballscrew.questions.shared.options import Option
-from ballscrew.questions.shared.question import Answer, Question, Request, Work
+from ballscrew.questions.shared.question import Answer, Endpoint, Question, Request, Work
 
 
 def _prepare(request: Request) -> Work:
@@ -21,6 +23,13 @@ def _prepare(request: Request) -> Work:
     return Work(answer, "reversal")
 
 
+def _response() -> Any:
+    from ballscrew.questions.reversal.answer import ReversalResults
+    from ballscrew.questions.shared.declared import response
+
+    return response(ReversalResults, "Reversal")
+
+
 QUESTION = Question(
     name="reversal",
     help="""Friction after a reversal, and models for controllers. Over the angle of the screw, by mechanism.
@@ -31,4 +40,5 @@ QUESTION = Question(
     options=(ReversalOptions,),
     files=Option("Also write a table (.csv, .xlsx) or a picture.", short="-o", metavar="FILE"),
     prepare=_prepare,
+    endpoint=Endpoint(response=_response),
 )

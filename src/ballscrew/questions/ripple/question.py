@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from ballscrew.questions.ripple.options import RippleOptions
 from ballscrew.questions.shared.options import Option
-from ballscrew.questions.shared.question import Answer, Question, Request, Work
+from ballscrew.questions.shared.question import Answer, Done, Endpoint, Question, Request, Work
 
 
 def _prepare(request: Request) -> Work:
@@ -14,11 +16,19 @@ def _prepare(request: Request) -> Work:
 
     options, case = request.options(RippleOptions), request.load()
 
-    def answer(_: object) -> Answer:
-        report = compute.ripple_of(case, options)
+    def answer(done: Done) -> Answer:
+        report = compute.ripple_of(case, options, done)
         return Answer(sheet(report), lambda: document(report), f"{len(report.ripple.angle)} angles")
 
     return Work(answer, "ripple")
+
+
+def _response() -> Any:
+    from ballscrew.questions.ripple.answer import RippleResults
+    from ballscrew.questions.shared.answer_parts import Assumed
+    from ballscrew.questions.shared.declared import response
+
+    return response(RippleResults, "Ripple", beside=Assumed)
 
 
 QUESTION = Question(
@@ -34,4 +44,5 @@ QUESTION = Question(
     case_texts={"settings": 'Change a value: --set nut.preload="4 kN".'},
     files=Option("Draw torque and orders (.png, .svg, .pdf) or write them (.xlsx, .csv).", metavar="FILE"),
     prepare=_prepare,
+    endpoint=Endpoint(response=_response),
 )

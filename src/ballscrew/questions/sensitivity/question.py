@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from ballscrew.questions.sensitivity.options import SensitivityOptions
 from ballscrew.questions.shared.options import Option
-from ballscrew.questions.shared.question import Answer, Done, Question, Request, Work
+from ballscrew.questions.shared.question import Answer, Done, Endpoint, Question, Request, Work
 
 
 def _prepare(request: Request) -> Work:
@@ -21,6 +23,13 @@ def _prepare(request: Request) -> Work:
     return Work(answer, "sensitivity")
 
 
+def _response() -> Any:
+    from ballscrew.questions.sensitivity.answer import Indices
+    from ballscrew.questions.shared.declared import response
+
+    return response(Indices, "Sensitivity", named="sensitivity")
+
+
 QUESTION = Question(
     name="sensitivity",
     help="""Share of each uncertain input in a band. The output also says what to measure to halve the band.
@@ -32,4 +41,5 @@ QUESTION = Question(
     case_texts={"settings": 'Change a value: --set screw.lead="10 mm ± 0.02 mm".'},
     files=Option("Also write tables (.xlsx, .csv) or a picture (.pdf, .png, .svg).", short="-o", metavar="FILE"),
     prepare=_prepare,
+    endpoint=Endpoint(response=_response),
 )

@@ -2,9 +2,21 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from ballscrew.questions.service.options import ReadingOptions, ServiceOptions
 from ballscrew.questions.shared.options import Option
-from ballscrew.questions.shared.question import CASE_OF_LOGS, Answer, Done, File, Question, Request, Work
+from ballscrew.questions.shared.question import (
+    CASE_OF_LOGS,
+    Answer,
+    Done,
+    Endpoint,
+    File,
+    Question,
+    Request,
+    Sent,
+    Work,
+)
 
 
 def _prepare(request: Request) -> Work:
@@ -14,7 +26,7 @@ def _prepare(request: Request) -> Work:
     from ballscrew.questions.service.sheet import sheet
 
     logs = request.files["logs"]
-    check_question(logs, next(iter(request.files["case"]), None), request.written)
+    check_question(logs, request.case is not None, request.written)
     case = request.load()
     has_torque = request.written["torque"] is not None
     torque = reading(request.written) if has_torque else None
@@ -25,6 +37,14 @@ def _prepare(request: Request) -> Work:
         return Answer(sheet(case, report), lambda: document(case, report), f"{len(report.estimates)} preloads")
 
     return Work(answer, "service")
+
+
+def _response() -> Any:
+    from ballscrew.questions.service.answer import ServiceResults
+    from ballscrew.questions.shared.answer_parts import OfLogs
+    from ballscrew.questions.shared.declared import response
+
+    return response(ServiceResults, "Service", beside=OfLogs)
 
 
 QUESTION = Question(
@@ -50,4 +70,9 @@ QUESTION = Question(
     case_texts={"settings": 'Change a value: --set nut.preload="4 kN ± 10 %".'},
     files=Option("Draw both logs and both preloads: .png, .svg or .pdf.", flag="picture", metavar="FILE"),
     prepare=_prepare,
+    endpoint=Endpoint(
+        response=_response,
+        options=(ServiceOptions,),
+        files=(Sent("new", "logs", is_optional=True), Sent("worn", "logs")),
+    ),
 )

@@ -15,10 +15,10 @@ from ballscrew.questions.service.options import ReadingOptions
 from ballscrew.questions.shared.option_values import read
 
 
-def check_question(logs: Sequence[Path], case: Path | None, written: Mapping[str, Any]) -> Path:
-    """The case file. Raises :class:`~ballscrew.basis.errors.InputError` for a question that is none, or two."""
+def check_question(logs: Sequence[Path], has_case: bool, written: Mapping[str, Any]) -> None:
+    """Raise :class:`~ballscrew.basis.errors.InputError` for a question that is none, or two."""
     faults: list[Fault] = []
-    if case is None:
+    if not has_case:
         faults.append(Fault("--case", "missing", "", "give the case file of the screw: --case FILE"))
     if written["torque"] is None:
         if not logs:
@@ -37,8 +37,6 @@ def check_question(logs: Sequence[Path], case: Path | None, written: Mapping[str
     if len(logs) > 2:
         faults.append(Fault("WORN", "more than two logs", str(len(logs)), "give the new one and the worn one"))
     raise_if_any(faults)
-    assert case is not None
-    return case
 
 
 def reading(written: Mapping[str, Any]) -> Reading:

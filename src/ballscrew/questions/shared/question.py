@@ -1,7 +1,7 @@
 """A question as a record: its name, what it reads, its options, and the function that answers it.
 
-Faces list these records and make what they need of them: the command line a command. The records load nothing that is
-slow: the function of a question imports its computation when it is called.
+Faces list these records and make what they need of them: the command line a command, the server an address. The records
+load nothing that is slow: the function of a question imports its computation when it is called.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, Protocol, TypeVar
 
 from ballscrew.questions.shared.options import Option
 
@@ -77,16 +77,61 @@ class File:
     meaning: str
     _: dataclasses.KW_ONLY
     metavar: str = ""
+    is_case: bool = False
     is_flag: bool = False
     is_optional: bool = False
     is_repeated: bool = False
 
 
-CASE = File("case", "Case file (TOML); ballscrew catalogue show NAME --case makes one.")
+CASE = File("case", "Case file (TOML); ballscrew catalogue show NAME --case makes one.", is_case=True)
 #: The case beside logs, which are the arguments.
 CASE_OF_LOGS = File(
-    "case", "Case file (TOML) of screw, nut, oil and model.", metavar="FILE", is_flag=True, is_optional=True
+    "case",
+    "Case file (TOML) of screw, nut, oil and model.",
+    metavar="FILE",
+    is_case=True,
+    is_flag=True,
+    is_optional=True,
 )
+
+
+class Sent(NamedTuple):
+    """A file that is sent to the address of a question: a field of the body."""
+
+    name: str
+    #: The name of the file, or of the option with its path, that it stands for.
+    stands_for: str
+    is_optional: bool = False
+    #: How many there may be; a field for several has a list.
+    most: int = 1
+
+
+class CaseSource(Protocol):
+    """A case as it comes: from a file with options, or with a request."""
+
+    def tables(self) -> dict[str, Any]:
+        """The tables of the case. Raises :class:`~ballscrew.basis.errors.InputError` for what is no case."""
+        ...
+
+    def build(self, tables: Mapping[str, Any], *, moves: bool = False) -> Case:
+        """The case of tables, whose motion counts where it ``moves``."""
+        ...
+
+
+@dataclasses.dataclass(frozen=True)
+class CaseFile:
+    """A case in a file, with options of the command line."""
+
+    path: Path
+    options: CaseOptions
+
+    def tables(self) -> dict[str, Any]:
+        """The tables of the file, with the settings."""
+        return self.options.tables(self.path)
+
+    def build(self, tables: Mapping[str, Any], *, moves: bool = False) -> Case:
+        """The case of tables; files that they name are beside the file of the case."""
+        return self.options.build(tables, self.path.parent, moves=moves)
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -95,19 +140,17 @@ class Request:
 
     #: The files to read, by the names of the question.
     files: Mapping[str, Sequence[Path]]
-    case_options: CaseOptions
+    case: CaseSource | None
+    case_options: CaseOptions = CaseOptions()
     written: Mapping[str, Any]
     #: Files to write.
     to: Sequence[Path] = ()
 
-    @property
-    def case_file(self) -> Path:
-        """The file of the case."""
-        return self.files["case"][0]
-
-    def load(self) -> Case:
-        """The case, with the case_options."""
-        return self.case_options.load(self.case_file)
+    def load(self, moves: Callable[[Mapping[str, Any]], bool] = lambda _: False) -> Case:
+        """The case; its motion counts where its tables are those of a case that ``moves``."""
+        assert self.case is not None
+        tables = self.case.tables()
+        return self.case.build(tables, moves=moves(tables))
 
     def options(self, cls: type[T]) -> T:
         """The options of a class as values. Raises :class:`~ballscrew.basis.errors.InputError` for faults in them."""
@@ -136,6 +179,18 @@ class Work(NamedTuple):
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
+class Endpoint:
+    """The address of a question in the API, as far as it does not follow from its command."""
+
+    #: The model of its answer: the document with the sheet beside it.
+    response: Callable[[], Any]
+    #: Classes of options, where it has not all of the command.
+    options: Sequence[type] | None = None
+    #: Files that come with the case.
+    files: Sequence[Sent] = ()
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
 class Question:
     """A question of a user, as faces list it."""
 
@@ -154,3 +209,9 @@ class Question:
     has_options_last: bool = False
     #: Reads and checks all of a request. Raises :class:`~ballscrew.basis.errors.InputError` for faults in it.
     prepare: Callable[[Request], Work]
+    endpoint: Endpoint
+
+    @property
+    def sent_options(self) -> Sequence[type]:
+        """The classes of options that its address has."""
+        return self.options if self.endpoint.options is None else self.endpoint.options

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from ballscrew.questions.shared.options import Option
-from ballscrew.questions.shared.question import Answer, Done, Question, Request, Work
+from ballscrew.questions.shared.question import Answer, Done, Endpoint, Question, Request, Work
 from ballscrew.questions.warm_up.options import DriftOptions, WarmUpOptions
 
 _TO = "--to"
@@ -29,16 +30,13 @@ def _prepare(request: Request) -> Work:
     drift, cool_down = request.options(DriftOptions), request.written["cool_down"]
     rest = (compute.REST if drift.drift_cycle else 0.0) if cool_down is None else cool_down
     options = read(WarmUpOptions, {**request.written, "cool_down": rest})
+    raise_if_any(compute.option_faults(options.band, options.samples, options.level, options.only_given))
     compute.check_hours(options.hours, options.cool_down)
     if drift.feed_share is not None and not drift.drift_cycle:
         raise InputError(Fault("--feed-share", "needs --drift-cycle", f"{drift.feed_share:g}", "add --drift-cycle"))
-    case_options = request.case_options
-    case = compute.load(
-        request.case_file, case_options.settings, case_options.model, allow_code=case_options.allow_code
-    )
+    case = request.load(compute.moves)
     if drift.drift_cycle:
         case = compute.drift_cycle(case, compute.FEED_SHARE if drift.feed_share is None else drift.feed_share)
-    raise_if_any(compute.option_faults(options.band, options.samples, options.level, options.only_given))
 
     def answer(done: Done) -> Answer:
         if not options.band:
@@ -88,6 +86,14 @@ def _files(place: Path, has_band: bool) -> dict[Path, str]:
     return files
 
 
+def _response() -> Any:
+    from ballscrew.questions.shared.declared import response
+    from ballscrew.questions.warm_up.answer import WarmUpResults
+    from ballscrew.questions.warm_up.band_answer import BesideWarmUp
+
+    return response(WarmUpResults, "WarmUp", beside=BesideWarmUp)
+
+
 QUESTION = Question(
     name="warm-up",
     help="""Temperatures, growth and preload over hours. The output has the torque and the steady state, too.
@@ -105,4 +111,5 @@ QUESTION = Question(
     ),
     has_several_files=True,
     prepare=_prepare,
+    endpoint=Endpoint(response=_response, options=(WarmUpOptions,)),
 )

@@ -1,0 +1,112 @@
+"""Addresses of the API made of questions (:mod:`ballscrew.questions.shared.question`)."""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from fastapi import APIRouter
+from pydantic import Field, create_model
+from starlette.responses import Response
+
+from ballscrew.faces.web.bodies import MOST_LOG_BYTES, CaseBody, SentCase, SentFile
+from ballscrew.faces.web.endpoint_parts import post, with_sheet
+from ballscrew.faces.web.limits import check_options
+from ballscrew.faces.web.request_queue import Deadline
+from ballscrew.faces.web.sent_files import written
+from ballscrew.questions.axis.question import QUESTION as AXIS
+from ballscrew.questions.compare_designs.question import QUESTION as COMPARE
+from ballscrew.questions.condition.question import QUESTION as CONDITION
+from ballscrew.questions.duty.question import QUESTION as DUTY
+from ballscrew.questions.reversal.question import QUESTION as REVERSAL
+from ballscrew.questions.ripple.question import QUESTION as RIPPLE
+from ballscrew.questions.sensitivity.question import QUESTION as SENSITIVITY
+from ballscrew.questions.service.question import QUESTION as SERVICE
+from ballscrew.questions.shared.options import body_fields, options_of
+from ballscrew.questions.shared.question import Question, Request, Sent
+from ballscrew.questions.warm_up.question import QUESTION as WARM_UP
+
+QUESTIONS = (AXIS, COMPARE, CONDITION, DUTY, REVERSAL, RIPPLE, SENSITIVITY, SERVICE, WARM_UP)
+
+router = APIRouter()
+
+
+def body_of(question: Question) -> type[CaseBody]:
+    """The body of a question: a case, the files that it reads, and its options as they are written."""
+    fields: dict[str, Any] = {file.name: _field(file) for file in question.endpoint.files}
+    for options in question.sent_options:
+        fields |= body_fields(options)
+    words = ["A case", *(f"``{name}``" for name in fields)]
+    body = create_model(_title(question), __base__=CaseBody, __doc__=", ".join(words) + ".", **fields)
+    body.files = tuple(file.name for file in question.endpoint.files)
+    if body.files:
+        body.most_bytes = MOST_LOG_BYTES
+    return body
+
+
+def _title(question: Question) -> str:
+    return "".join(word.capitalize() for word in question.name.split("-")) + "Body"
+
+
+def _field(file: Sent) -> Any:
+    """The field of a file in a body."""
+    if file.most > 1:
+        return (list[SentFile], Field(min_length=1, max_length=file.most))
+    return (SentFile | None, None) if file.is_optional else (SentFile, ...)
+
+
+def answer(question: Question, body: CaseBody, done: Deadline) -> Response:
+    """The answer to a body of a question: its document with its sheet."""
+    values = dict(body)
+    check_options(question.sent_options, values)
+    options = _defaults(question) | {name: values[name] for cls in question.sent_options for name in options_of(cls)}
+    files: dict[str, list[Path]] = {file.name: [] for file in question.reads}
+    with written(_contents(question, values)) as paths:
+        for file in question.endpoint.files:
+            sent = [path for field, path in paths.items() if field.partition(" ")[0] == file.name]
+            if file.stands_for in files:
+                files[file.stands_for] += sent
+            elif sent:
+                options[file.stands_for] = str(sent[0])
+        work = question.prepare(Request(files=files, case=SentCase(body.case), written=options))
+        result = work.answer(done)
+        return with_sheet(result.document(), result.sheet)
+
+
+def _defaults(question: Question) -> dict[str, Any]:
+    """All options of a question as they are written where they are left out; of one that several have, the first."""
+    classes = reversed(question.options)
+    return {name: option.written_default for cls in classes for name, option in options_of(cls).items()}
+
+
+def _contents(question: Question, values: Mapping[str, Any]) -> dict[str, SentFile]:
+    """The files of a body by their fields, with a number where a field has several."""
+    contents: dict[str, SentFile] = {}
+    for file in question.endpoint.files:
+        if file.most > 1:
+            contents |= {f"{file.name} {number}": each for number, each in enumerate(values[file.name], start=1)}
+        elif values[file.name] is not None:
+            contents[file.name] = values[file.name]
+    return contents
+
+
+def _add(question: Question) -> None:
+    """Add the address of a question."""
+    work = functools.partial(answer, question)
+    help = inspect.cleandoc(question.help).partition("\n\n")[0]
+    post(
+        router,
+        f"/{question.name}",
+        BODIES[question.name],
+        question.endpoint.response(),
+        name=question.name.replace("-", "_"),
+        description=f"{help} The document of ``ballscrew {question.name} --json``, with its sheet.",
+    )(work)
+
+
+BODIES = {question.name: body_of(question) for question in QUESTIONS}
+for _question in QUESTIONS:
+    _add(_question)
