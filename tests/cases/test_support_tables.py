@@ -177,4 +177,4 @@ def test_numbers_that_friction_goes_with_may_have_a_distribution():
 def test_a_request_reads_no_file_of_the_server(section):
     more = BEARINGS.replace(f"[{section}]", f'[{section}]\noil_file = "/etc/passwd"')
     with pytest.raises(InputError, match=rf"{section}\.oil_file: is not taken from a request"):
-        case_of(tomllib.loads(CASE + more), moves=True)
+        case_of(tomllib.loads(CASE + more))

@@ -11,10 +11,11 @@ from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.sheet import Columns
 from ballscrew.cases.case_files import case_file
 from ballscrew.physics.sizing.installation import Ends
-from ballscrew.questions.axis.compute import chain_of, load
+from ballscrew.questions.axis.compute import chain_of
 from ballscrew.questions.duty.compute import duty
 from ballscrew.questions.duty.sheet import sheet
 from ballscrew.questions.duty.verdicts import warnings
+from support.axis_cases import load
 from support.commands import ROOT
 from support.pictures import drawn
 

@@ -43,7 +43,6 @@ from ballscrew.physics.components.nut_losses import ConstantTorque
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.axis.compute import SERIES as CHAIN
 from ballscrew.questions.axis.compute import chain_of
-from ballscrew.questions.axis.compute import load as axis_load
 from ballscrew.questions.band import compute as band
 from ballscrew.questions.check.compute import checked
 from ballscrew.questions.duty.compute import NUMBERS, duty
@@ -63,6 +62,7 @@ from ballscrew.questions.shared.report_blocks import (
 )
 from ballscrew.questions.warm_up.compute import warmed_up
 from ballscrew.questions.warm_up.verdicts import verdicts
+from support.axis_cases import load as axis_load
 
 ROOT = Path(__file__).parents[3]
 EXAMPLES = sorted(path.name for path in (ROOT / "examples").glob("*.toml"))

@@ -5,11 +5,12 @@ import pytest
 
 from ballscrew.basis.output.sheet import Columns, Table
 from ballscrew.questions.axis.answer import ChainResults, document
-from ballscrew.questions.axis.compute import FRICTION, LOAD, SERIES, SPEED, chain_of, load
+from ballscrew.questions.axis.compute import FRICTION, LOAD, SERIES, SPEED, chain_of
 from ballscrew.questions.axis.sheet import sheet
 from ballscrew.questions.shared import declared
 from ballscrew.questions.shared.answer_parts import Assumed
 from support.answers import undescribed, without_unit
+from support.axis_cases import load
 from support.commands import ROOT
 
 EXAMPLES = ROOT / "examples"

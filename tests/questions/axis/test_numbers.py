@@ -8,9 +8,10 @@ import pytest
 from ballscrew.basis import units
 from ballscrew.basis.output.sheet import Table
 from ballscrew.cases.case_files import case_file
-from ballscrew.questions.axis.compute import SERIES, SPEED, chain_of, load
+from ballscrew.questions.axis.compute import SERIES, SPEED, chain_of
 from ballscrew.questions.axis.sheet import sheet
 from ballscrew.questions.check.compute import checked
+from support.axis_cases import load
 from support.commands import ROOT
 
 EXAMPLE = ROOT / "examples" / "feed_axis.toml"

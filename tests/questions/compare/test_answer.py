@@ -2,6 +2,7 @@
 
 import pytest
 
+from ballscrew.basis.output import sheet as sheets
 from ballscrew.basis.quantities import quantities_of
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import terminal
@@ -56,8 +57,9 @@ def test_a_law_has_its_slot_and_what_a_model_has(compared):
 @pytest.mark.parametrize("example", ["service.toml", "olaru2005.toml"])
 def test_answers_are_valid_by_their_schema(example):
     case = case_file.load(SERVICE.parent / example)
-    found = documents.document(case, comparison(case))
-    Compare.model_validate(found)
+    compared = comparison(case)
+    found = documents.document(case, compared)
+    Compare.model_validate({**found, "sheet": sheets.document(sheet(case, compared))})
     assert ("of_balls" in found) == (example == "service.toml")
 
 
