@@ -68,7 +68,8 @@ def test_what_nobody_can_wait_for_is_stopped(limited, tables, name):
     refusal = limited.post(address, body)
     assert time.monotonic() - start < PATIENCE
     assert refusal.status_code == 422
-    assert refusal.json()["lines"][0].startswith(words)
+    # on a busy machine the time may be over before the memory is full
+    assert refusal.json()["lines"][0].startswith((words, TIME))
     assert refusal.json()["faults"][0]["remedy"].endswith(f"use ballscrew {address}")
     assert limited.post("run", {"case": tables["elastic"]}).status_code == 200
     (forks,) = psutil.Process(limited.process.pid).children()
