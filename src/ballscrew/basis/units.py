@@ -17,7 +17,6 @@ from typing import Any
 from ballscrew.basis import pint_plugins as _pint_plugins
 from ballscrew.basis.errors import Fault, as_float
 from ballscrew.basis.quantities import Info, Quantity
-from ballscrew.basis.records import Record
 
 _VALUE = re.compile(
     r"\s*(?P<number>[-+]?(?:(?:\d+(?:[' \u00a0\u2009\u202f]\d{3}(?!\d))*[.,\d]*|[.,]\d+)(?:e[-+]?\d+)?"
@@ -209,11 +208,6 @@ def shown(value: Any, quantity: Quantity, digits: int = DIGITS, toward: int = 0)
 def number(value: Any, digits: int = DIGITS) -> str:
     """A plain number to so many digits, without the exponent of programs where a person writes none."""
     return f"{float(f'{value:.{digits}g}'):.10g}"
-
-
-def record(text: str, **fields: Any) -> Record:
-    """A record that says a sentence; ``fields`` are its others."""
-    return Record(text=text, **fields)
 
 
 def ends(low: Any, high: Any, quantity: Quantity) -> tuple[str, str]:

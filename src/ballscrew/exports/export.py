@@ -8,7 +8,6 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from ballscrew.basis import units
 from ballscrew.basis.atomic_files import atomic_write, check_writable
 from ballscrew.basis.quantities import Quantity
 from ballscrew.basis.records import Record
@@ -88,5 +87,5 @@ def _warnings(handed: HandOver) -> list[Record]:
     message = (
         "the oil is given by its numbers, so that the input temperature changes nothing; give a grade or a data sheet"
     )
-    record = units.record(message, id="hand_over.temperature", subject="temperature", severity="warning", holds=False)
+    record = Record(text=message, id="hand_over.temperature", subject="temperature", severity="warning", holds=False)
     return [*handed.starvation, record]

@@ -112,8 +112,12 @@ class Presliding:
             f"{units.percent(self.fit.work_error)} of the friction work of short strokes, and carried over to all "
             "else"
         )
-        return units.record(
-            message, id="hand_over.presliding", subject="screw_torque", severity="warning", value=self.fit.error.largest
+        return Record(
+            text=message,
+            id="hand_over.presliding",
+            subject="screw_torque",
+            severity="warning",
+            value=self.fit.error.largest,
         )
 
 

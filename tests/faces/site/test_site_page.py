@@ -134,7 +134,7 @@ def test_the_band_is_that_of_the_program(visit, fragment):
     here.page.locator("#fan").scroll_into_view_if_needed()  # it is drawn when it is seen
     here.rest()
     for place in ("#band", "#fan"):
-        assert f"{low:.4f} to {high:.4f}" in here.page.locator(place).inner_text()
+        here.page.locator(place, has_text=f"{low:.4f} to {high:.4f}").wait_for()  # the fan when there is time
     assert "inputs alone" in here.page.locator("#band").inner_text()  # that of the program is of inputs and laws
 
 

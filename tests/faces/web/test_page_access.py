@@ -142,7 +142,7 @@ def test_results_and_faults_are_said(visit):
     for letter in "nonsense":
         here.page.keyboard.type(letter)
         here.rest(100)
-    here.page.wait_for_function("() => heard.length")
+    here.page.wait_for_function("() => heard.at(-1)?.includes('nonsense')")
     assert "axial load" in here.text("#faults")
     heard = here.page.evaluate("heard")
     assert len(heard) <= 2

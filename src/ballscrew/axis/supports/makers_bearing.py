@@ -10,7 +10,6 @@ import numpy as np
 
 from ballscrew.axis.supports import formulas
 from ballscrew.axis.supports.bearing import Bore, OutsideDiameter, SealTorque, faults_of_arrays, sizes_fault
-from ballscrew.basis import units
 from ballscrew.basis.arrays import ByValue, lazy
 from ballscrew.basis.errors import Fault, faults_of, raise_if_any, shown
 from ballscrew.basis.quantities import Array, Count, Force, Info, KinematicViscosity, Mask, Power, Ratio, Torque
@@ -82,7 +81,7 @@ class MakersFriction(ByValue):
         if np.all(self.validity["inputs"]):
             return []
         message = "the friction is not a finite number somewhere: check load, speed and oil"
-        return [units.record(message, id="validity.inputs", subject="inputs", severity="warning", holds=False)]
+        return [Record(text=message, id="validity.inputs", subject="inputs", severity="warning", holds=False)]
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)

@@ -342,8 +342,8 @@ def _records(found: WarmUp) -> list[Record]:
             f"thermal loop {end.shown_margin}, thermal runaway at 0"
         )
     verdicts = [
-        units.record(
-            message,
+        Record(
+            text=message,
             id="verdict.equilibrium",
             subject="equilibrium",
             severity="info" if end.exists and end.margin > 0 else "error",
@@ -359,20 +359,20 @@ def _records(found: WarmUp) -> list[Record]:
             "the growth of the shaft between the halves of the nut is left out, as it is not said how they are "
             f"braced: {endings}; give [surroundings] bracing"
         )
-        verdicts.append(units.record(message, id="warning.bracing", subject="preload", severity="warning", holds=False))
+        verdicts.append(Record(text=message, id="warning.bracing", subject="preload", severity="warning", holds=False))
     if found.stopped is not None:
         time = units.shown(found.stopped, _HOURS, 3)
         message = f"stopped after {time}: beyond it oil or preload are outside what the model knows"
         verdicts.append(
-            units.record(message, id="warning.stopped", subject="time", severity="error", value=found.stopped, unit="s")
+            Record(text=message, id="warning.stopped", subject="time", severity="error", value=found.stopped, unit="s")
         )
     left = found.stretch_left
     if left is not None and np.min(left) < 0:
         stretch = units.shown(np.min(left), _STRETCH, 2)
         message = f"the stretch of the shaft is lost: {stretch} at the worst, and the shaft pushes"
         verdicts.append(
-            units.record(
-                message,
+            Record(
+                text=message,
                 id="verdict.stretch",
                 subject="stretch",
                 severity="warning",

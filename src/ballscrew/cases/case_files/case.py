@@ -246,8 +246,8 @@ def _light(axis: Axis | None, screw: BallScrew) -> list[Record]:
         f"{units.shown(nut, quantity, 2)}: check the number and its unit"
     )
     return [
-        units.record(
-            message,
+        Record(
+            text=message,
             id=IMPLAUSIBLE,
             subject="axis.mass",
             severity="warning",
@@ -262,8 +262,8 @@ def _light(axis: Axis | None, screw: BallScrew) -> list[Record]:
 def _of_fit(table: Mapping[str, Any]) -> list[Record]:
     """What the fit that a case is from said of its own numbers: which of them no screw has."""
     return [
-        units.record(
-            f"calibrated, and {text}",
+        Record(
+            text=f"calibrated, and {text}",
             id="calibration.implausible",
             subject=f"calibration.{place}",
             severity="warning",
@@ -284,8 +284,8 @@ def _of_other_nuts(calibration: Calibration | None, nut: Nut) -> list[Record]:
         f"{contacts}"
     )
     return [
-        units.record(
-            message,
+        Record(
+            text=message,
             id="calibration.other_nuts",
             subject="model.calibration",
             severity="warning",
@@ -313,8 +313,8 @@ def _not_reacted(model: FrictionModel, lubricant: Lubricant) -> list[Record]:
         f"boundary friction of {units.number(friction)} is that of surfaces that have reacted with additives{reason}"
     )
     return [
-        units.record(
-            message,
+        Record(
+            text=message,
             id="friction.not_reacted",
             subject="model.friction",
             severity="warning",

@@ -37,8 +37,8 @@ def constant_torque_missed(model: CalibratedModel, refit: Callable[[Sequence[str
         "balls does not; free it"
     )
     return [
-        units.record(
-            message,
+        Record(
+            text=message,
             id="fit.free_more",
             subject=CONSTANT_TORQUE.name,
             severity="warning",

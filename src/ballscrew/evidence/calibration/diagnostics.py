@@ -71,8 +71,8 @@ def _warning(
     limit: float | None = None,
     unit: str = "1",
 ) -> Record:
-    return units.record(
-        text,
+    return Record(
+        text=text,
         id=f"fit.{name}",
         subject=subject,
         severity="warning",

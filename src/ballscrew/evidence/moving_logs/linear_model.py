@@ -6,7 +6,6 @@ import dataclasses
 
 import numpy as np
 
-from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, spoken
 from ballscrew.basis.records import Record
 from ballscrew.evidence.moving_logs.equation import Equation
@@ -98,7 +97,7 @@ def _not_told(names: list[str]) -> Record:
     numbers = " and ".join(map(spoken, names))
     problem = f"cannot tell {numbers} apart" if len(names) > 1 else f"does not tell the {numbers}"
     message = f"the log {problem} · {remedy}"
-    return units.record(message, id="fit.not_identified", subject=",".join(names), severity="warning", holds=False)
+    return Record(text=message, id="fit.not_identified", subject=",".join(names), severity="warning", holds=False)
 
 
 def unit_change(equation: Equation, name: str) -> Fault | None:

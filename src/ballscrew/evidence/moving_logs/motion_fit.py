@@ -385,7 +385,7 @@ def _estimates(
 
 
 def _remarks(power: PowerLaw | None) -> list[Record]:
-    found = [units.record(_GRAVITY, id="fit.gravity_or_offset", subject="offset", holds=False)]
+    found = [Record(text=_GRAVITY, id="fit.gravity_or_offset", subject="offset", holds=False)]
     if power is None:
         found.append(_warning("no_exponent", "speed_exponent", _NO_EXPONENT))
     return found
@@ -397,7 +397,7 @@ def _is_off(screw: ScrewModelFit | None, linear: LinearModel) -> bool:
 
 
 def _warning(name: str, subject: str, message: str) -> Record:
-    return units.record(message, id=f"fit.{name}", subject=subject, severity="warning", holds=False)
+    return Record(text=message, id=f"fit.{name}", subject=subject, severity="warning", holds=False)
 
 
 def _of_screw(screw: ScrewModelFit, linear: LinearModel, free: Sequence[str]) -> list[Record]:

@@ -138,8 +138,8 @@ def of_logs(subject: Configuration, logs: Sequence[Any], kind: Kind, inertia: fl
         notes += [f"{name}: {line}" for line in (clean.usage, *clean.notes)]
         if not (np.any(clean.forward) and np.any(clean.backward)):
             warnings.append(
-                units.record(
-                    f"{name}: one direction only: a zero error of the sensor counts as friction; measure in both",
+                Record(
+                    text=f"{name}: one direction only: a zero error of the sensor counts as friction; measure in both",
                     id="condition.one_direction",
                     subject=name,
                     severity="warning",

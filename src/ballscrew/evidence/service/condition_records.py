@@ -68,7 +68,8 @@ def records_of(
 
 
 def _warning(name: str, subject: str, text: str, **more: Any) -> Record:
-    return units.record(text, id=f"condition.{name}", subject=subject, **{"severity": "warning", **more})
+    fields: dict[str, Any] = {"severity": "warning", **more}
+    return Record(text=text, id=f"condition.{name}", subject=subject, **fields)
 
 
 def _starved(means: Means, subject: Configuration, graded: bool) -> list[Record]:
@@ -230,7 +231,7 @@ def _alarm(made: Condition, found: Reduction) -> Record:
     )
     if made.alarm is None:
         text = f"no alarm: the torque is as in the first {made.baseline} tests, within its scatter ({rate})"
-        return units.record(text, id="condition.alarm", subject="torque", holds=True)
+        return Record(text=text, id="condition.alarm", subject="torque", holds=True)
     change = math.expm1(float(found.torque[made.alarm] - np.mean(found.torque[: made.baseline])))
     test, way = made.states[made.alarm].label, "fallen" if made.chart.falls else "risen"
     text = f"alarm at {test}: the torque has {way} beyond its scatter, {units.change(change)} ({rate})"
@@ -243,8 +244,8 @@ def _alarm(made: Condition, found: Reduction) -> Record:
         text += (
             "; wear takes torque: look for dirt, lack of lubricant, another oil, a nut that was adjusted or exchanged"
         )
-    return units.record(
-        text, id="condition.alarm", subject="torque", severity="warning", holds=False, value=float(made.alarm)
+    return Record(
+        text=text, id="condition.alarm", subject="torque", severity="warning", holds=False, value=float(made.alarm)
     )
 
 
@@ -252,7 +253,7 @@ def _preload(made: Condition) -> Record:
     last = made.states[-1]
     if not math.isfinite(last.preload):
         text = "the preload cannot be told from the last test: see the warnings"
-        return units.record(text, id="condition.preload_left", subject=PRELOAD, severity="warning")
+        return Record(text=text, id="condition.preload_left", subject=PRELOAD, severity="warning")
     probability = min(max(made.probability_of_loss, 0.001), 0.999)
     share, low, high, least = (
         units.percent(value) for value in (last.preload, last.preload_low, last.preload_high, 1 - made.tolerance)
@@ -263,8 +264,8 @@ def _preload(made: Condition) -> Record:
     )
     if made.lost_since is not None:
         text += f"; the interval lies below all of it since {made.states[made.lost_since].label}"
-    return units.record(
-        text,
+    return Record(
+        text=text,
         id="condition.preload_left",
         subject=PRELOAD,
         value=last.preload,
@@ -292,8 +293,17 @@ def _of_trend(made: Condition) -> list[Record]:
     if not made.trend.told:
         text += ": none can be told"
     unit = "1" if made.per == "test" else "1/s"
-    slope = {"value": made.trend.slope, "limit": 0.0, "unit": unit}
-    return [units.record(text, id="condition.trend", subject=PRELOAD, holds=made.trend.told, **slope)]
+    return [
+        Record(
+            text=text,
+            id="condition.trend",
+            subject=PRELOAD,
+            holds=made.trend.told,
+            value=made.trend.slope,
+            limit=0.0,
+            unit=unit,
+        )
+    ]
 
 
 def _parts(made: Condition) -> list[Record]:
@@ -305,7 +315,7 @@ def _parts(made: Condition) -> list[Record]:
             text += "; not told from the others"
         unit = {CONSTANT: "N m", WARMER: "K"}.get(name, "1")
         records.append(
-            units.record(text, id="condition.part", subject=name, value=part.value, unit=unit, holds=part.told)
+            Record(text=text, id="condition.part", subject=name, value=part.value, unit=unit, holds=part.told)
         )
     return records
 
@@ -365,6 +375,4 @@ def _of_boundary_friction(found: Reduction, subject: Configuration, change: floa
 
 
 def _cause(name: str, text: str, value: float | None, limit: float | None, unit: str, holds: bool | None) -> Record:
-    return units.record(
-        text, id="condition.alternative", subject=name, value=value, limit=limit, unit=unit, holds=holds
-    )
+    return Record(text=text, id="condition.alternative", subject=name, value=value, limit=limit, unit=unit, holds=holds)

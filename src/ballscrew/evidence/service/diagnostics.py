@@ -71,7 +71,7 @@ def warning_records(
 
 def _record(name: str, subject: str, text: str, **more: Any) -> Record:
     fields: dict[str, Any] = {"severity": "warning", "holds": False, **more}
-    return units.record(text, id=f"service.{name}", subject=subject, **fields)
+    return Record(text=text, id=f"service.{name}", subject=subject, **fields)
 
 
 def _log_record(name: str, label: str, subject: str, text: str, **more: Any) -> Record:

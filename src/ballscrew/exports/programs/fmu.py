@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 
 from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.records import Record
 from ballscrew.engine.evaluation.outputs import OPERATION
 from ballscrew.exports.export import Export
 from ballscrew.exports.programs import interpreter
@@ -107,8 +108,8 @@ def export(handed: HandOver) -> Export:
     slow, moving = (
         units.in_unit(speed, "rad/s", 6) for speed in (REGULARISATION_SPEED, _MOVING * REGULARISATION_SPEED)
     )
-    warning = units.record(
-        f"friction passes through zero over {slow} (parameter regularisation_speed), so that below {moving} "
+    warning = Record(
+        text=f"friction passes through zero over {slow} (parameter regularisation_speed), so that below {moving} "
         "drive_torque lacks a part of it, next to rest all, and a load at rest creeps: where holding matters, "
         "brake where holding_torque says so",
         id="hand_over.rest",

@@ -180,7 +180,7 @@ class JointFriction:
 
 
 def _assumed(name: str, subject: str, message: str) -> Record:
-    return units.record(message, id=name, subject=subject, severity="warning", holds=False)
+    return Record(text=message, id=name, subject=subject, severity="warning", holds=False)
 
 
 def joint_friction(handed: HandOver, degree: int) -> JointFriction:
@@ -320,8 +320,8 @@ class JointErrors(NamedTuple):
     def warnings(self, joint: JointFriction) -> list[Record]:
         """The errors as a warning, and one where the model itself does not hold at all speeds of the fit."""
         found = [
-            units.record(
-                f"{self.text}; beyond its range, and below the lowest speed of the fit, it goes on as fitted",
+            Record(
+                text=f"{self.text}; beyond its range, and below the lowest speed of the fit, it goes on as fitted",
                 id="hand_over.no_load",
                 subject="screw_torque",
                 severity="warning",
@@ -337,8 +337,8 @@ class JointErrors(NamedTuple):
                 "fit; ballscrew run says why"
             )
             found.append(
-                units.record(
-                    message,
+                Record(
+                    text=message,
                     id="hand_over.fit_validity",
                     subject="screw_speed",
                     severity="warning",

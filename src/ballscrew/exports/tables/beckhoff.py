@@ -48,8 +48,8 @@ def export(handed: HandOver) -> Export:
     share = rounding / float(curve.torques.min())
     percent = units.to_significant(100 * share, 2)
     message = f"torques are whole numbers of the drive: rounding adds up to {percent} % of the friction"
-    record = units.record(
-        message,
+    record = Record(
+        text=message,
         id="hand_over.rounding",
         subject="screw_torque",
         severity="warning" if share > 0.01 else "info",

@@ -130,9 +130,7 @@ def _widened(handed: HandOver, ends: tuple[float, float]) -> list[Record]:
     quantity = next(one.quantity for one in handed.inputs if one.name == OPERATION[1])
     least, greatest, slow, fast = (units.shown(end, quantity) for end in (*asked, *ends))
     message = f"the curve is of both directions from rest: {slow} to {fast}, not {least} to {greatest} only"
-    return [
-        units.record(message, id="hand_over.both_directions", subject=OPERATION[1], severity="warning", holds=False)
-    ]
+    return [Record(text=message, id="hand_over.both_directions", subject=OPERATION[1], severity="warning", holds=False)]
 
 
 def _points(handed: HandOver, fixed: Mapping[str, float], first: float, fastest: float) -> dict[str, Floats]:
@@ -150,8 +148,8 @@ def _one_load(curve: FrictionCurve) -> Record:
         f"the curve knows one load, {units.in_unit(load, 'N', 6)}, and one temperature; at another load of the "
         f"range the friction differs by up to {difference}"
     )
-    return units.record(
-        message,
+    return Record(
+        text=message,
         id="hand_over.one_load",
         subject=INTERPOLATED[0],
         severity="warning",

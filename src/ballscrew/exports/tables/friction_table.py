@@ -118,8 +118,8 @@ class FrictionTable:
             'axial_load="-5:5 kN"'
         )
         return [
-            units.record(
-                message,
+            Record(
+                text=message,
                 id="hand_over.tolerance",
                 subject="screw_torque",
                 severity="warning",

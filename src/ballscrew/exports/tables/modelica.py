@@ -211,7 +211,7 @@ def _creeps(at_rest: float) -> Record:
         f"friction is a slope through zero up to about {units.in_unit(at_rest, 'rad/s', 6)}: a load that friction "
         "holds creeps there; do not read holding from this component"
     )
-    return units.record(message, id="hand_over.at_rest", subject=DRIVE, severity="warning", holds=False, value=at_rest)
+    return Record(text=message, id="hand_over.at_rest", subject=DRIVE, severity="warning", holds=False, value=at_rest)
 
 
 def _gear_is_off(gear: LossTable) -> list[Record]:
@@ -222,8 +222,8 @@ def _gear_is_off(gear: LossTable) -> list[Record]:
         f"friction{'; take the component instead' if severe else ''}"
     )
     return [
-        units.record(
-            message,
+        Record(
+            text=message,
             id="hand_over.lossy_gear",
             subject=INTERPOLATED[0],
             severity="warning" if severe else "info",

@@ -111,7 +111,7 @@ class ChainReport:
         at = self.softest
         if not math.isfinite(float(self.chain.total[at])):
             unknown = "rigidity not known: a nut without preload has none without a load"
-            return units.record(unknown, id="verdict.rigidity", subject="total", severity="warning")
+            return Record(text=unknown, id="verdict.rigidity", subject="total", severity="warning")
         shares = {name: float(share[at]) for name, share in self.chain.shares.items()}
         most = max(shares, key=lambda name: shares[name])
         total = float(self.chain.total[at])
@@ -120,7 +120,7 @@ class ChainReport:
             f"softest in its travel with the nut at {self._place(at)}: {rigidity}, "
             f"{units.number(100 * shares[most], 2)} % of the compliance is that of the {most}"
         )
-        return units.record(message, id="verdict.rigidity", subject="total", value=total, unit="N/m")
+        return Record(text=message, id="verdict.rigidity", subject="total", value=total, unit="N/m")
 
     def _speed_record(self) -> Record:
         at, share = self.lowest_critical_speed, float(self.case.limits.critical_speed_share)
@@ -134,8 +134,8 @@ class ChainReport:
             f"support at {self._place(at)}; {units.number(share)} is permitted; {alone} is critical without it, "
             "as in the checks"
         )
-        return units.record(
-            message,
+        return Record(
+            text=message,
             id="verdict.critical_speed",
             subject="critical_speed",
             value=self.largest_speed,
@@ -156,8 +156,8 @@ class ChainReport:
             f"{self._place(at)}, {alone} without it as in the checks; the largest load is {load}, and a safety of "
             f"{units.number(safety)} is asked for"
         )
-        return units.record(
-            message,
+        return Record(
+            text=message,
             id="verdict.buckling",
             subject="buckling_load",
             value=self.largest_load,

@@ -180,7 +180,7 @@ def verdicts(found: Comparison) -> list[Record]:
             text = f"{text}; not valid here: {', '.join(outside)}"
         records.append(_spread_record("compare.models", text, found.spread_of_models))
     if found.spread_of_laws is None:
-        records.append(units.record("none is valid here", id="compare.laws", subject=_TORQUE, holds=False))
+        records.append(Record(text="none is valid here", id="compare.laws", subject=_TORQUE, holds=False))
     else:
         valid = [row for row in (found.case, *found.laws) if row.candidate.counts and not row.outside]
         text = _spread(found.spread_of_laws, valid)
@@ -190,13 +190,13 @@ def verdicts(found: Comparison) -> list[Record]:
         most = list(spans.items())[:_MOST_SHOWN]
         effects = ", ".join(f"{_words(slot)} ({_span(span)})" for slot, span in most)
         slot, span = most[0]
-        records.append(units.record(effects, id="compare.largest_effect", subject=slot, value=max(span, key=abs)))
+        records.append(Record(text=effects, id="compare.largest_effect", subject=slot, value=max(span, key=abs)))
     return records
 
 
 def _spread_record(name: str, text: str, spread: TwoRows, holds: bool | None = None) -> Record:
     least, greatest = (row.torque for row in spread)
-    return units.record(text, id=name, subject=_TORQUE, value=greatest - least, unit="N m", holds=holds)
+    return Record(text=text, id=name, subject=_TORQUE, value=greatest - least, unit="N m", holds=holds)
 
 
 def _spread(spread: TwoRows, rows: Sequence[Row]) -> str:

@@ -64,8 +64,8 @@ def inertia(report: DutyReport) -> list[Record]:
         if missing := _not_given(report):
             message = f"{message}; not given: {missing}"
     return [
-        units.record(
-            message,
+        Record(
+            text=message,
             id="verdict.inertia",
             subject="inertia",
             severity="info",
@@ -122,8 +122,8 @@ def _brake(report: DutyReport) -> Record:
         )
     if brake.load_torque and report.duty.starved:
         message = f"{message}; with the smaller friction, that of the track starved of oil"
-    return units.record(
-        message,
+    return Record(
+        text=message,
         id="verdict.brake",
         subject="brake",
         severity="warning" if brake.falls else "info",
@@ -150,7 +150,7 @@ def _motor(report: DutyReport) -> list[Record]:
     if starvation.FULL_BATH in report.motor.torques:
         message = f"{message}; judged by the larger torque: {_conditions(report.motor)}"
     severity: Severity = "error" if failed else "info"
-    return [units.record(message, id="verdict.motor", subject="motor", severity=severity, holds=not failed)]
+    return [Record(text=message, id="verdict.motor", subject="motor", severity=severity, holds=not failed)]
 
 
 def _conditions(against: MotorCheck) -> str:
@@ -170,7 +170,7 @@ def _checks(report: DutyReport) -> Record:
     words = with_unlikely(verdict_of(report.checks, passes=_PASSES), report.case)
     message = f"over the cycle: {words}"
     severity: Severity = "error" if holds is False else "warning" if report.case.unlikely else "info"
-    return units.record(message, id="verdict.checks", subject="checks", severity=severity, holds=holds)
+    return Record(text=message, id="verdict.checks", subject="checks", severity=severity, holds=holds)
 
 
 def warnings(report: DutyReport) -> list[Record]:
@@ -190,8 +190,8 @@ def warnings(report: DutyReport) -> list[Record]:
 
 
 def _warning(name: str, subject: str, message: str, value: float, limit: float | None, quantity: Quantity) -> Record:
-    return units.record(
-        message,
+    return Record(
+        text=message,
         id=f"duty.{name}",
         subject=subject,
         severity="warning",
@@ -297,8 +297,8 @@ def _short_reversal(report: DutyReport) -> list[Record]:
         "(ballscrew reversal)"
     )
     return [
-        units.record(
-            message,
+        Record(
+            text=message,
             id="duty.short_reversal",
             subject="stroke",
             severity="info",
@@ -375,8 +375,8 @@ def _validity(report: DutyReport) -> list[Record]:
         if not share or condition is None:
             continue
         found.append(
-            units.record(
-                _for_a_share(condition.text, share),
+            Record(
+                text=_for_a_share(condition.text, share),
                 id=f"validity.{name}",
                 subject=condition.subject,
                 severity="warning",
@@ -404,8 +404,8 @@ def _validity_of_elements(report: DutyReport) -> list[Record]:
             share = float(np.sum(weight * ~np.asarray(mask))) / max(float(np.sum(weight)), 1e-300)
             if share and name in known:
                 found.append(
-                    units.record(
-                        f"{element}: {_for_a_share(known[name], share)}",
+                    Record(
+                        text=f"{element}: {_for_a_share(known[name], share)}",
                         id=f"validity.{name}",
                         subject=element.replace(" ", "_"),
                         severity="warning",

@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ballscrew.basis import units
 from ballscrew.basis.errors import Fault, InputError, spoken
 from ballscrew.basis.quantities import Quantity
+from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.case_files.nut_tables import dynamic_rating
 from ballscrew.engine.evaluation.plan import Configuration
@@ -106,14 +106,14 @@ def fit(case: Case, log: TorqueLog, options: FitOptions, done: Callable[[int, in
     warnings = [*constant_torque_missed(model, refit), *of_model, *case.doubts]
     if again:
         message = "the case was fitted to this very log before: its errors are not taken as priors"
-        warnings.append(units.record(message, id="fit.same_log", subject="priors", severity="warning", holds=False))
+        warnings.append(Record(text=message, id="fit.same_log", subject="priors", severity="warning", holds=False))
     test: NextTest | None = None
     try:
         test = model.next_test({**_limits_of_log(model), **options.limits})
     except InputError as error:  # the fit is valid without a next test
         warnings += [
-            units.record(
-                f"no next test: {_with_option(fault)}",
+            Record(
+                text=f"no next test: {_with_option(fault)}",
                 id="fit.no_next_test",
                 subject="next_test",
                 severity="warning",

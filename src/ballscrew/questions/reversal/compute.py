@@ -117,7 +117,7 @@ class ReversalReport:
         else:
             end = units.shown(float(np.asarray(self.curve.travel)[-1]), TRAVEL, 3)
             text = f"{start} less than {share} of the friction is back within {end}"
-        found = [units.record(text, id="reversal.back", subject="screw_torque", value=place.screw_angle, unit="rad")]
+        found = [Record(text=text, id="reversal.back", subject="screw_torque", value=place.screw_angle, unit="rad")]
         two = self.elements[0]
         if self.first is not None and float(np.asarray(self.curve.travel)[-1]) > TRACKING:
             first = units.shown(self.first.model.presliding_stiffness, STIFFNESS, 3)
@@ -128,8 +128,8 @@ class ReversalReport:
                 f"{units.percent(self.tracking.error.largest)} of the steady one"
             )
             found.append(
-                units.record(
-                    text,
+                Record(
+                    text=text,
                     id="reversal.one_stiffness",
                     subject="presliding_stiffness",
                     value=self.tracking.error.largest,
@@ -139,7 +139,7 @@ class ReversalReport:
         text = f"one Maxwell-slip element is off by up to {off}"
         if len(two.elements) > 1:
             text = f"{len(two.elements)} Maxwell-slip elements are off by up to {off}"
-        found.append(units.record(text, id="reversal.slip_elements", subject="slip_elements", value=two.error.largest))
+        found.append(Record(text=text, id="reversal.slip_elements", subject="slip_elements", value=two.error.largest))
         return found
 
     @property
@@ -151,7 +151,7 @@ class ReversalReport:
                 "helix slip that comes back over degrees of the screw is a hypothesis: it is computed, and the log of "
                 "one axis (EMPS: guides, an unknown screw) is all that speaks for it"
             )
-            found.append(units.record(text, id="reversal.hypothesis", subject="helix", severity="warning"))
+            found.append(Record(text=text, id="reversal.hypothesis", subject="helix", severity="warning"))
         ratio = float(self.reversal.bristles_over_model)
         if abs(ratio - 1) > BRISTLES_OFF:
             text = (
@@ -159,8 +159,8 @@ class ReversalReport:
                 "of the model, to which the curve is scaled: its shape is as uncertain"
             )
             found.append(
-                units.record(
-                    text,
+                Record(
+                    text=text,
                     id="reversal.bristles",
                     subject="bristles_over_model",
                     severity="warning",
@@ -179,12 +179,10 @@ class ReversalReport:
             )
             worst = max(fit.work_error for fit in self.elements)
             found.append(
-                units.record(
-                    text, id="reversal.work_of_elements", subject="slip_elements", severity="info", value=worst
-                )
+                Record(text=text, id="reversal.work_of_elements", subject="slip_elements", severity="info", value=worst)
             )
         text = "the stiffness of the first hundredths of a degree is known to a factor of three"
-        found.append(units.record(text, id="reversal.first_range", subject="spin_and_curvature", severity="info"))
+        found.append(Record(text=text, id="reversal.first_range", subject="spin_and_curvature", severity="info"))
         return [*found, *self.case.implausible()]
 
 

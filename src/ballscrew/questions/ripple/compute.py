@@ -103,7 +103,7 @@ class RippleReport:
             f"the torque goes up and down by {_torque(found.peak_to_peak)}, {units.percent(found.relative)} of its "
             f"mean; its greatest order is {most.order:.3g} per turn ({most.name}), {_torque(most.amplitude)}"
         )
-        return units.record(message, id="ripple.size", subject="peak_to_peak", value=found.peak_to_peak, unit="N m")
+        return Record(text=message, id="ripple.size", subject="peak_to_peak", value=found.peak_to_peak, unit="N m")
 
     def _fault(self, name: str, found: Ripple) -> Record:
         shown = shows(self.ripple, found)
@@ -113,7 +113,7 @@ class RippleReport:
             f"{name}: torque {'shows it' if shown else 'is a poor sensor of it'}, its mean is {mean} and its range "
             f"over the mean {range_over_mean} of what they were"
         )
-        return units.record(message, id=f"ripple.{name.partition('=')[0]}", subject="torque", holds=shown)
+        return Record(text=message, id=f"ripple.{name.partition('=')[0]}", subject="torque", holds=shown)
 
 
 def shows(usual: Ripple, found: Ripple) -> bool:

@@ -117,7 +117,7 @@ def verdicts(report: SensitivityReport) -> list[Record]:
 
     def verdict(name: str, subject: str, message: str, value: float | None = None, holds: bool | None = None) -> Record:
         limit = None if value is None else HALF
-        return units.record(message, id=f"sensitivity.{name}", subject=subject, value=value, limit=limit, holds=holds)
+        return Record(text=message, id=f"sensitivity.{name}", subject=subject, value=value, limit=limit, holds=holds)
 
     if result.is_constant:
         message = f"the {meaning} does not depend on any of these inputs"
@@ -145,8 +145,17 @@ def warnings(case: case_file.Case, report: SensitivityReport) -> list[Record]:
     result = report.result
     if result.left_out:
         message = f"{units.fixed(result.left_out)} samples or trajectories are left out as they have no number"
-        of_samples = {"subject": result.output, "value": float(result.left_out), "limit": 0.0}
-        records.append(units.record(message, id="sensitivity.left_out", severity="warning", holds=False, **of_samples))
+        records.append(
+            Record(
+                text=message,
+                id="sensitivity.left_out",
+                subject=result.output,
+                severity="warning",
+                holds=False,
+                value=float(result.left_out),
+                limit=0.0,
+            )
+        )
     if case.calibration is not None:
-        records.append(units.record(CORRELATED, id="sensitivity.correlated", subject="calibration", severity="warning"))
+        records.append(Record(text=CORRELATED, id="sensitivity.correlated", subject="calibration", severity="warning"))
     return records

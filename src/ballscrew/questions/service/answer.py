@@ -172,7 +172,7 @@ def verdicts(case: Case, report: ServiceReport) -> list[Record]:
     change = report.change
     if not change.logarithm.told:
         text = "the preload cannot be told from this: see the warnings"
-        return [units.record(text, id="service.preload_left", subject=PRELOAD, severity="warning")]
+        return [Record(text=text, id="service.preload_left", subject=PRELOAD, severity="warning")]
     low, high = (units.percent(end) for end in change.ratio_interval())
     limit = 1 - change.tolerance
     preload = "nominal preload" if change.new.fit is None else "preload"
@@ -183,8 +183,8 @@ def verdicts(case: Case, report: ServiceReport) -> list[Record]:
     holds = {"lost": False, "kept": True, "open": None}[change.verdict]
     severity = "warning" if change.verdict == "lost" else "info"
     records = [
-        units.record(
-            text,
+        Record(
+            text=text,
             id="service.preload_left",
             subject=PRELOAD,
             severity=severity,
@@ -215,8 +215,8 @@ def _of_alternative(one: Alternative) -> Record:
     )
     if one.explains:
         text += f"; {_KNOWN[one.plausible]}"
-    return units.record(
-        text,
+    return Record(
+        text=text,
         id="service.alternative",
         subject=one.name,
         value=one.value,
@@ -237,7 +237,7 @@ def _of_reading(case: Case, report: ServiceReport) -> Record:
         share, least, most = (units.percent(force / nominal) for force in found)
         text += f", {share} of the {units.shown(float(nominal), quantity)} of the case ({least} to {most})"
     text += _taken_at(case, report)
-    return units.record(text, id="service.preload", subject=PRELOAD, value=report.preload.preload, unit="N")
+    return Record(text=text, id="service.preload", subject=PRELOAD, value=report.preload.preload, unit="N")
 
 
 def _taken_at(case: Case, report: ServiceReport) -> str:

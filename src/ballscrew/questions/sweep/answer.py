@@ -117,8 +117,8 @@ def warnings(dataset: xr.Dataset) -> list[Record]:
         return []
     message = f"{units.number(count, 9)} of {units.number(valid.size, 9)} points lie outside the model's validity"
     return [
-        units.record(
-            message,
+        Record(
+            text=message,
             id="validity.points",
             subject="valid",
             severity="warning",

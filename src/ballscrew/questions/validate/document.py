@@ -97,8 +97,8 @@ def checks(entry: Entry) -> list[Record]:
         return []
     message = f"{units.percent(share)} of the rows lie in their band"
     return [
-        units.record(
-            message,
+        Record(
+            text=message,
             id="validation.share_in_band",
             subject=entry.data.name,
             severity="info" if share == 1 else "warning",
@@ -124,8 +124,8 @@ def warnings(entry: Entry) -> list[Record]:
 
 
 def _rows_record(name: str, subject: str, message: str, rows: int) -> Record:
-    return units.record(
-        f"{units.fixed(rows)} rows: {message}",
+    return Record(
+        text=f"{units.fixed(rows)} rows: {message}",
         id=f"validation.{name}",
         subject=subject,
         severity="warning",

@@ -148,8 +148,8 @@ class SelfHeating:
             f"{units.shown(self.torque, _TORQUE)}, not {units.shown(self.torque_given, _TORQUE)}; stability margin of "
             f"the thermal loop {end.shown_margin}, thermal runaway at 0"
         )
-        return units.record(
-            message,
+        return Record(
+            text=message,
             id="verdict.self_heating",
             subject="lubricant.temperature",
             severity="info",

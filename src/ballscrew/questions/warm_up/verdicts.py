@@ -40,8 +40,8 @@ def _starved(report: WarmUpReport) -> list[Record]:
     if ends.exists or not report.warm_up.equilibrium.exists:
         return said
     message = "in a full bath of oil there is no steady state: thermal runaway, or too hot for the model"
-    record = units.record(
-        message,
+    record = Record(
+        text=message,
         id="verdict.equilibrium_of_full_bath",
         subject="equilibrium",
         severity="error",
@@ -72,8 +72,8 @@ def _preload(report: WarmUpReport) -> list[Record]:
             "their own rates"
         )
     return [
-        units.record(
-            message,
+        Record(
+            text=message,
             id="verdict.preload",
             subject="preload",
             severity="warning" if lost else "info",
@@ -116,7 +116,7 @@ def band_records(found: WarmUpBandReport) -> list[Record]:
             "the bands have the radial growth alone: how the halves of the nut are braced moves the preload "
             "farther; give [surroundings] bracing"
         )
-        said.append(units.record(message, id="band.bracing", subject="preload", severity="warning"))
+        said.append(Record(text=message, id="band.bracing", subject="preload", severity="warning"))
     away, lost = 1 - bands.steady_share, 1 - float(bands.known_share[-1])
     if not away and not lost:
         return said
@@ -125,8 +125,10 @@ def band_records(found: WarmUpBandReport) -> list[Record]:
         f"the range of oil and preload, and {units.number(100 * lost, 2)} % leave it before the end: from then on "
         "they are not in the bands, whose ends are too narrow"
     )
-    fields = {"id": "band.no_steady_state", "subject": "equilibrium", "severity": "warning", "value": away}
-    return [*said, units.record(message, **fields)]
+    return [
+        *said,
+        Record(text=message, id="band.no_steady_state", subject="equilibrium", severity="warning", value=away),
+    ]
 
 
 def _assumed_length(report: WarmUpReport) -> list[Record]:
@@ -138,8 +140,8 @@ def _assumed_length(report: WarmUpReport) -> list[Record]:
         "depends: give surroundings.shaft_length, or an [installation]"
     )
     return [
-        units.record(
-            message,
+        Record(
+            text=message,
             id="warm_up.assumed_length",
             subject="surroundings.shaft_length",
             severity="warning",
@@ -156,7 +158,7 @@ def _own_temperatures(report: WarmUpReport) -> list[Record]:
     message = (
         "the motion has temperatures of the oil of its own, which do not count: the oil is as warm as nut and shaft"
     )
-    return [units.record(message, id="warm_up.own_temperatures", subject="motion.segment", severity="warning")]
+    return [Record(text=message, id="warm_up.own_temperatures", subject="motion.segment", severity="warning")]
 
 
 def _long_cycle(report: WarmUpReport) -> list[Record]:
@@ -171,7 +173,7 @@ def _long_cycle(report: WarmUpReport) -> list[Record]:
         "state that of heat spread over the stroke"
     )
     return [
-        units.record(
-            message, id="verdict.long_cycle", subject="motion", severity="info", holds=True, value=cycle, unit="s"
+        Record(
+            text=message, id="verdict.long_cycle", subject="motion", severity="info", holds=True, value=cycle, unit="s"
         )
     ]
