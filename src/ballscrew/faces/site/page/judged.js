@@ -192,7 +192,7 @@ export class BallView extends View {
     this.engine = engine;
     /** @type {Record<string, number>} */
     this.places = {};
-    this.canvas = element("canvas", { role: "img", "aria-label": this.words.heading });
+    this.canvas = element("canvas", { role: "img", "aria-label": this.heading });
     this.chart.replaceWith(element("div", { class: "picture" }, this.canvas));
   }
 
@@ -235,6 +235,6 @@ export class BallView extends View {
   }
 
   description() {
-    return `${this.words.heading}. ${this.#said()}`;
+    return `${this.heading}. ${this.#said()}`;
   }
 }

@@ -74,7 +74,7 @@ export class View {
   constructor(scene, id, { heading, hint = "", hasChart = true }) {
     this.scene = scene;
     this.id = id;
-    this.words = { heading };
+    this.heading = heading;
     this.hint = element("p", { class: "hint" }, hint);
     this.note = element("p", { class: "shaded" });
     this.chart = element("div", { class: "chart", id: `${id}-chart`, hidden: !hasChart });
@@ -124,8 +124,8 @@ export class View {
     };
     draw(`${this.id}-chart`, {
       name: this.id.replaceAll("-", "_"),
-      caption: `Numbers: ${this.words.heading}`,
-      description: [this.words.heading, said].filter(Boolean).join(". "),
+      caption: `Numbers: ${this.heading}`,
+      description: [this.heading, said].filter(Boolean).join(". "),
       figure,
       drag: drag || undefined,
       save: this.scene.save,
