@@ -31,6 +31,7 @@ from ballscrew.questions.fit.options import FitOptions
 from ballscrew.questions.fit_motion.options import FitMotionOptions
 from ballscrew.questions.hand_over.options import HandOverOptions
 from ballscrew.questions.optimise.options import OptimiseOptions
+from ballscrew.questions.records import QUESTIONS
 from ballscrew.questions.reversal.options import ReversalOptions
 from ballscrew.questions.ripple.options import RippleOptions
 from ballscrew.questions.select.options import ListOptions, SelectOptions
@@ -74,7 +75,7 @@ BODIES = {
     ReportOptions: ReportBody,
     SelectOptions: NeedBody,
     SweepOptions: SweepBody,
-    **{cls: question_api.BODIES[each.name] for each in question_api.QUESTIONS for cls in each.sent_options},
+    **{cls: question_api.BODIES[each.name] for each in QUESTIONS for cls in each.sent_options},
 }
 
 

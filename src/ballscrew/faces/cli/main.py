@@ -21,16 +21,8 @@ from ballscrew.basis import pint_plugins as _pint_plugins
 from ballscrew.faces.cli import INTERRUPTED, cases, choosing, lists, logs, questions, sharing
 from ballscrew.faces.cli.options import with_flags
 from ballscrew.faces.cli.progress import compiling_on_terminal
-from ballscrew.questions.axis.question import QUESTION as AXIS
-from ballscrew.questions.compare_designs.question import QUESTION as COMPARE
-from ballscrew.questions.condition.question import QUESTION as CONDITION
-from ballscrew.questions.duty.question import QUESTION as DUTY
-from ballscrew.questions.reversal.question import QUESTION as REVERSAL
-from ballscrew.questions.ripple.question import QUESTION as RIPPLE
-from ballscrew.questions.sensitivity.question import QUESTION as SENSITIVITY
-from ballscrew.questions.service.question import QUESTION as SERVICE
+from ballscrew.questions.records import AXIS, COMPARE, CONDITION, DUTY, REVERSAL, RIPPLE, SENSITIVITY, SERVICE, WARM_UP
 from ballscrew.questions.shared.question import CALIBRATION_NAMES, MODEL_NAMES, Question
-from ballscrew.questions.warm_up.question import QUESTION as WARM_UP
 
 
 class _Command(TyperCommand):

@@ -17,19 +17,9 @@ from ballscrew.faces.web.endpoint_parts import post, with_sheet
 from ballscrew.faces.web.limits import check_options
 from ballscrew.faces.web.request_queue import Deadline
 from ballscrew.faces.web.sent_files import written
-from ballscrew.questions.axis.question import QUESTION as AXIS
-from ballscrew.questions.compare_designs.question import QUESTION as COMPARE
-from ballscrew.questions.condition.question import QUESTION as CONDITION
-from ballscrew.questions.duty.question import QUESTION as DUTY
-from ballscrew.questions.reversal.question import QUESTION as REVERSAL
-from ballscrew.questions.ripple.question import QUESTION as RIPPLE
-from ballscrew.questions.sensitivity.question import QUESTION as SENSITIVITY
-from ballscrew.questions.service.question import QUESTION as SERVICE
+from ballscrew.questions.records import QUESTIONS
 from ballscrew.questions.shared.options import body_fields, options_of
 from ballscrew.questions.shared.question import Question, Request, Sent
-from ballscrew.questions.warm_up.question import QUESTION as WARM_UP
-
-QUESTIONS = (AXIS, COMPARE, CONDITION, DUTY, REVERSAL, RIPPLE, SENSITIVITY, SERVICE, WARM_UP)
 
 router = APIRouter()
 

@@ -26,8 +26,8 @@ from ballscrew.faces.web.jobs import API, Jobs
 from ballscrew.faces.web.kept_answers import KeptAnswers
 from ballscrew.faces.web.modules import Modules
 from ballscrew.faces.web.problems import Refused
-from ballscrew.faces.web.question_api import AXIS, CONDITION, DUTY, SENSITIVITY, WARM_UP
 from ballscrew.faces.web.request_queue import Deadline, RequestQueue
+from ballscrew.questions.records import AXIS, CONDITION, DUTY, SENSITIVITY, WARM_UP
 from ballscrew.questions.run.compute import run
 
 
