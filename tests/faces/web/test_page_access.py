@@ -55,6 +55,7 @@ def test_everything_is_reached_by_tab_and_is_seen_to_be(visit):
     here = visit().open(f"#A={DOUBLE}&B=paper")
     here.see("#over-input").page.wait_for_selector("#over-input-of option", state="attached")
     here.page.evaluate(OPEN_ALL)
+    here.page.wait_for_selector('#over-input[aria-busy="false"]', state="attached")
     here.rest(200)
     reached, hidden = [], []
     count = here.page.evaluate(
