@@ -80,6 +80,36 @@ def test_the_torque_is_that_of_the_model_and_of_its_case(visit, name):
     assert found["outputs"]["screw_torque"] == pytest.approx(torque_of(found["case"]), rel=TOLERANCE, abs=0)
 
 
+#: The torque in a full bath of oil at the ends of a chart, in SI.
+FULL_BATH = """(id) => {
+  const { marks } = document.querySelector(`#${id} .plot`).drawn.figure;
+  const curve = marks.find(({ name }) => name === "in a full bath of oil");
+  return [curve.x.at(-1), curve.y.at(-1)];
+}"""
+
+
+def test_a_full_bath_stands_beside_a_screw_that_is_starved(visit):
+    """Cold, thick oil: in the headline, and as a curve over the speed, over the load and beside the band."""
+    cold = "&grade=ISO+VG+220&temperature=5&axial_load=3000&screw_speed=1000"
+    here = visit().open(f"#start=rexroth-40x10x6-6-double&kind=double{cold}")
+    case = case_file.build(here.state()["case"], rows=catalogue())
+    friction = case.model(
+        case.screw, case.lubricant, axial_load=case.operation.axial_load, screw_speed=case.operation.screw_speed
+    )
+    assert here.page.text_content("#full-bath") == f"in a full bath of oil {float(friction.flooded_torque):.4g} N·m"
+    for chart in ("over-speed", "fan", "over-load"):
+        here.page.locator(f"#{chart}").scroll_into_view_if_needed()
+        here.page.wait_for_selector(f"#{chart} .plot[data-drawn]")
+        x, torque = here.page.evaluate(FULL_BATH, chart)
+        load, speed = (x, case.operation.screw_speed) if chart == "over-load" else (3000.0, x * math.pi / 30)
+        expected = case.model(case.screw, case.lubricant, axial_load=load, screw_speed=speed).flooded_torque
+        assert torque == pytest.approx(float(expected), rel=1e-9), chart
+    here.slide("lubricant.temperature", 80)
+    here.rest()
+    assert not here.page.is_visible("#full-bath")
+    assert here.page.evaluate(FULL_BATH.replace("return [", "return curve && ["), "over-speed") is None
+
+
 #: A slider by its path, moved by a share of its range.
 MOVE = """([path, share]) => {
   const slider = document.querySelector(`input[type=range][name="${path}"]`);

@@ -12,6 +12,7 @@ import pytest
 from ballscrew.basis.units import to_digits
 
 from .conftest import BUSY, Visit, new_page
+from .drawn_charts import chart
 
 DOUBLE = "rexroth-16x5x3-4-double"
 #: A preloaded nut of rigid bodies, which is computed quickly.
@@ -369,6 +370,12 @@ def test_a_starved_screw_beside_a_full_bath(go):
     assert "in a full bath of oil" in here.text("#verdicts")
     assert "replenishment_constant" not in here.text("#verdicts")
     assert "for an inlet full of oil" in here.text("#contacts")
+    curves = {name: y for name, _, y in chart(here, "torque-chart")["curves"]}
+    assert curves["in a full bath of oil"][-1] > 2 * curves["sum"][-1]
+    here.type("operation.axial_load", "3.1 kN")  # the module of the page has both, before the server answers
+    moved = {name: y for name, _, y in chart(here, "torque-chart")["curves"]}
+    assert moved["in a full bath of oil"] != curves["in a full bath of oil"]
+    here.type("operation.axial_load", "3 kN")
     beside = here.page.locator("#temperatures tbody tr >> nth=1").locator("data >> nth=1").get_attribute("value")
     here.page.locator("#bath").click()
     here.page.wait_for_selector("#bath:has-text('Compute without')")

@@ -209,7 +209,8 @@ class _Asked:
     async def curve(self, curve: Curve) -> dict[str, Any]:
         """The document of a sweep."""
         case = self.found.case
-        plan = sweeps.plan(case, [f"{name}={text}" for name, text in curve.vary.items()], curve.outputs, None)
+        axes = [f"{name}={text}" for name, text in curve.vary.items()]
+        plan = sweeps.with_flooded_torque(case, sweeps.plan(case, axes, curve.outputs, None))
 
         def work(done: Deadline) -> dict[str, Any]:
             return sweep_documents.document(case, plan, sweeps.sweep(case, plan, done))

@@ -1,7 +1,7 @@
 // The charts of the page.
 
 import { element } from "../../web/page/dom.js";
-import { linesByValidity, pointAt } from "../../web/page/figure_parts.js";
+import { FULL_BATH, fullBath, linesByValidity, pointAt, REPLENISHMENT } from "../../web/page/figure_parts.js";
 import { SPEED, TORQUE } from "./bands.js";
 import { evenly, holding, inShownUnit, inSiUnit, reasonsIn, View } from "./view.js";
 import { digitsOf, plainDigits, signOf, withUnit } from "./words.js";
@@ -56,6 +56,20 @@ export function torqueCurve(x, torque) {
   return { kind: "curve", name: "friction torque", x, y: torque, colour: "ink", style: "line", width: 2 };
 }
 
+/**
+ * The torque in a full bath of oil, where the operating point is starved of it; none elsewhere.
+ *
+ * @param {Scene} scene
+ * @param {Values} x
+ * @param {Record<string, number | ArrayLike<number>>} changes inputs along the curve
+ * @returns {Mark[]}
+ */
+export function bathCurve(scene, x, changes) {
+  if (!scene.inputs[REPLENISHMENT] || scene.floodedTorque() === undefined) return [];
+  const flooded = scene.evaluate({ ...changes, ...FULL_BATH }, x.length);
+  return [fullBath(x, inShownUnit(flooded[TORQUE], scene.case.contents.results[TORQUE]))];
+}
+
 /** The friction torque in its parts, piled up over the speed or the load. */
 export class Parts extends View {
   /**
@@ -74,12 +88,14 @@ export class Parts extends View {
     const { fields, results } = scene.case.contents;
     const end = endOf(scene, over);
     const x = evenly(end * BEGIN, end, scene.count(POINTS, LEAST));
-    const found = scene.evaluate({ [over]: inSiUnit(x, fields[over]) }, x.length);
+    const along = { [over]: inSiUnit(x, fields[over]) };
+    const found = scene.evaluate(along, x.length);
     const torque = inShownUnit(found[TORQUE], results[TORQUE]);
     const [present] = inShownUnit([scene.outputs[TORQUE]], results[TORQUE]);
     const marks = [
       ...this.#piles(x, found),
       torqueCurve(x, torque),
+      ...bathCurve(scene, x, along),
       ...this.marksOf(x, found, scene.case.shown(over), present),
     ];
     this.show(

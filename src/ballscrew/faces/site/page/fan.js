@@ -2,7 +2,7 @@
 
 import { element } from "../../web/page/dom.js";
 import { SPEED, TORQUE } from "./bands.js";
-import { axisOf, BEGIN, endOf, torqueCurve, torqueTitle } from "./charts.js";
+import { axisOf, bathCurve, BEGIN, endOf, torqueCurve, torqueTitle } from "./charts.js";
 import { evenly, inShownUnit, inSiUnit, View } from "./view.js";
 import { digitsOf, signOf } from "./words.js";
 
@@ -66,12 +66,14 @@ export class Fan extends View {
     const { fields, results } = scene.case.contents;
     const end = endOf(scene, SPEED);
     const x = evenly(end * BEGIN, end, scene.count(POINTS_OF_LINE, LEAST_OF_LINE));
-    const found = scene.evaluate({ [SPEED]: inSiUnit(x, fields[SPEED]) }, x.length);
+    const along = { [SPEED]: inSiUnit(x, fields[SPEED]) };
+    const found = scene.evaluate(along, x.length);
     const { fan, point } = scene.banded();
     const [now] = inShownUnit([scene.outputs[TORQUE]], results[TORQUE]);
     /** @type {Mark[]} */
     const marks = [
       torqueCurve(x, inShownUnit(found[TORQUE], results[TORQUE])),
+      ...bathCurve(scene, x, along),
       ...this.marksOf(x, found, scene.case.shown(SPEED), now),
     ];
     if (fan) {

@@ -55,6 +55,10 @@ export class Headline {
       const shown = name === "efficiency" && !screwDrives ? "back_driving_efficiency" : name;
       place.textContent = this.#text(shown);
     }
+    const flooded = scene.floodedTorque();
+    byId("full-bath").hidden = flooded === undefined;
+    if (flooded !== undefined)
+      byId("full-bath").textContent = `in a full bath of oil ${digitsOf(flooded)} ${signOf("N m")}`;
     this.#writeVerdicts();
     const reasons = outputs.valid === 1 ? [] : reasonsIn(scene.case, Object.fromEntries(entriesOf(outputs)));
     const words = reasons.length

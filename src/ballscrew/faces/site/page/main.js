@@ -25,6 +25,8 @@ const BUDGET = 8;
 const BUDGET_AT_REST = 80;
 /** Milliseconds of a point that was not measured yet: of a nut whose balls are solved one by one, and of others. */
 const USUAL_PACE = [2, 0.01];
+/** The verdict on a screw that is starved of oil. */
+const STARVED = "lubricant.starved";
 const SCHEME_KEPT = "ballscrew-site-scheme";
 const SCHEMES = ["light", "dark"];
 
@@ -74,6 +76,10 @@ const scene = {
   change(name, shown) {
     edit(name, controls.snapped(name, shown));
     controls.show(name);
+  },
+  floodedTorque() {
+    const records = scene.judged ? [...scene.judged.verdicts, ...scene.judged.warnings] : [];
+    return records.find(({ id }) => id === STARVED)?.value ?? undefined;
   },
   give(name, shown) {
     if (shown === undefined) delete shownCase.state.given[name];

@@ -20,6 +20,7 @@ import { valueAt } from "../../web/page/figure_words.js";
  *   range: (name: string) => { min: number, max: number },
  *   change: (name: string, shown: number) => void,
  *   judged: (ReturnType<typeof import("./judgements.js").recordsOf> & { derived: Record<string, any> }) | undefined,
+ *   floodedTorque: () => number | undefined,
  *   give: (name: string, shown: number | string | undefined) => void,
  *   banded: () => import("./banding.js").Banded,
  *   save: (name: string, content: Blob) => void,

@@ -3,7 +3,7 @@
 import * as parts from "./chart_parts.js";
 import { hide } from "./chart_place.js";
 import { element } from "./dom.js";
-import { OUTSIDE, linesByValidity, outside, pointAt } from "./figure_parts.js";
+import { FLOODED, fullBath, linesByValidity, OUTSIDE, outside, pointAt } from "./figure_parts.js";
 import { yesOrNo } from "./figure_words.js";
 import { draw } from "./plot.js";
 import { data, greatestPressure, leastFilm } from "./results.js";
@@ -153,6 +153,9 @@ export function torque(swept, answer, mechanisms, banded) {
           note,
           heading: title,
         },
+        ...(FLOODED in swept.outputs
+          ? [fullBath(speeds, parts.converted("screw_torque", swept.outputs[FLOODED]))]
+          : []),
         outside(speeds, parts.validAlong(swept)),
         pointAt(units.inDisplayUnit("screw_speed", operation.screw_speed), units.inDisplayUnit("screw_torque", sum)),
       ],

@@ -235,14 +235,16 @@ class LocalEngine {
    *
    * @param {Values} values
    * @param {Point[]} points
+   * @param {Values} [changed] inputs in place of those among the values
    * @returns {Found}
    */
-  at(values, points) {
+  at(values, points, changed = {}) {
     // that of the case which the values are of: another one may have come meanwhile
     const engine = this.#engineOf.get(values) ?? /** @type {Known} */ (this.#known).engine;
     const start = performance.now();
     const given = {
       ...values,
+      ...changed,
       axial_load: Float64Array.from(points, (point) => point.axial_load),
       screw_speed: Float64Array.from(points, (point) => point.screw_speed),
     };

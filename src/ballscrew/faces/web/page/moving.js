@@ -1,6 +1,7 @@
 // What is shown while something moves: numbers and curves of the module in the browser, in the form of the answers that
 // the server sends when it rests.
 
+import { FLOODED, FULL_BATH } from "./figure_parts.js";
 import { localEngine, pointOf, pointsOf } from "./local_engine.js";
 
 /** @typedef {import("./local_engine.js").Values} Values */
@@ -76,22 +77,22 @@ export function curvesOf(before, values, isHeld, time) {
   /** @type {[string, Record<string, number[]>, Point[]][]} */
   const wanted = [];
   let sum = 0;
-  for (const [curve, { axes }] of Object.entries(before)) {
+  for (const [curve, { axes, outputs }] of Object.entries(before)) {
     const held = Object.entries(axes).map(([name, axis]) => [
       name,
       isHeld ? /** @type {number[]} */ (axis.values) : around[curve][name],
     ]);
     const own = Object.fromEntries(held);
-    const points = pointsOf(point, own);
-    sum += points.length;
+    const along = pointsOf(point, own);
+    sum += FLOODED in outputs ? 2 * along.length : along.length;
     if (wanted.length && localEngine.timeOf(sum) > time) break;
-    wanted.push([curve, own, points]);
+    wanted.push([curve, own, along]);
   }
   if (!wanted.length) return {};
-  const found = localEngine.at(
-    values,
-    wanted.flatMap(([, , points]) => points),
-  );
+  const points = wanted.flatMap(([, , own]) => own);
+  const found = localEngine.at(values, points);
+  if (wanted.some(([curve]) => FLOODED in before[curve].outputs))
+    found[FLOODED] = localEngine.at(values, points, FULL_BATH).screw_torque;
   let from = 0;
   return Object.fromEntries(
     wanted.map(([curve, axes, { length }]) => {
