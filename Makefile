@@ -92,12 +92,13 @@ js: $(READY) $(NODE_READY)
 pages: $(READY)
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python docs/writer/write.py $(if $(CHECK),--check) $(if $(UNLESS_STAMPED),--unless-stamped) $(PAGE)
 
-# into out/docs, with the static page beside it, which takes most of the time
+# into out/docs, with the static page beside it, which takes most of the time, and out/cheat_sheet.pdf
 # What is written while a build goes on is not whole: out/docs/.built stands from its end to the next
 docs: $(READY)
 	@rm -f out/docs/.built
 	$(BIN)/sphinx-build -W --keep-going -q -b html docs out/docs
 	@touch out/docs/.built
+	$(BIN)/python docs/make_cheat_sheet.py out/cheat_sheet.pdf
 	$(BIN)/python -m pytest -q -n 0 -k built tests/docs/test_links.py
 
 readme: $(READY)
