@@ -14,12 +14,12 @@ import ballscrew as bs
 from ballscrew.basis import units
 from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.cases.case_files import case_file
-from ballscrew.physics.components.laws import Hysteresis
 from ballscrew.physics.components.materials import grades
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import presets
 from ballscrew.physics.friction.plausibility import IMPLAUSIBLE, implausible, named_parts
+from ballscrew.physics.laws.rolling import Hysteresis
 from ballscrew.physics.sizing.catalogue import catalogue
 from ballscrew.questions.validate import compute as validation
 

@@ -13,7 +13,7 @@ from ballscrew.basis.output.sheet import Columns, Number, Table, words
 from ballscrew.cases.case_files import case_file
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.faces.sheets import report_blocks, terminal
-from ballscrew.physics.components.film_laws import Inlet
+from ballscrew.physics.laws.inlet import Inlet
 from ballscrew.questions.band import compute as band
 from ballscrew.questions.band import document as band_documents
 from ballscrew.questions.band.options import BandOptions

@@ -8,14 +8,14 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.basis.errors import InputError
-from ballscrew.physics.components.mixed_friction import LoadSharing
 from ballscrew.physics.components.nut import Bodies, Deviations, DoubleNut, OffsetLeadNut, OversizeBallNut, SingleNut
-from ballscrew.physics.components.nut_losses import Recirculation, Seals
 from ballscrew.physics.friction.balls import ball_friction, idle_ball_friction
 from ballscrew.physics.friction.law_names import LAWS
 from ballscrew.physics.friction.nut_friction import nut_friction
 from ballscrew.physics.friction.result import MECHANISMS
 from ballscrew.physics.friction.validity import NUT_REASONS
+from ballscrew.physics.laws.friction import LoadSharing
+from ballscrew.physics.laws.nut_losses import Recirculation, Seals
 from ballscrew.physics.solvers.load_distribution import ball_loads
 from support.nut_cases import KINDS, nut_case
 from support.strategies import MODELS, RPM, constant_friction, reference, with_ball_force, without_losses_of_rolling

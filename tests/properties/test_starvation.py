@@ -14,9 +14,9 @@ from ballscrew.axis.duty_cycle.drive import MotorCheck
 from ballscrew.axis.duty_cycle.duty import duty
 from ballscrew.axis.duty_cycle.motor import Motor
 from ballscrew.axis.motion.profiles import Trapezoid
-from ballscrew.physics.components.film_laws import Inlet
 from ballscrew.physics.friction import starvation
 from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.laws.inlet import Inlet
 
 MODEL = FrictionModel.reference()
 SCREW = bs.BallScrew(

@@ -27,9 +27,9 @@ from ballscrew.engine.uncertainty.default_uncertainties import (
 )
 from ballscrew.engine.uncertainty.distributions import LogNormal, Normal, Uniform
 from ballscrew.engine.uncertainty.sampling import JointNormal
-from ballscrew.physics.components.laws import ProportionalBallForce, imposed_ball_force
-from ballscrew.physics.components.mixed_friction import BalanSharing
-from ballscrew.physics.components.rolling_laws import houpert_rolling
+from ballscrew.physics.laws.ball_chain import ProportionalBallForce, imposed_ball_force
+from ballscrew.physics.laws.friction import BalanSharing
+from ballscrew.physics.laws.rolling import houpert_rolling
 from ballscrew.physics.solvers.load_distribution import preload_growth, preload_of
 from ballscrew.questions.band import compute
 

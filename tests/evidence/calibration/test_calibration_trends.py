@@ -8,7 +8,7 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.evidence.validation.entries import Conditions
-from ballscrew.physics.components.mixed_friction import RunInSharing
+from ballscrew.physics.laws.friction import RunInSharing
 
 BENCHMARKS = Path(__file__).parents[3] / "benchmarks"
 

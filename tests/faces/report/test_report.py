@@ -39,8 +39,8 @@ from ballscrew.faces.report.heading import Heading
 from ballscrew.faces.report.html import html_bytes
 from ballscrew.faces.report.options import ReportOptions
 from ballscrew.faces.report.pdf import pdf_bytes
-from ballscrew.physics.components.nut_losses import ConstantTorque
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.laws.nut_losses import ConstantTorque
 from ballscrew.questions.axis.compute import SERIES as CHAIN
 from ballscrew.questions.axis.compute import chain_of
 from ballscrew.questions.band import compute as band

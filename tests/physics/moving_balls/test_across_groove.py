@@ -8,9 +8,9 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.evidence.papers.olaru2005 import SCREW
-from ballscrew.physics.components.frame import helix_frame
 from ballscrew.physics.equations import across_groove, deflection
 from ballscrew.physics.friction.across_groove import friction_across, preload_off_line
+from ballscrew.physics.laws.frame import helix_frame
 from ballscrew.physics.moving_balls.across_groove import off_line_balls
 from ballscrew.physics.moving_balls.brush import BallContacts, Brush
 from ballscrew.physics.moving_balls.ripple import torque_ripple

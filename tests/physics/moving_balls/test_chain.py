@@ -8,8 +8,8 @@ import pint
 import pytest
 
 import ballscrew as bs
-from ballscrew.physics.components.chain_force import ChainBallForce
 from ballscrew.physics.equations import ball_chain
+from ballscrew.physics.laws.ball_chain import ChainBallForce
 from ballscrew.physics.moving_balls.chain import Circuit, chain_run
 from ballscrew.physics.moving_balls.loaded_zone import Groove, loaded_zone
 

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.physics.components.conditions import Motion
-from ballscrew.physics.components.frame import helix_frame
-from ballscrew.physics.components.laws import ProportionalBallForce
 from ballscrew.physics.friction.balls import ball_contacts
+from ballscrew.physics.laws.ball_chain import ProportionalBallForce
+from ballscrew.physics.laws.conditions import Motion
+from ballscrew.physics.laws.frame import helix_frame
 from ballscrew.physics.solvers.four_point_slip import PARTS, FlankPair, FourPointBall, four_point_slip
 from oracles.contact_integral import contact_integral
 from oracles.free_ball import BallResistances

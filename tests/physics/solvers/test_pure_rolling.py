@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.physics.components.balance import Resistances
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import equilibrium, friction
+from ballscrew.physics.laws.balance import Resistances
 from ballscrew.physics.solvers import pure_rolling
 from ballscrew.physics.solvers.slip import BallProblem
 

@@ -11,8 +11,8 @@ from ballscrew.basis.errors import InputError
 from ballscrew.basis.output.sheet import Columns, Table
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import terminal
-from ballscrew.physics.components.chain_force import ChainBallForce
-from ballscrew.physics.components.nut_losses import ReturnBraking
+from ballscrew.physics.laws.ball_chain import ChainBallForce
+from ballscrew.physics.laws.nut_losses import ReturnBraking
 from ballscrew.physics.moving_balls.ripple import (
     FullCircuit,
     MissingBall,

@@ -45,10 +45,10 @@ from ballscrew.physics.components.materials import Lubricant, Material
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.ratings import rating_of
 from ballscrew.physics.components.screw import MATERIALS, BallScrew
-from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.friction.calibrations import calibration as named_calibration
 from ballscrew.physics.friction.law_names import coefficients
 from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.sizing.catalogue import CatalogueRow
 from ballscrew.physics.sizing.installation import Installation
 

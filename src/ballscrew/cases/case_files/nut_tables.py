@@ -17,8 +17,8 @@ from ballscrew.cases.schema.sections import Sections
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.cases.screw_tables.nut_kinds import ENDS, LISTED, LOSSES, NUT_FIELDS, NUTS, Share
 from ballscrew.physics.components.nut import Bodies, Nut, Scatter, SingleNut
-from ballscrew.physics.components.nut_losses import ParasiticLaw
 from ballscrew.physics.components.screw import SINGLE_NUT, BallScrew
+from ballscrew.physics.laws.nut_losses import ParasiticLaw
 from ballscrew.physics.sizing.catalogue import TURNS_WITHOUT_LOAD, CatalogueRow, is_shipped
 from ballscrew.physics.sizing.checks import groove_bottom
 from ballscrew.physics.sizing.installation import Installation, Limits

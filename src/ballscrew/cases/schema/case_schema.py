@@ -30,12 +30,12 @@ from ballscrew.physics.components.data_sheet import SHEET_TEMPERATURE, DataSheet
 from ballscrew.physics.components.materials import INPUTS_OF_SHEET, Lubricant, Material, grades
 from ballscrew.physics.components.nut import Bodies, DoubleNut, Scatter
 from ballscrew.physics.components.operating_state import OperatingState
-from ballscrew.physics.components.outside_laws import name_of as outside_name
 from ballscrew.physics.components.screw import MATERIALS, BallScrew
 from ballscrew.physics.friction.calibrations import BY_MAKE, calibrations
 from ballscrew.physics.friction.law_names import LAWS as LAWS
 from ballscrew.physics.friction.law_names import coefficients
 from ballscrew.physics.friction.model import FrictionModel, presets
+from ballscrew.physics.laws.outside import name_of as outside_name
 from ballscrew.physics.sizing.installation import Installation, Limits
 
 MODELS = presets()

@@ -8,7 +8,6 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from ballscrew.basis.quantities import Info, Quantity, fields_of, quantities_of
-from ballscrew.physics.components.contact import Contact, RaceState
 from ballscrew.physics.components.materials import INPUTS_OF_SHEET, TEMPERATURE, Lubricant
 from ballscrew.physics.components.nut import Nut
 from ballscrew.physics.components.operating_state import OperatingState
@@ -16,6 +15,7 @@ from ballscrew.physics.components.screw import MATERIALS, SINGLE_NUT, BallScrew
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import MECHANISMS, FrictionResult
 from ballscrew.physics.friction.validity import NUT_REASONS, REASONS
+from ballscrew.physics.laws.contact import Contact, RaceState
 from ballscrew.physics.solvers.load_distribution import BallLoads
 
 #: The fields of the operating point, which every sweep needs.

@@ -35,11 +35,11 @@ from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import Nut, NutParts
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.friction import starvation
 from ballscrew.physics.friction.model import SLOTS, FrictionModel
 from ballscrew.physics.friction.plausibility import implausible, named_parts
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.solvers.load_distribution import BallLoads
 
 #: Attributes of a dataset that is starved of oil: the friction torque as given and in a full bath where it is most so.

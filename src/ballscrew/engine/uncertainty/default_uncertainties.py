@@ -17,8 +17,8 @@ from ballscrew.engine.uncertainty.distributions import Distribution, LogNormal, 
 from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
 from ballscrew.physics.components.nut import OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.solvers.load_distribution import preload_growth
 
 #: Half the width of the interval that holds 95 % of a normal distribution, in standard deviations.

@@ -44,9 +44,9 @@ from ballscrew.evidence.calibration.torque_conventions import TorqueConvention, 
 from ballscrew.files.torque_logs.log_rows import Kind
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 from ballscrew.physics.components.materials import TEMPERATURE, Lubricant
-from ballscrew.physics.components.nut_losses import ConstantTorque
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.laws.nut_losses import ConstantTorque
 from ballscrew.physics.solvers.load_distribution import ball_loads
 
 #: The loss of a nut that a fitted constant torque becomes.

@@ -220,7 +220,7 @@ class NutParts(ByValue):
     """What every nut may have besides its balls and its preload.
 
     Without bodies, screw and nut are rigid between the balls. Losses are laws of torque besides the balls by name, as
-    ``{"seals": Seals(seal_torque=0.2)}`` (:mod:`ballscrew.physics.components.nut_losses`).
+    ``{"seals": Seals(seal_torque=0.2)}`` (:mod:`ballscrew.physics.laws.nut_losses`).
     """
 
     #: Screw and nut between the balls; without them both are rigid there.

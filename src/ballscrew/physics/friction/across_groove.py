@@ -16,7 +16,6 @@ import numpy as np
 
 from ballscrew.basis.arrays import namespace
 from ballscrew.basis.quantities import Angle, Force, Length, Ratio
-from ballscrew.physics.components.contact import Contact
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import Deviations, SingleNut
 from ballscrew.physics.components.operating_state import OperatingState
@@ -24,6 +23,7 @@ from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import across_groove, deflection
 from ballscrew.physics.friction.balls import BallFriction
 from ballscrew.physics.friction.loaded_balls import LoadedBalls, loads_of
+from ballscrew.physics.laws.contact import Contact
 from ballscrew.physics.solvers.load_distribution import (
     BallLoads,
     ball_loads,

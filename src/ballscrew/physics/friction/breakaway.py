@@ -11,10 +11,7 @@ import numpy as np
 from ballscrew.basis.arrays import as_array, lazy, namespace, where
 from ballscrew.basis.errors import Fault, accepts_units, raise_if_any
 from ballscrew.basis.quantities import Angle, Force, Info, Length, Mask, Ratio, RotationalStiffness, Stiffness, Torque
-from ballscrew.physics.components.contact import Contact
-from ballscrew.physics.components.frame import Frame
 from ballscrew.physics.components.materials import Lubricant
-from ballscrew.physics.components.mixed_friction import LoadSharing
 from ballscrew.physics.components.operating_state import OperatingState
 from ballscrew.physics.components.screw import BallScrew, Raceway
 from ballscrew.physics.equations import across_groove, kinematics, presliding
@@ -23,6 +20,9 @@ from ballscrew.physics.friction.across_groove import arms_of, in_motion
 from ballscrew.physics.friction.loaded_balls import LoadedPair
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.laws.contact import Contact
+from ballscrew.physics.laws.frame import Frame
+from ballscrew.physics.laws.friction import LoadSharing
 from ballscrew.physics.solvers.load_distribution import BallLoads
 
 #: Boundary friction at the start, SKF2018; in motion it has 0.12.

@@ -10,14 +10,14 @@ import numpy as np
 
 from ballscrew.basis.arrays import namespace, where
 from ballscrew.basis.quantities import Angle, AngularSpeed, Force, Mask, Power, Ratio, Torque
-from ballscrew.physics.components.chain_force import BallInCircuit, force_between_balls
-from ballscrew.physics.components.conditions import Motion
-from ballscrew.physics.components.contact import Contact
-from ballscrew.physics.components.frame import Frame
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import kinematics
 from ballscrew.physics.friction.balls import MECHANISMS, BallFriction, BallModel, ball_contacts, ball_friction
+from ballscrew.physics.laws.ball_chain import BallInCircuit, force_between_balls
+from ballscrew.physics.laws.conditions import Motion
+from ballscrew.physics.laws.contact import Contact
+from ballscrew.physics.laws.frame import Frame
 from ballscrew.physics.solvers.four_point_slip import FlankPair, FourPointBall, four_point_slip
 
 

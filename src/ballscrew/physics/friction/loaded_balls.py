@@ -17,7 +17,6 @@ import numpy as np
 from ballscrew.basis.arrays import namespace, where
 from ballscrew.basis.errors import Fault, InputError, is_concrete
 from ballscrew.basis.quantities import Angle, Count, Force, Mask, Pressure, Ratio
-from ballscrew.physics.components.contact import Contact
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.operating_state import OperatingState, settled
 from ballscrew.physics.components.screw import SINGLE_NUT, BallScrew
@@ -35,6 +34,7 @@ from ballscrew.physics.friction.four_contact_balls import (
     two_contact_friction,
 )
 from ballscrew.physics.friction.validity import contact_masks, no_skid, slip_masks
+from ballscrew.physics.laws.contact import Contact
 from ballscrew.physics.solvers.load_distribution import BallLoads, KindLoads, ball_loads
 
 #: A load at which the friction of lifted balls is computed, N, to have a derivative; its value is not used.

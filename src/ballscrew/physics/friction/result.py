@@ -23,9 +23,6 @@ from ballscrew.basis.quantities import (
     quantities_of,
 )
 from ballscrew.basis.records import Record
-from ballscrew.physics.components.contact import RaceState
-from ballscrew.physics.components.frame import Frame
-from ballscrew.physics.components.laws import BallChain, IdealTorqueLaw
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import transmission
 from ballscrew.physics.friction import directions, loaded_balls, starvation
@@ -40,6 +37,9 @@ from ballscrew.physics.friction.validity import (
     warning_records,
 )
 from ballscrew.physics.friction.vendor_terms import VendorTerms
+from ballscrew.physics.laws.contact import RaceState
+from ballscrew.physics.laws.frame import Frame
+from ballscrew.physics.laws.protocols import BallChain, IdealTorqueLaw
 from ballscrew.physics.solvers.load_distribution import BallLoads
 
 #: The four quadrants: directions of the load on the nut and of the rotation.

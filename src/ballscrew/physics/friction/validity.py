@@ -13,8 +13,8 @@ from ballscrew.basis.errors import is_concrete
 from ballscrew.basis.judgements import Judgement, Sentence, Shown
 from ballscrew.basis.quantities import Mask, Ratio, Torque, fields_of, within_bounds
 from ballscrew.basis.records import Record
-from ballscrew.physics.components.contact import Contact, RaceState
 from ballscrew.physics.components.screw import BallScrew
+from ballscrew.physics.laws.contact import Contact, RaceState
 
 #: Y at which the curvature moment (15) changes sign: the root of 1 - 5Y³ + 3Y⁵ in (0, 1).
 LARGEST_PURE_ROLLING_OFFSET = 0.643

@@ -22,7 +22,6 @@ from numpy.typing import NDArray
 
 from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Angle, AngularSpeed, Force, Length, LoadDeflection, Ratio, Speed
-from ballscrew.physics.components.laws import imposed_ball_force, one_neighbour
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import OversizeBallNut
 from ballscrew.physics.components.screw import SINGLE_NUT, BallScrew
@@ -31,6 +30,7 @@ from ballscrew.physics.friction.balls import ball_friction
 from ballscrew.physics.friction.four_contact_balls import four_contact_friction
 from ballscrew.physics.friction.loaded_balls import loads_of
 from ballscrew.physics.friction.model import FrictionModel
+from ballscrew.physics.laws.ball_chain import imposed_ball_force, one_neighbour
 from ballscrew.physics.solvers.load_distribution import pair_load_deflection
 
 Field = NDArray[np.float64]

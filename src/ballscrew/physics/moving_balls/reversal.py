@@ -23,12 +23,12 @@ from ballscrew.basis.quantities import Angle, AngularSpeed, Array, Force, Info, 
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.components.traits import traits_of
 from ballscrew.physics.equations import kinematics
 from ballscrew.physics.friction.balls import BallFriction
 from ballscrew.physics.friction.loaded_balls import LoadedBalls
 from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.moving_balls.across_groove import of_balls_alike
 from ballscrew.physics.moving_balls.brush import CELLS, BallContacts, Brush, Step
 from ballscrew.physics.solvers.load_distribution import preload_of

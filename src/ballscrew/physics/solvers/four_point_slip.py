@@ -30,7 +30,7 @@ from typing import Any, NamedTuple
 
 from ballscrew.basis.arrays import in_blocks, namespace
 from ballscrew.basis.quantities import Angle, Force, Length, Mask, Ratio, Torque
-from ballscrew.physics.components.contact import Contact
+from ballscrew.physics.laws.contact import Contact
 from ballscrew.physics.solvers.oversize_ball_contacts import (
     Ball,
     ContactInput,

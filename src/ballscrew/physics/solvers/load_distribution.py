@@ -34,10 +34,10 @@ import numpy as np
 from ballscrew.basis.arrays import as_array, in_blocks, lazy, map_blocks, namespace
 from ballscrew.basis.errors import Fault, accepts_units, is_concrete, raise_if_any, si_value
 from ballscrew.basis.quantities import Angle, Force, Info, Length, LoadDeflection, Mask, Ratio, Stiffness
-from ballscrew.physics.components.frame import helix_frame
 from ballscrew.physics.components.nut import Bodies, Deviations, Nut, OversizeBallNut
 from ballscrew.physics.components.screw import BallScrew, Raceway
 from ballscrew.physics.equations import deflection, geometry, hertz, rigidity
+from ballscrew.physics.laws.frame import helix_frame
 from ballscrew.physics.solvers.ball_springs import Field
 from ballscrew.physics.solvers.compiled_chain import FEWEST_POINTS
 from ballscrew.physics.solvers.elastic_ball_loads import NutCase, elastic_lift_off_load, solved

@@ -17,9 +17,9 @@ from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity, Torque, quantities_of
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
-from ballscrew.physics.components.chain_force import ChainBallForce
-from ballscrew.physics.components.nut_losses import ReturnBraking
 from ballscrew.physics.equations import ball_chain
+from ballscrew.physics.laws.ball_chain import ChainBallForce
+from ballscrew.physics.laws.nut_losses import ReturnBraking
 from ballscrew.physics.moving_balls.ripple import (
     Defect,
     FullCircuit,

@@ -8,10 +8,10 @@ from typing import Annotated
 from ballscrew.basis.arrays import ByValue, namespace
 from ballscrew.basis.errors import faults_of, raise_if_any
 from ballscrew.basis.quantities import ArealDensity, Info, Length, Pressure, Ratio, ShearRate, Viscosity
-from ballscrew.physics.components.conditions import ContactConditions
 from ballscrew.physics.components.oil_grades import PARAFFINIC, LimitingShear
-from ballscrew.physics.components.traits import law_traits
 from ballscrew.physics.equations import friction, mixed_lubrication, rheology, traction
+from ballscrew.physics.laws.conditions import ContactConditions
+from ballscrew.physics.laws.traits import law_traits
 
 #: Boundary friction between steel and steel before a film of reacted oil has grown (PCSTraction: 0.057 to 0.118).
 FRESH_BOUNDARY_FRICTION = 0.06

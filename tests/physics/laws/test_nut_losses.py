@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.physics.components.nut_losses import (
+from ballscrew.physics.laws.nut_losses import (
     DOUBLE_NUT_DRAG,
     OVERSIZE_BALL_DRAG,
     Churning,

@@ -7,8 +7,11 @@ from typing import Annotated
 
 from ballscrew.basis.arrays import lazy, namespace
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Ratio, Speed, Stiffness, Torque
-from ballscrew.physics.components.conditions import ContactConditions, Motion
-from ballscrew.physics.components.laws import (
+from ballscrew.physics.components.materials import Lubricant
+from ballscrew.physics.components.screw import BallScrew, Raceway
+from ballscrew.physics.equations import film, friction, geometry, hertz, rheology, rolling
+from ballscrew.physics.laws.conditions import ContactConditions, Motion
+from ballscrew.physics.laws.protocols import (
     ElasticResistanceLaw,
     FilmLaw,
     FilmParameterLaw,
@@ -18,9 +21,6 @@ from ballscrew.physics.components.laws import (
     InletLaw,
     RollingLaw,
 )
-from ballscrew.physics.components.materials import Lubricant
-from ballscrew.physics.components.screw import BallScrew, Raceway
-from ballscrew.physics.equations import film, friction, geometry, hertz, rheology, rolling
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)

@@ -6,8 +6,8 @@ import dataclasses
 
 from ballscrew.basis.quantities import Angle, AngularSpeed, Length, Ratio, Speed
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.components.traits import law_traits
 from ballscrew.physics.equations import geometry, kinematics
+from ballscrew.physics.laws.traits import law_traits
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""The force between the balls of a circuit from its gap and the deviations of its grooves: a law with coefficients."""
+"""Laws of the ball chain: the force between balls, and on how many neighbours a ball rubs."""
 
 from __future__ import annotations
 
@@ -8,18 +8,109 @@ from typing import Annotated, Any, NamedTuple, Protocol
 from ballscrew.basis.arrays import ByValue, namespace, where
 from ballscrew.basis.errors import faults_of, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, Force, Info, Length, Ratio
-from ballscrew.physics.components.contact import Contact
-from ballscrew.physics.components.frame import Frame
 from ballscrew.physics.components.materials import GRAVITY, STEEL_DENSITY
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.components.traits import law_traits, traits_of
-from ballscrew.physics.equations import ball_chain, deflection, kinematics
+from ballscrew.physics.equations import (
+    ball_chain,
+    deflection,
+    equilibrium,
+    friction,
+    kinematics,
+)
+from ballscrew.physics.laws.contact import Contact
+from ballscrew.physics.laws.frame import Frame
+from ballscrew.physics.laws.protocols import BallChain
+from ballscrew.physics.laws.traits import law_traits, traits_of
+
+
+@law_traits(excluded="leaves one of the two neighbours out")
+def one_neighbour(
+    ball_friction_coefficient: Ratio, ball_to_ball_force: Force, ball_diameter: Length, frame: Frame
+) -> BallChain:
+    """The paper's: one neighbour rubs, the chain is straight, Olaru2005 §2.2 (21)."""
+    moment = friction.ball_friction_moment(ball_friction_coefficient, ball_to_ball_force, ball_diameter)
+    return BallChain(moment, ball_to_ball_force)
+
+
+@law_traits(excluded="brakes with all of the force between balls, as an imposed net force does")
+def two_neighbours(
+    ball_friction_coefficient: Ratio, ball_to_ball_force: Force, ball_diameter: Length, frame: Frame
+) -> BallChain:
+    """Both neighbours rub, and the chain is curved like the path."""
+    moment = 2 * friction.ball_friction_moment(ball_friction_coefficient, ball_to_ball_force, ball_diameter)
+    braking_force = equilibrium.chain_braking_force(
+        ball_to_ball_force, moment, frame.path_radius, frame.rolling_plane_cosine
+    )
+    return BallChain(moment, braking_force, ball_to_ball_force)
+
+
+@law_traits(alternative=True)
+def opposed_neighbours(
+    ball_friction_coefficient: Ratio, ball_to_ball_force: Force, ball_diameter: Length, frame: Frame
+) -> BallChain:
+    """Both neighbours rub and press equally: what the one pushes, the other holds, and no net braking is left."""
+    moment = 2 * friction.ball_friction_moment(ball_friction_coefficient, ball_to_ball_force, ball_diameter)
+    nothing = 0 * ball_to_ball_force
+    braking_force = equilibrium.chain_braking_force(nothing, moment, frame.path_radius, frame.rolling_plane_cosine)
+    return BallChain(moment, braking_force, nothing)
+
+
+@law_traits(excluded="leaves the contact of the balls out: holds where spacers part them")
+def parted_neighbours(
+    ball_friction_coefficient: Ratio, ball_to_ball_force: Force, ball_diameter: Length, frame: Frame
+) -> BallChain:
+    """No ball touches another, as with a spacer ball after every loaded one."""
+    nothing = 0 * ball_to_ball_force
+    return BallChain(nothing * ball_diameter, nothing, nothing)
+
+
+@law_traits(excluded="is the number of one screw, and no law")
+def imposed_ball_force(ball_to_ball_force: Force, contact_load: Force) -> Force:
+    """The same force at any load, as in the paper."""
+    return ball_to_ball_force
+
+
+@law_traits(excluded="how large the force is, is a matter of its uncertainty", uses_imposed_force=False)
+@dataclasses.dataclass(frozen=True, eq=False)
+class ProportionalBallForce(ByValue):
+    """A force that grows with the load of the ball; an imposed one does not count.
+
+    The load of a ball is that of its contacts with one race: one on two contacts, the sum of both flank
+    pairs on four. No measured value is known. The default is that of a full circuit without gaps whose
+    grooves are some 2 µm off their place: along the circuit the balls want to travel at speeds that differ by some
+    2.4e-4, and the creep of their contacts holds them with nine to twenty times the load for each unit of it.
+    With the gap of a usual fill the mechanics gives a tenth and less; the torques of makers ask for 0.012 to 0.029
+    (``data/calibrations.toml``). The paper's 1 N / z is 0.0002 at the paper's load, where it is a net braking force.
+    """
+
+    share_of_load: Annotated[
+        Ratio,
+        Info(
+            "F_B/Q",
+            "force between balls / load of a ball",
+            at_least=0,
+            hint="0.0075, of known order only; the paper's net force is about 0.0002",
+            usual=(0.0, 0.5),
+        ),
+    ] = 0.0075
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("model.ball_force", self))
+
+    def __call__(self, ball_to_ball_force: Force, contact_load: Force) -> Force:
+        """Force between balls, N."""
+        return self.share_of_load * contact_load
+
 
 #: Turns of balls that a return holds, and the drag of a ball in it against that in open oil, within a factor of 3.
 TURNS_IN_RETURN, WALL_FACTOR = 0.5, 10.0
+
+
 #: Contacts through which the last loaded balls push the return: half of the last one where the end of the zone is
 #: relieved over a ball, as runs have it; up to three with longer ends.
 PUSHING_CONTACTS = 0.5
+
+
 #: Deviation of the natural speed below which grooves count as perfect: that of an atom.
 SMALLEST_DEVIATION = 1e-9
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ballscrew.basis.quantities import Force, Length, Ratio, Torque
-from ballscrew.physics.components.frame import Frame
-from ballscrew.physics.components.laws import BallChain
 from ballscrew.physics.equations import equilibrium
+from ballscrew.physics.laws.frame import Frame
+from ballscrew.physics.laws.protocols import BallChain
 
 
 class Resistances(NamedTuple):

@@ -8,9 +8,9 @@ import pytest
 
 import ballscrew as bs
 from ballscrew.engine.uncertainty.default_uncertainties import default_distributions
-from ballscrew.physics.components.chain_force import ChainBallForce
-from ballscrew.physics.components.traits import law_traits
 from ballscrew.physics.equations import ball_chain
+from ballscrew.physics.laws.ball_chain import ChainBallForce
+from ballscrew.physics.laws.traits import law_traits
 from ballscrew.physics.moving_balls.loaded_zone import creep
 
 ROW = bs.catalogue()["rexroth-40x10x6-6-double"]

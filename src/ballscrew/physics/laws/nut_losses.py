@@ -4,7 +4,7 @@ The drag laws are whole torques of a preloaded nut without load, to hold against
 parasitic laws are terms to add to the friction of the loaded balls, each on its own. By default each of
 them is nothing: no open data gives a number for every nut.
 """
-# ruff: noqa: ARG002, D102  (laws of one slot share one signature, said once)
+# ruff: noqa: D102  (laws of one slot share one signature, said once)
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from typing import Annotated, NamedTuple, Protocol
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, InputError, accepts_units, faults_of, raise_if_any
 from ballscrew.basis.quantities import AngularSpeed, Count, Density, Force, Info, Length, Ratio, Speed, Torque
-from ballscrew.physics.components.chain_force import WALL_FACTOR
-from ballscrew.physics.components.frame import helix_frame
 from ballscrew.physics.components.materials import GRAVITY, STEEL_DENSITY, Lubricant
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import ball_chain, geometry, kinematics, nut_losses, preload, transmission
+from ballscrew.physics.laws.ball_chain import WALL_FACTOR
+from ballscrew.physics.laws.frame import helix_frame
 
 #: Coefficients behind the no-load torques of Rexroth2006: their middle meets the tables within their digits.
 DOUBLE_NUT_DRAG = 0.0040

@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 
 from ballscrew.basis.errors import Fault, InputError
-from ballscrew.physics.components.conditions import HertzShape
-from ballscrew.physics.components.frame import Frame
-from ballscrew.physics.components.laws import BallChain, InletFactors, RaceTorques
+from ballscrew.physics.laws.conditions import HertzShape
+from ballscrew.physics.laws.frame import Frame
+from ballscrew.physics.laws.protocols import BallChain, InletFactors, RaceTorques
 
 #: What the law of a slot returns, where it is not one quantity.
 _RETURNS: Mapping[str, type] = {

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 import ballscrew as bs
-from ballscrew.physics.components.contact import Contact
-from ballscrew.physics.components.film_laws import Inlet
-from ballscrew.physics.components.laws import InletFactors
+from ballscrew.physics.laws.contact import Contact
+from ballscrew.physics.laws.inlet import Inlet
+from ballscrew.physics.laws.protocols import InletFactors
 
 POINT = {"axial_load": 4000.0, "screw_speed": 60.0}
 REFERENCE = bs.FrictionModel.reference()

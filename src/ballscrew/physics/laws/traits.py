@@ -39,7 +39,7 @@ class LawTraits:
     #: Of a law of the force between balls: an imposed force counts.
     uses_imposed_force: bool = True
     #: Of a law of the force between balls: it takes a third argument, the ball with its contacts
-    #: (:class:`~ballscrew.physics.components.chain_force.BallInCircuit`). A ball without load has none, and no force.
+    #: (:class:`~ballscrew.physics.laws.ball_chain.BallInCircuit`). A ball without load has none, and no force.
     reads_ball: bool = False
     #: Of a law of the film: it reads the limit of the shear stress that the oil has.
     reads_limiting_shear: bool = False

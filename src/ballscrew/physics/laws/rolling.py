@@ -1,11 +1,48 @@
-"""Laws of the rolling resistance: the force with which the oil before a contact resists rolling."""
+"""Laws of rolling: the force of the film in the inlet, and the elastic resistance of steel."""
 
 from __future__ import annotations
 
-from ballscrew.basis.quantities import Force, Length, Pressure, Ratio
-from ballscrew.physics.components.conditions import ContactConditions
-from ballscrew.physics.components.traits import law_traits
+import dataclasses
+from typing import Annotated
+
+from ballscrew.basis.arrays import ByValue
+from ballscrew.basis.errors import faults_of, raise_if_any
+from ballscrew.basis.quantities import Force, Info, Length, Pressure, Ratio, Torque
 from ballscrew.physics.equations import rolling
+from ballscrew.physics.laws.conditions import ContactConditions
+from ballscrew.physics.laws.traits import law_traits
+
+# -- elastic resistance ---------------------------------------------------------------------------
+
+
+@law_traits(alternative=True)
+def snare_resistance(conditions: ContactConditions) -> Torque:
+    """The paper's fit for steel, Olaru2005 §2.2 (20)."""
+    return rolling.elastic_resistance_moment(conditions.ball_diameter, conditions.contact_load, conditions.radii_ratio)
+
+
+@law_traits(alternative=True)
+@dataclasses.dataclass(frozen=True, eq=False)
+class Hysteresis(ByValue):
+    """Elastic resistance as the part of the work of deformation that the material keeps, Johnson1985 §9.3."""
+
+    loss_factor: Annotated[
+        Ratio,
+        Info(
+            r"\alpha",
+            "share of the elastic work lost in hysteresis",
+            at_least=0,
+            hint="steel has 0.01 to 0.04",
+            usual=(0.0, 0.3),
+        ),
+    ] = 0.02
+
+    def __post_init__(self) -> None:
+        raise_if_any(faults_of("model.elastic_resistance", self))
+
+    def __call__(self, conditions: ContactConditions) -> Torque:
+        """Moment about the ball."""
+        return rolling.hysteresis_moment(self.loss_factor, conditions.contact_load, conditions.semi_minor_axis)
 
 
 @law_traits(alternative=True)
