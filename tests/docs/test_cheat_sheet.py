@@ -11,7 +11,7 @@ import ballscrew as bs
 
 from .pages import DOCS
 
-pytest.importorskip("typst")
+pytest.importorskip("typst", reason='needs the extra report: pip install "ballscrew[report]"')
 
 
 @pytest.fixture(scope="module")

@@ -54,7 +54,7 @@ def test_a_fuller_state_keeps_what_is_known(contact):
     ("slot", "given", "said"),
     [
         ("rolling", "houpert", r"model\.rolling: must be a law, not its name \(houpert\) · from "
-         r"ballscrew\.physics\.components\.rolling_laws import houpert_rolling, and give rolling=houpert_rolling"),
+         r"ballscrew\.physics\.laws\.rolling import houpert_rolling, and give rolling=houpert_rolling"),
         ("rolling", "haupert", r'model\.rolling: .* \(haupert\) · did you mean "houpert"\? in a case file'),
         ("film", "hamrock-dowson", r"import HamrockDowson, and give film=HamrockDowson\(\)"),
         ("film", bs.HamrockDowson, r"model\.film: must be a law \(the class HamrockDowson\) · make one of it"),
@@ -77,7 +77,7 @@ def test_what_is_no_law_is_refused(slot, given, said):
         ("film", np.array(["a"]), "must return numbers"),
         ("elastic_resistance", np.zeros(7), r"model\.elastic_resistance: must return an array in the shape .*\(7,\)"),
         ("inlet", (1.0, 1.0), r"model\.inlet: must return a InletFactors .*returned a tuple\) · return "
-         r"ballscrew\.physics\.components\.laws\.InletFactors"),
+         r"ballscrew\.physics\.laws\.protocols\.InletFactors"),
         ("inlet", InletFactors(1.0, None), r"model\.inlet: must return numbers"),
         ("hertz", InletFactors(1.0, 1.0), r"model\.hertz: must return a HertzShape"),
         ("slip", 1.0, r"model\.slip: must return a Slip"),
