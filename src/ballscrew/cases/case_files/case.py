@@ -205,8 +205,8 @@ class Case(Displayed):
         if unusual("screw", screw) or _too_many_balls(screw, self.row):
             return []
         ratings = odd_ratings(listed, ratings_of(rated_geometry_of(screw))) if {*RATED} & {*listed} else []
-        found = [*ratings, *odd_root(listed.get("root_diameter"), screw), *odd_seals(screw)]
-        return [*found, *_light(self.axis, screw)]
+        values = [*ratings, *odd_root(listed.get("root_diameter"), screw), *odd_seals(screw)]
+        return [*values, *_light(self.axis, screw)]
 
     @property
     def unlikely(self) -> tuple[str, ...]:

@@ -237,8 +237,8 @@ def _missing_sections(tables: Mapping[str, Any], needed: Sequence[str]) -> list[
 
 def _rating(screw: BallScrew, made: _MadeScrew) -> float | None:
     """The dynamic load rating of a screw, as listed or by its geometry; None where it has none."""
-    found = made.listed.get("dynamic_load_rating", float(rating_of(screw)))
-    return found if math.isfinite(found) else None
+    result = made.listed.get("dynamic_load_rating", float(rating_of(screw)))
+    return result if math.isfinite(result) else None
 
 
 def _meant(name: str, content: Any) -> str:

@@ -44,8 +44,8 @@ def row_of(
     if not isinstance(name, str) or not isinstance(file, str | None):
         return None
     try:
-        found = catalogue.load(None if file is None else folder / file)[0] if rows is None else rows
-        return catalogue.named(found, name, "screw.catalogue", file)
+        result = catalogue.load(None if file is None else folder / file)[0] if rows is None else rows
+        return catalogue.named(result, name, "screw.catalogue", file)
     except InputError as error:
         faults += error.faults
         return None

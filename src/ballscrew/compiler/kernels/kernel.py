@@ -178,13 +178,13 @@ class Kernel:
 
 def kept(name: str) -> tuple[bytes, bytes] | None:
     """What was kept on disk for this processor and this compiler under a name: a header, and machine code."""
-    found = None
+    result = None
     with contextlib.suppress(OSError, RuntimeError):  # a look at the folder, before the compiler is loaded
         if any(path.name.startswith(_short(name)) for path in cache_folder().iterdir()):
-            found = _load(f"{_short(name)}{_digest(name)}")
-    if found is None:
+            result = _load(f"{_short(name)}{_digest(name)}")
+    if result is None:
         return None
-    header, newline, machine_code = found.partition(b"\n")
+    header, newline, machine_code = result.partition(b"\n")
     return (header, machine_code) if newline else None
 
 

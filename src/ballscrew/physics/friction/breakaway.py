@@ -94,11 +94,11 @@ class Breakaway:
     def _sum_of(self, stiffness: Callable[[BallScrew, Frame, LoadedPair, Force], RotationalStiffness]) -> Any:
         """The stiffness of all flank pairs of all balls; a pair that has lifted off holds nothing."""
         screw, frame = self.at_rest.ball_screw, self.at_rest.frame
-        found: list[Any] = []
+        values: list[Any] = []
         for kind in self.at_rest.kinds:
             for pair in kind.pairs:
-                found.append(kind.total(where(pair.load > 0, stiffness(screw, frame, pair, kind.load), 0.0)))
-        return sum(found)
+                values.append(kind.total(where(pair.load > 0, stiffness(screw, frame, pair, kind.load), 0.0)))
+        return sum(values)
 
     @lazy
     def presliding_angle(self) -> Annotated[Angle, Info(r"\theta_b", "rotation before the contacts slip", "deg")]:

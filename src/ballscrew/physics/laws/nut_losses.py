@@ -179,11 +179,11 @@ class Seals(ByValue):
         Raises :class:`~ballscrew.basis.errors.InputError` with the nearest row for a screw that the table does not
         have.
         """
-        found = min(seal_table(), key=lambda row: row.distance(nominal_diameter, lead))
-        if not all(distance <= SAME_SIZE for distance in found.distance(nominal_diameter, lead)):
+        result = min(seal_table(), key=lambda row: row.distance(nominal_diameter, lead))
+        if not all(distance <= SAME_SIZE for distance in result.distance(nominal_diameter, lead)):
             given = f"{nominal_diameter * 1e3:g} mm, lead {lead * 1e3:g} mm"
-            raise InputError(Fault("losses.seals", "not in the table of seal torques", given, f"nearest: {found}"))
-        return cls(seal_torque=found.torque)
+            raise InputError(Fault("losses.seals", "not in the table of seal torques", given, f"nearest: {result}"))
+        return cls(seal_torque=result.torque)
 
     def __call__(self, screw: BallScrew, lubricant: Lubricant, screw_speed: AngularSpeed) -> Torque:
         """Torque of the seals, N m; the same for any ``screw`` and ``lubricant``, and at any ``screw_speed``."""

@@ -53,17 +53,17 @@ class _Checked:
 
     def __call__(self, *arguments: Any) -> Any:
         try:
-            found = self.law(*arguments)
+            result = self.law(*arguments)
         except Exception as error:  # named and raised again, whatever it is
             error.add_note(f"raised by the law model.{self.slot} = {name_of(self.law)}")
             law = f"model.{self.slot}: {name_of(self.law)}"
             error.raised_by_law = law  # pyright: ignore[reportAttributeAccessIssue]  (ours, on an error of anybody)
             raise
-        problem = self._problem(found, arguments)
+        problem = self._problem(result, arguments)
         if problem is not None:
-            given = f"{name_of(self.law)} returned {_shown(found)}"
+            given = f"{name_of(self.law)} returned {_shown(result)}"
             raise InputError(Fault(f"model.{self.slot}", problem, given, self._remedy))
-        return found
+        return result
 
     @property
     def _remedy(self) -> str:
@@ -71,13 +71,13 @@ class _Checked:
             return "return a number, or an array in the shape of what the law is given"
         return f"return {self.returns.__module__}.{self.returns.__qualname__}"
 
-    def _problem(self, found: Any, arguments: tuple[Any, ...]) -> str | None:
+    def _problem(self, result: Any, arguments: tuple[Any, ...]) -> str | None:
         """Defect of a returned value; None if there is none."""
-        values = (found,)
+        values = (result,)
         if self.returns is not None:
-            if not isinstance(found, self.returns):
+            if not isinstance(result, self.returns):
                 return f"must return a {self.returns.__name__}"
-            values = found if isinstance(found, tuple) else ()
+            values = result if isinstance(result, tuple) else ()
         for value in values:
             if not _is_number(value):
                 return "must return numbers"
@@ -116,7 +116,7 @@ def _shapes(parts: Any) -> Iterator[tuple[int, ...]]:
             yield from _shapes(getattr(part, field.name) for field in dataclasses.fields(part))
 
 
-def _shown(found: Any) -> str:
-    if isinstance(found, np.ndarray) and found.dtype.kind in "fiu":
-        return f"an array of shape {found.shape}"
-    return "None" if found is None else f"a {type(found).__name__}"
+def _shown(result: Any) -> str:
+    if isinstance(result, np.ndarray) and result.dtype.kind in "fiu":
+        return f"an array of shape {result.shape}"
+    return "None" if result is None else f"a {type(result).__name__}"

@@ -252,13 +252,13 @@ def _pushed(
             np.where(driven, 0.0, circuit.return_resistance),
         ]
     )[:, order]
-    found = np.empty((3, count))
-    found[:, order] = (
+    values = np.empty((3, count))
+    values[:, order] = (
         compiled_pushed_balls(row, touches[order])
         if by_kernel
         else pushed_balls(Driven(*row.tolist()), touches[order].tolist())
     )
-    speed, force, drive = found
+    speed, force, drive = values
     return speed, force, drive
 
 

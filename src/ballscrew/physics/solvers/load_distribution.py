@@ -70,8 +70,8 @@ class LiftOff:
 
     def __call__(self) -> Force:
         """The load, N; NaN for a preload below zero."""
-        (found,) = _solution(elastic_lift_off_load, self.case, self.points)
-        return self.points.all_of(found)[self.places][()]
+        (result,) = _solution(elastic_lift_off_load, self.case, self.points)
+        return self.points.all_of(result)[self.places][()]
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -340,8 +340,8 @@ def _solution(solve_block: Callable[..., tuple[Field, ...]], case: NutCase, poin
         alone = block.stop - block.start == 1 and block.start > 0  # with one before it, sums have one order
         here = slice(block.start - alone, block.stop)
         with np.errstate(all="ignore"):
-            found = solve_block(case, *(n if n.size == 1 else n[here] for n in points.numbers))
-        parts[block.start // size] = [part[..., 1:] for part in found] if alone else found
+            result = solve_block(case, *(n if n.size == 1 else n[here] for n in points.numbers))
+        parts[block.start // size] = [part[..., 1:] for part in result] if alone else result
 
     map_blocks(solve, load.size, block_size=size)
     joined = parts[0] if len(parts) == 1 else [np.concatenate(part, axis=-1) for part in zip(*parts, strict=True)]

@@ -103,6 +103,6 @@ def closure_checks() -> tuple[ClosureCheck, ...]:
     checks: list[ClosureCheck] = []
     for reading in readings():
         seen = observe(reading.model, reading.screw, reading.oil)
-        found = {claim.key: claim.findings[reading.name] for claim in judged({reading.name: seen}, KEYS)}
-        checks.append(ClosureCheck(reading=reading, findings=found))
+        values = {claim.key: claim.findings[reading.name] for claim in judged({reading.name: seen}, KEYS)}
+        checks.append(ClosureCheck(reading=reading, findings=values))
     return tuple(checks)
