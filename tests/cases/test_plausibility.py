@@ -118,6 +118,7 @@ def test_no_catalogue_row_is_implausible():
         assert subjects(implausible(parts)) == [], row.name
 
 
+@pytest.mark.slow
 def test_no_validation_row_is_implausible():
     for entries, _ in validation.evaluate(validation.request(model="corrected")):
         for point in (point for entry in entries for point in entry.points):

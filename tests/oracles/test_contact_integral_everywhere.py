@@ -18,6 +18,8 @@ from oracles.tractions import (
     LimitingShear,
 )
 
+pytestmark = pytest.mark.slow
+
 # -- everywhere -----------------------------------------------------------------------------------
 
 

@@ -20,6 +20,8 @@ from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.physics.laws import ball_chain, film, friction, hertz, inlet, rolling
 from ballscrew.physics.solvers.line_slip import line_slip
 
+pytestmark = pytest.mark.slow
+
 PRESETS = {
     "olaru2005": bs.FrictionModel.olaru2005(),
     "corrected": bs.FrictionModel.corrected(),

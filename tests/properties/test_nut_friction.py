@@ -222,6 +222,7 @@ def random_screw(rng):
         return None
 
 
+@pytest.mark.slow
 def test_lift_off_is_no_jump():
     """The torque is continuous where the ball leaves a flank pair, on both sides of it and where both are valid.
 
@@ -265,6 +266,7 @@ def test_models_without_spin_know_no_four_contacts(name):
 # -- arrays ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("more", [{}, {"bodies": Bodies.of(SCREW)}])
 @pytest.mark.parametrize("kind", KINDS)
 def test_an_array_is_a_row_of_numbers(kind, more):

@@ -238,6 +238,7 @@ def test_vectors_are_vectors():
     assert packed > 20 * single
 
 
+@pytest.mark.slow
 def test_compiling_that_takes_long_is_logged_before_it_starts(caplog, capsys, monkeypatch):
     """Not what is compiled in an instant, and not what is kept already; in a console of Python it is also shown."""
     started = []

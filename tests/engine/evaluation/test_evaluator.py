@@ -214,6 +214,7 @@ def test_quantities_with_units():
         f(1.0 * unit.mm, 60.0)
 
 
+@pytest.mark.slow
 @pytest.mark.compiles
 @pytest.mark.parametrize("name", ["film.speed_exponent", "pressure_modulus_slope", "ball_to_ball_force"])
 def test_an_input_that_is_a_constant_of_most_recordings_varies(name):

@@ -16,6 +16,8 @@ from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.laws.ball_chain import ProportionalBallForce
 from ballscrew.questions.validate import compute as validation
 
+pytestmark = pytest.mark.slow
+
 SCRIPT = Path(__file__).parents[3] / "benchmarks" / "fit_calibration.py"
 STORED = calibration("rexroth-2006")
 

@@ -27,6 +27,7 @@ def cells(table):
     return [[cell.strip() for cell in line.strip("| \n").split("|")] for line in table.splitlines()]
 
 
+@pytest.mark.slow
 def test_each_row_is_in_one_size_class(script):
     _, _, *lines = cells(script.strata_table())
     counted = {line[0]: int(line[1]) for line in lines}

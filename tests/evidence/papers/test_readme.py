@@ -11,6 +11,8 @@ from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.questions.sensitivity.compute import sensitivity
 from ballscrew.questions.sensitivity.options import SensitivityOptions
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[3]
 
 

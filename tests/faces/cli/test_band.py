@@ -159,6 +159,7 @@ def test_a_whole_nut(example, ballscrew):
     assert "loads" in found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("setting", "words"),
     [
@@ -208,6 +209,7 @@ def test_pictures(kind, drive, ballscrew, tmp_path):
     assert f"band.{kind}: 64 samples of 16 uncertain inputs" in process.stdout
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("settings", "axis"),
     [

@@ -90,6 +90,7 @@ def records(document, kind):
     return {record["id"]: record for record in document[kind]}
 
 
+@pytest.mark.slow
 def test_example_in_all_forms(ballscrew, tmp_path):
     done = ballscrew("duty", EXAMPLE, "--json", *(f"--to=a.{kind}" for kind in ("csv", "xlsx", "svg")))
     assert done.returncode == 0, done.stderr

@@ -5,6 +5,7 @@ import concurrent.futures
 import json
 
 import httpx
+import pytest
 
 from ballscrew.basis.output.json_text import plain
 from ballscrew.faces.web import server as servers
@@ -45,6 +46,7 @@ def test_candidates_come_one_by_one(server):
     }
 
 
+@pytest.mark.slow
 def test_what_a_need_leaves_open_is_said_before_it_starts(server):
     found = server.post("select/plan", {"need": NEED, "words": "rexroth 32x10"})
     assert found.status_code == 200, found.text[:500]
@@ -79,6 +81,7 @@ def _not_judged(candidate):
     return [check.name for check in candidate.checks if check.holds is None]
 
 
+@pytest.mark.slow
 def test_what_is_refused(server):
     for need, words in (
         ({**NEED, "lubricant": {"oil_file": "/etc/passwd"}}, "lubricant.oil_file"),

@@ -36,6 +36,7 @@ def reference(table):
     return next(row for row in table["rows"] if row["model"] == "reference")
 
 
+@pytest.mark.slow
 def test_slip_alone(tables):
     row = reference(tables[0])
     assert row["n"] >= 300

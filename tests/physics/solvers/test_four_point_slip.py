@@ -160,6 +160,7 @@ def integrals(ratio, *, resistances=lambda part, load: NONE):
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.implausible
 @pytest.mark.parametrize("ratio", [1.0, 0.5, 0.1, 0.03, 0.01, 1e-3])
 def test_random_screws_with_loads_that_differ(ratio):
@@ -185,6 +186,7 @@ def test_random_screws_that_are_resisted():
         assert np.max(error) < 0.02, name
 
 
+@pytest.mark.slow
 @pytest.mark.implausible
 @pytest.mark.parametrize("ratio", [1.0, 0.3, 0.03])
 def test_the_ball_turns_as_the_integral_has_it(ratio):

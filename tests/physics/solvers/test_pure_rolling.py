@@ -165,6 +165,7 @@ def test_traction_is_what_equilibrium_asks_for(anywhere):
         assert np.all((side.pure_rolling_offset >= 0) & (side.pure_rolling_offset <= 1))
 
 
+@pytest.mark.slow
 def test_agrees_with_bisection():
     r = box(5000, seed=7)
     (screw_moment, nut_moment), bound = moments_by_bisection(r)

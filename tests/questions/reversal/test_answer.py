@@ -169,6 +169,7 @@ def test_the_charts(report):
     assert models["Dahl, first 0.02°"].y[-1] == pytest.approx(sum(STEADY.values()), rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speed", ["100 rpm", "-100 rpm"])
 def test_the_viscous_slope_is_that_of_a_run(speed):
     """Torques by rolling at 90 and 110 rpm, of runs, either way; the rest of what follows at once is dry."""
@@ -192,6 +193,7 @@ def test_a_screw_at_rest_is_refused():
     assert error.value.faults[0].where == "operation.screw_speed"
 
 
+@pytest.mark.slow
 def test_a_computed_reversal():
     """That of a case: what it goes to is the torque of a run, and the helix comes back hundreds of times later."""
     found = compute.reversal(CASE, ReversalOptions())

@@ -44,6 +44,7 @@ def report(case):
     return ripple_of(case, dataclasses.replace(OPTIONS, fault=["preload=35 %", "spall=2 mm x 2 um"], seeds=3))
 
 
+@pytest.mark.slow
 def test_the_numbers_are_those_of_the_physics(case, report):
     given = {"axial_load": 0.0, "screw_speed": float(case.operation.screw_speed), "gap": 0.55, "groove_deviation": 1e-6}
     usual, left = (
@@ -64,6 +65,7 @@ def test_the_numbers_are_those_of_the_physics(case, report):
     assert sum(results["parts"].values()) == pytest.approx(results["mean"], rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_range_is_that_of_nuts_of_other_seeds(case, report):
     others = [ripple_of(case, dataclasses.replace(OPTIONS, seed=seed)).ripple.peak_to_peak for seed in (1, 2, 3)]
     assert report.range.nuts == 3
@@ -113,6 +115,7 @@ def test_the_sheet_has_the_numbers_of_the_document(report):
         assert set(nut) == {"as it is", *report.faults}
 
 
+@pytest.mark.slow
 def test_the_return_of_a_case_is_that_of_the_chain(case):
     law = ReturnBraking(return_balls=10, wall_factor=30.0)
     nut = dataclasses.replace(case.screw.nut, losses={"recirculation": law})
@@ -162,6 +165,7 @@ def test_a_wrong_fault_is_refused(case, fault, message):
         ripple_of(case, dataclasses.replace(OPTIONS, fault=[fault]))
 
 
+@pytest.mark.slow
 def test_all_leaves_out_a_preload_that_is_not_there(case):
     single = dataclasses.replace(case.screw, nut=bs.SingleNut(angle_under_load=True))
     operation = dataclasses.replace(case.operation, axial_load=800.0)

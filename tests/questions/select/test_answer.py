@@ -43,6 +43,7 @@ def test_the_numbers_compared_are_on_every_face(found):
     }
 
 
+@pytest.mark.slow
 def test_torques_of_motor_and_brake_are_on_every_face():
     found = bs.select(MOVING)
     answer, headings = documents.document(found), " ".join(files.rows_of(of_selection(found.ranked)).headings)

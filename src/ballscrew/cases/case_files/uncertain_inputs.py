@@ -65,9 +65,7 @@ def all_of(case: Case, only_given: bool = False) -> Mapping[str, Uncertain]:
         for name, distribution in case.uncertain.items()
     }
     if case.calibration is not None:
-        uncertain |= {
-            name: u for name, u in _of_calibration(case.calibration, known).items() if name not in case.exact
-        }
+        uncertain |= {name: u for name, u in _of_calibration(case.calibration, known).items() if name not in case.exact}
     if not only_given:
         usual = default_distributions(case.model, case.screw, case.lubricant, given=uncertain, exact=case.exact)
         # a fit holds for what it held: not for the temperature of the day, and not for what it could not tell
