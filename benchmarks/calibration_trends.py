@@ -1,6 +1,6 @@
 """Ratios of the model by size of the screw, and of laws that could be in its place: tables of ``fit_calibration.py``.
 
-What decision 14 says of share laws comes from here. No number is fitted.
+What decision 3 says of share laws comes from here. No number is fitted.
 """
 
 from __future__ import annotations

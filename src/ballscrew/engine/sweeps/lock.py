@@ -1,6 +1,6 @@
 """A lock file: one process at a time writes into a folder.
 
-Kept in place of the package ``filelock`` for the reasons in docs/decisions/0012-kept.md.
+Kept in place of the package ``filelock`` for the reasons in docs/decisions/05-engine.md.
 """
 
 from __future__ import annotations
