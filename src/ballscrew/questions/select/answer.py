@@ -199,8 +199,11 @@ _LIFT_OFF = quantities_of(BallLoads)["lift_off_load"]
 _LEFT_OUT = ("units", "provenance", "loads", "name", "checks", "judged", "holds", "verdict")
 
 
-def document(found: Selection) -> dict[str, Any]:
-    """The document in SI; ``results`` and ``checks`` of a candidate are those of ``ballscrew check --json``."""
+def document(found: Selection, listed: Sequence[Ranked] | None = None) -> dict[str, Any]:
+    """The document in SI; ``results`` and ``checks`` of a candidate are those of ``ballscrew check --json``.
+
+    Candidates are those ``listed``, or all of them.
+    """
     first = next((each.candidate for each in found.ranked if each.candidate.complete), None)
     known: dict[str, Any] = {} if first is None else check_documents.list_document([first.checked])[0]["units"]
     known.pop("loads", None)
@@ -211,7 +214,9 @@ def document(found: Selection) -> dict[str, Any]:
         "best": None if best is None else best.variant.label,
         "holding": len(found.holding),
         "ruled_out": sum(not each.candidate.complete for each in found.ranked),
-        "candidates": [candidate_document(each, found.need, found.model) for each in found.ranked],
+        "candidates": [
+            candidate_document(each, found.need, found.model) for each in (found.ranked if listed is None else listed)
+        ],
         "notes": list(found.notes),
         "warnings": documents(next((each.candidate.starved for each in found.ranked if each.candidate.starved), [])),
         "units": {
