@@ -18,8 +18,7 @@ from ballscrew.physics.sizing.checks import failing, judged, verdict_of
 from ballscrew.physics.solvers.load_distribution import BallLoads
 from ballscrew.questions.check import document as check_documents
 from ballscrew.questions.duty import verdicts as duty_verdicts
-from ballscrew.questions.duty.answer import FullBath
-from ballscrew.questions.duty.compute import NUMBERS, DutyReport
+from ballscrew.questions.duty.compute import NUMBERS, DutyReport, FullBath
 from ballscrew.questions.select import case_text
 from ballscrew.questions.select.candidates import Candidate
 from ballscrew.questions.select.compute import Plan, Ranked, Selection
@@ -182,7 +181,7 @@ def of_motion(duty: DutyReport) -> OfMotion:
     """The cycle of a candidate."""
     return OfMotion(
         CycleOfNeed(**duty.numbers),
-        None if duty.by_rule else FullBath(**duty.full_bath),
+        duty.full_bath,
         MotorTorque(**duty.motor_torque),
         from_attributes(BrakeOfNeed, duty.brake),
     )
