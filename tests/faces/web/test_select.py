@@ -7,11 +7,13 @@ import json
 import httpx
 import pytest
 
+from ballscrew.basis.output import sheet as sheets
 from ballscrew.basis.output.json_text import plain
 from ballscrew.faces.web import server as servers
 from ballscrew.faces.web.request_queue import RequestQueue
 from ballscrew.questions.select.answer import document
 from ballscrew.questions.select.compute import select
+from ballscrew.questions.select.sheet import sheet
 
 NEED = {
     "force": "2 kN",
@@ -28,6 +30,7 @@ def test_the_answer_is_the_document_of_the_command(server):
     assert found.status_code == 200, found.text[:500]
     selection = select(NEED, words="rexroth 32x10")
     answer = found.json()
+    assert answer.pop("sheet") == json.loads(json.dumps(plain(sheets.document(sheet(selection, selection.ranked)))))
     assert answer == json.loads(json.dumps(plain(document(selection))))
 
 

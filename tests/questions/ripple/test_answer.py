@@ -21,8 +21,7 @@ from ballscrew.physics.moving_balls.ripple import (
     Spall,
     torque_ripple,
 )
-from ballscrew.questions.ripple.answer import RippleResults, document
-from ballscrew.questions.ripple.compute import ALL, defects_of, given_of, ripple_of
+from ballscrew.questions.ripple.compute import ALL, RippleResults, defects_of, document, given_of, ripple_of
 from ballscrew.questions.ripple.options import RippleOptions
 from ballscrew.questions.ripple.sheet import sheet
 from support.answers import undescribed, without_unit

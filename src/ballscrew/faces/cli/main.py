@@ -20,7 +20,19 @@ from typer.core import TyperCommand, TyperGroup
 from ballscrew.basis import pint_plugins as _pint_plugins
 from ballscrew.faces.cli import INTERRUPTED, cases, choosing, lists, logs, questions, sharing
 from ballscrew.faces.cli.options import with_flags
-from ballscrew.questions.records import AXIS, COMPARE, CONDITION, DUTY, REVERSAL, RIPPLE, SENSITIVITY, SERVICE, WARM_UP
+from ballscrew.questions.records import (
+    AXIS,
+    COMPARE,
+    CONDITION,
+    DUTY,
+    OPTIMISE,
+    REVERSAL,
+    RIPPLE,
+    SELECT,
+    SENSITIVITY,
+    SERVICE,
+    WARM_UP,
+)
 from ballscrew.questions.shared.question import CALIBRATION_NAMES, MODEL_NAMES, Question
 
 
@@ -60,8 +72,8 @@ _COMMANDS: Sequence[Question | Callable[..., None]] = (
     cases.sweep,
     lists.reproduce,
     cases.check,
-    choosing.select,
-    choosing.optimise,
+    SELECT,
+    OPTIMISE,
     logs.fit,
     sharing.hand_over,
     sharing.report,
