@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 import ballscrew as bs
-from ballscrew.exports.hand_over import handed
+from ballscrew.exports.hand_over import export_job
 from ballscrew.exports.programs import c99, fmu, interpreter, program_file
 from ballscrew.exports.programs.two_levels import two_levels
 from ballscrew.exports.subject import HandOver
@@ -93,7 +93,7 @@ def rows(presets: tuple[str, ...], most: int) -> Iterator[tuple[str, ...]]:
             screw = bs.catalogue()["rexroth-16x5x3-4-double"].screw(nut=nut)
             model = getattr(bs.FrictionModel, preset)()
             try:
-                one = handed(model, screw, oil, "c")
+                one = export_job(model, screw, oil, "c")
             except bs.InputError:
                 continue  # its slip knows no balls with four contacts
             to_c = seconds(lambda model=model, screw=screw: bs.hand_over(model, screw, oil, to="c"))

@@ -55,7 +55,9 @@ def run(tally: Tally, seed: int) -> None:
 @functools.cache
 def _handed(model: str, nut: str) -> tuple[HandOver, Interpreted]:
     screw = bs.catalogue()["rexroth-16x5x3-4-double"].screw(nut=NUTS[nut])
-    found = frame.handed(MODELS[model](), screw, bs.Lubricant.from_grade("ISO VG 100", temperature=313.15), "program")
+    found = frame.export_job(
+        MODELS[model](), screw, bs.Lubricant.from_grade("ISO VG 100", temperature=313.15), "program"
+    )
     return found, Interpreted(program_file(found))
 
 

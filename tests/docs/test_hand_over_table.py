@@ -3,7 +3,7 @@
 import pytest
 
 import ballscrew as bs
-from ballscrew.exports.hand_over import handed
+from ballscrew.exports.hand_over import export_job
 from support.commands import ROOT
 
 PAGE = ROOT / "docs" / "howto" / "hand_over.md"
@@ -22,5 +22,5 @@ def steps_of_page():
 def test_steps_are_those_of_the_program(preset, nut):
     screw = bs.catalogue()["rexroth-16x5x3-4-double"].screw(nut=NUTS[nut])
     oil = bs.Lubricant.from_grade("ISO VG 100", temperature=313.15)
-    made = handed(getattr(bs.FrictionModel, preset)(), screw, oil, "c")
+    made = export_job(getattr(bs.FrictionModel, preset)(), screw, oil, "c")
     assert len(made.program.steps) == steps_of_page()[preset, nut]

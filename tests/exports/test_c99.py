@@ -14,7 +14,7 @@ from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.steps import Step
 from ballscrew.exports.export import Export
 from ballscrew.exports.programs import c99, c_source, interpreter, program_file
-from ballscrew.exports.targets import export_of
+from ballscrew.exports.targets import target
 from ballscrew.physics.friction.law_names import LAWS
 from ballscrew.physics.friction.validity import NUT_REASONS
 from ballscrew.physics.solvers.line_slip import TOLERANCE as LINE_TOLERANCE
@@ -322,7 +322,7 @@ def test_an_export_says_where_it_comes_from(handed_over):
 @needs_the_library
 def test_a_program_is_called_as_its_text_says(handed_over, tmp_path):
     handed = handed_over(bs.FrictionModel.olaru2005(), NUTS["double"], to="program")
-    export = export_of("program")(handed)
+    export = target("program").export(handed)
     export.write(tmp_path)
     recipe = export.files["README.txt"].decode().split("ctypes:\n")[1].split("Each thread")[0]
     lines = "\n".join(line.strip() for line in recipe.splitlines())

@@ -11,9 +11,8 @@ from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files import case_file
 from ballscrew.exports import hand_over as frame
 from ballscrew.exports import requests, targets
-from ballscrew.exports.export import Export
-from ballscrew.exports.targets import TARGETS, export_of
-from ballscrew.exports.worst_error import worst_errors
+from ballscrew.exports.export import Export, worst_errors
+from ballscrew.exports.targets import TARGETS, target
 
 OIL = bs.Lubricant.from_grade("ISO VG 100", temperature=313.15)
 
@@ -24,7 +23,7 @@ def handed(handed_over):
 
 
 def test_every_target_has_a_module():
-    assert all(callable(export_of(name)) for name in TARGETS)
+    assert all(callable(target(name).export) for name in TARGETS)
 
 
 def test_an_unknown_target_is_refused_with_the_list(ballscrew, example, tmp_path):
@@ -36,11 +35,11 @@ def test_an_unknown_target_is_refused_with_the_list(ballscrew, example, tmp_path
 
 
 @pytest.mark.parametrize(
-    ("name", "target"), [("simulink", "matlab"), ("Octave", "matlab"), ("dymola", "modelica"), ("csv", "table")]
+    ("name", "taker"), [("simulink", "matlab"), ("Octave", "matlab"), ("dymola", "modelica"), ("csv", "table")]
 )
-def test_a_program_named_for_a_target_is_answered_with_the_target(name, target):
-    with pytest.raises(InputError, match=rf'unknown target \({name}\) · write "{target}", whose files {name} takes'):
-        export_of(name)
+def test_a_program_named_for_a_target_is_answered_with_the_target(name, taker):
+    with pytest.raises(InputError, match=rf'unknown target \({name}\) · write "{taker}", whose files {name} takes'):
+        target(name)
 
 
 def test_every_program_is_named_with_a_target():
@@ -80,7 +79,7 @@ def test_ranges_that_nobody_gave(handed):
     subject = handed.subject
     ranges = {
         one.name: one.range
-        for one in frame.handed(
+        for one in frame.export_job(
             subject.model, subject.screw, subject.lubricant, "c", parameters=["friction.boundary_friction_coefficient"]
         ).inputs
     }

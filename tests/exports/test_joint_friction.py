@@ -9,7 +9,7 @@ import pytest
 import ballscrew as bs
 from ballscrew.cases.case_files import case_file
 from ballscrew.exports.programs import joint_friction
-from ballscrew.exports.targets import options_of_case
+from ballscrew.exports.targets import target
 
 OPTIONS = {"load": 1000.0, "inertia": 2e-4}
 SPEED = np.geomspace(1 / 60, 1, 60)
@@ -123,10 +123,10 @@ def test_faults_say_what_to_do(handed, change, expected):
 
 def test_a_case_gives_load_and_inertia_at_the_screw(example):
     case = case_file.load(example.parent / "vertical_axis.toml", ["axis.transmission_ratio=2"])
-    found = options_of_case("mujoco", case)
+    found = target("mujoco").options_of_case(case)
     assert (found["load"], found["inertia"]) == (4000.0, pytest.approx(4 * 45e-4))
     point = {"presliding_load": case.operation.axial_load, "presliding_speed": case.operation.screw_speed}
-    assert options_of_case("c", case) == point
+    assert target("c").options_of_case(case) == point
 
 
 @pytest.mark.parametrize(
@@ -142,7 +142,7 @@ def test_a_case_gives_load_and_inertia_at_the_screw(example):
 )
 def test_a_case_gives_what_moves_and_its_weight(handed, example, changes):
     case = case_file.load(example.parent / "vertical_axis.toml", changes)
-    options = {**handed.options, **options_of_case("mujoco", case)}
+    options = {**handed.options, **target("mujoco").options_of_case(case)}
     joint = joint_friction.joint_friction(dataclasses.replace(handed, options=options), 1)
     assert joint.mass == case.axis.mass + case.axis.counterweight
     assert joint.gravity_force == pytest.approx(case.axis.gravity_force, rel=1e-12, abs=1e-9)

@@ -1,18 +1,67 @@
-"""The export: the files of a target, where they hold, and how far off they are."""
+"""The export: the files of a target, their range, their worst error against the model, and what warns of them."""
 
 from __future__ import annotations
 
 import contextlib
 import dataclasses
-from collections.abc import Mapping, Sequence
+import re
+from collections.abc import Callable, Mapping, Sequence
+from importlib import resources
 from pathlib import Path, PurePosixPath
-from typing import Any
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from ballscrew.basis.atomic_files import atomic_write, check_writable
+from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Quantity
 from ballscrew.basis.records import Record
+from ballscrew.cases.case_files.case import Case
 from ballscrew.exports.subject import TEMPERATURE, HandOver
-from ballscrew.exports.worst_error import WorstError
+
+#: Values at points by name.
+Values = Mapping[str, NDArray[Any]]
+
+
+class Option(NamedTuple):
+    """A choice that a target has: its usual value (and type), its meaning, its quantity if it has a unit."""
+
+    default: Any
+    meaning: str
+    quantity: Quantity | None = None
+    #: What to give instead of a number that is not positive, where it must be.
+    positive: str = ""
+
+
+class Target(NamedTuple):
+    """A target as its module has it, under its name in capitals: its export, its choices, those that a case gives."""
+
+    export: Callable[[HandOver], Export]
+    options: Mapping[str, Option] = {}
+    options_of_case: Callable[[Case], Mapping[str, Any]] = lambda _: {}
+
+
+def warning(name: str, subject: str, text: str, **numbers: Any) -> Record:
+    """A warning of an export, ``hand_over.`` and a name; ``numbers`` are further fields of the record."""
+    fields: dict[str, Any] = {"severity": "warning", "holds": False, **numbers}
+    return Record(text=text, id=f"hand_over.{name}", subject=subject, **fields)
+
+
+def refusal(name: str, problem: str, given: str = "", remedy: str = "") -> InputError:
+    """The error of a hand-over that cannot be made: in which argument, its problem, what was given, what to do."""
+    return InputError(Fault(f"hand_over.{name}", problem, given, remedy))
+
+
+def data(name: str) -> bytes:
+    """A file of the package that exports are made of."""
+    return resources.files("ballscrew").joinpath("data", "exports", *name.split("/")).read_bytes()
+
+
+def filled(name: str, **values: Any) -> str:
+    """A file of the package with values in place of ``@NAME@``; numbers have all their digits."""
+    words = {key.upper(): value if isinstance(value, str) else repr(value) for key, value in values.items()}
+    return re.sub(r"@([A-Z_]+)@", lambda match: words[match[1]], data(name).decode())
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -41,28 +90,29 @@ class Export:
     @classmethod
     def of(
         cls,
-        handed: HandOver,
+        job: HandOver,
         target: str,
-        files: Mapping[str, bytes],
-        *,
-        valid_range: Mapping[str, tuple[float, float]],
+        files: Mapping[str, str | bytes],
         worst_error: Sequence[WorstError],
+        *,
+        valid_range: Mapping[str, tuple[float, float]] | None = None,
+        measured_range: Mapping[str, tuple[float, float]] | None = None,
         warnings: Sequence[Record] = (),
     ) -> Export:
-        """An export of the model ``handed`` over, with its provenance and the warnings that every target has.
+        """An export of the model of a ``job``, with its provenance and the warnings that every target has.
 
-        ``target``, ``files``, ``valid_range`` and ``worst_error`` are the fields of these names; ``warnings`` are
-        further ones.
+        ``target``, ``files`` and ``worst_error`` are the fields of these names; ``valid_range`` is that of the model
+        unless given, ``measured_range`` the working range; ``warnings`` are further ones.
         """
         return cls(
             target=target,
-            files=files,
-            valid_range=valid_range,
+            files={name: text.encode() if isinstance(text, str) else text for name, text in files.items()},
+            valid_range=job.formula_range if valid_range is None else valid_range,
             worst_error=tuple(worst_error),
-            measured_range=handed.working_range,
-            warnings=(*_warnings(handed), *warnings),
-            provenance=handed.provenance,
-            quantities={one.name: one.quantity for one in handed.inputs},
+            measured_range=job.working_range if measured_range is None else measured_range,
+            warnings=(*_warnings(job), *warnings),
+            provenance=job.provenance,
+            quantities={entry.name: entry.quantity for entry in job.inputs},
         )
 
     def write(self, directory: str | Path) -> list[Path]:
@@ -80,12 +130,82 @@ class Export:
         return list(places)
 
 
-def _warnings(handed: HandOver) -> list[Record]:
+def _warnings(job: HandOver) -> list[Record]:
     """Starvation, and a warning where the temperature changes nothing."""
-    if handed.has_effect[TEMPERATURE]:
-        return [*handed.starvation]
-    message = (
+    if job.has_effect[TEMPERATURE]:
+        return [*job.starvation]
+    text = (
         "the oil is given by its numbers, so that the input temperature changes nothing; give a grade or a data sheet"
     )
-    record = Record(text=message, id="hand_over.temperature", subject="temperature", severity="warning", holds=False)
-    return [*handed.starvation, record]
+    return [*job.starvation, warning("temperature", "temperature", text)]
+
+
+@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
+class WorstError:
+    """The worst error of an output: the largest absolute one with its point, and the largest relative one.
+
+    Of a truth value, such as ``valid``, the error is 1 where it differs.
+    """
+
+    output: str
+    unit: str
+    #: Largest absolute error; infinite where a number is missing that the model has.
+    value: float
+    #: Inputs of the point where it occurs, in SI.
+    at: Mapping[str, float]
+    #: Largest error of a point relative to the value of the model at it, zeros aside.
+    relative: float
+    #: Inputs of the point where that occurs.
+    relative_at: Mapping[str, float]
+    #: Largest absolute value of the model over the points.
+    largest: float
+    #: Number of points.
+    points: int
+
+    @property
+    def of_largest(self) -> float:
+        """Largest absolute error as a share of the largest value."""
+        return self.value / self.largest if self.largest else (0.0 if self.value == 0 else np.inf)
+
+    def document(self) -> dict[str, Any]:
+        """The error as it stands in JSON."""
+        return {**dataclasses.asdict(self), "of_largest": self.of_largest}
+
+
+def worst_errors(
+    job: HandOver,
+    approximate: Callable[[Values], Values],
+    *,
+    points: Values | None = None,
+    exact: Values | None = None,
+    outputs: Sequence[str] | None = None,
+) -> tuple[WorstError, ...]:
+    """The worst error of each output of ``approximate``, a function of points by input, against the model.
+
+    Points are those of :meth:`~ballscrew.exports.subject.HandOver.sample` unless given; ``exact`` is the model at them,
+    where it is known already. Points where the model has no number are left out.
+    """
+    at = job.sample() if points is None else points
+    true, approximated = job.evaluate(at) if exact is None else exact, approximate(at)
+    names = [name for name in job.output_names if name in approximated] if outputs is None else outputs
+    return tuple(_worst(name, job.units[name], true[name], approximated[name], at) for name in names)
+
+
+def _worst(name: str, unit: str, exact: NDArray[Any], approximated: Any, at: Values) -> WorstError:
+    true = np.asarray(exact, dtype=float)
+    off = np.abs(np.asarray(approximated, dtype=float) - true)
+    off = np.where(np.isfinite(true), np.where(np.isnan(off), np.inf, off), 0.0)
+    size = np.where(np.isfinite(true), np.abs(true), 0.0)
+    relative = np.divide(off, size, out=np.zeros_like(off), where=size > 0)
+    first, other = int(np.argmax(off)), int(np.argmax(relative))
+    place, other_place = ({n: float(np.broadcast_to(v, off.shape)[i]) for n, v in at.items()} for i in (first, other))
+    return WorstError(
+        output=name,
+        unit=unit,
+        value=float(off[first]),
+        at=place,
+        relative=float(relative[other]),
+        relative_at=other_place,
+        largest=float(np.max(size)),
+        points=off.size,
+    )

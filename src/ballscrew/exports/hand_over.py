@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.basis.errors import Fault, InputError, accepts_units, nearest, raise_if_any, si_value
+from ballscrew.basis.errors import Fault, accepts_units, nearest, raise_if_any, si_value
 from ballscrew.basis.quantities import Quantity, within_bounds
 from ballscrew.engine.evaluation.outputs import OPERATION, known_outputs
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.exports import subject as subjects
-from ballscrew.exports.export import Export
+from ballscrew.exports.export import Export, Option, refusal
 from ballscrew.exports.subject import PRELOADS, TEMPERATURE, HandOver, Input, usual_range
-from ballscrew.exports.targets import Option, export_of, options_of, target_module
+from ballscrew.exports.targets import target
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.friction.model import FrictionModel
@@ -62,7 +62,7 @@ def hand_over(
     Raises :class:`~ballscrew.basis.errors.InputError` for unknown targets, names and options, bad ranges, and a model
     that the target cannot take, with what to do instead.
     """
-    found = handed(
+    job = export_job(
         model,
         screw,
         lubricant,
@@ -73,10 +73,10 @@ def hand_over(
         derivatives=derivatives,
         **options,
     )
-    return export_of(to)(found)
+    return target(to).export(job)
 
 
-def handed(
+def export_job(
     model: FrictionModel,
     screw: BallScrew,
     lubricant: Lubricant,
@@ -89,14 +89,13 @@ def handed(
     **options: Any,
 ) -> HandOver:
     """What :func:`hand_over` gives to the function of a target."""
-    target_module(to)
-    known = options_of(to)
+    known = target(to).options
     faults = [Fault(f"hand_over.{n}", "unknown option", "", nearest(n, known)) for n in options if n not in known]
     subject = Configuration(model, screw, lubricant)
     faults += _faults(subject, parameters, outputs)
     raise_if_any(faults)
     inputs = _inputs(subject, parameters, ranges or {})
-    names = [one.name for one in inputs]
+    names = [entry.name for entry in inputs]
     raise_if_any(
         [Fault("hand_over.derivatives", "is no input", n, nearest(n, names)) for n in derivatives if n not in names]
     )
@@ -105,7 +104,7 @@ def handed(
         inputs,
         subjects.output_named(subject, outputs),
         tuple(dict.fromkeys(derivatives)),
-        {name: _option(name, one, options.get(name, one.default)) for name, one in known.items()},
+        {name: _option(name, entry, options.get(name, entry.default)) for name, entry in known.items()},
         frozenset(ranges or ()),
     )
 
@@ -127,10 +126,13 @@ def _option(name: str, option: Option, value: Any) -> Any:
     if kind is float and isinstance(value, int | np.floating) and not isinstance(value, bool):
         value = float(value)
     if type(value) is not kind:
-        raise InputError(Fault(f"hand_over.{name}", f"must be a {kind.__name__}", repr(value), option.meaning))
+        raise refusal(name, f"must be a {kind.__name__}", repr(value), option.meaning)
     missing = kind is float and np.isnan(value) and np.isnan(option.default)
     if kind is float and not np.isfinite(value) and not missing:
-        raise InputError(Fault(f"hand_over.{name}", "must be a finite number", f"{value:g}", option.meaning))
+        raise refusal(name, "must be a finite number", f"{value:g}", option.meaning)
+    if option.positive and not value > 0:
+        unit = "" if option.quantity is None else option.quantity.unit
+        raise refusal(name, "must be positive", f"{value:g} {unit}".strip(), option.positive)
     return value
 
 
@@ -151,7 +153,7 @@ def _input(subject: Configuration, name: str, asked: tuple[float, float] | None)
     quantity = subjects.ANY_TEMPERATURE if fixed else subject.inputs[name][1]
     value = 0.0 if name in OPERATION else 313.15 if fixed else subject.value_of(name)
     if value is None or np.ndim(value):
-        raise InputError(Fault(f"hand_over.{name}", "must have one value", "", "give it in the case"))
+        raise refusal(name, "must have one value", "", "give it in the case")
     bounds = usual_range(quantity)
     return Input(name, quantity, float(value), bounds, _range(subject, name, quantity, float(value), bounds, asked))
 
@@ -176,12 +178,12 @@ def _range(
 
 
 def _checked(name: str, quantity: Quantity, asked: tuple[float, float]) -> tuple[float, float]:
-    where = f"hand_over.ranges.{name}"
-    ends = np.asarray(si_value(where, asked, quantity.unit), dtype=float)
+    where = f"ranges.{name}"
+    ends = np.asarray(si_value(f"hand_over.{where}", asked, quantity.unit), dtype=float)
     if ends.shape != (2,) or not np.all(np.isfinite(ends)) or not ends[0] < ends[1]:
-        raise InputError(Fault(where, "must be the least and the greatest value", str(asked), "such as (-5e3, 5e3)"))
+        raise refusal(where, "must be the least and the greatest value", str(asked), "such as (-5e3, 5e3)")
     if not np.all(within_bounds(quantity.info, ends)):
-        raise InputError(Fault(where, "is beyond the bounds of the model", str(asked), quantity.info.hint))
+        raise refusal(where, "is beyond the bounds of the model", str(asked), quantity.info.hint)
     return float(ends[0]), float(ends[1])
 
 
@@ -190,8 +192,8 @@ def _largest_load(subject: Configuration) -> float:
     loads, largest = _LOADS, float(_LOADS[-1])
     for _ in range(2):
         with np.errstate(all="ignore"):
-            found = subject.at({OPERATION[0]: loads, OPERATION[1]: np.full_like(loads, 10.0)})
-        pressure = np.asarray(found.maximum_pressure, dtype=float)
+            friction = subject.at({OPERATION[0]: loads, OPERATION[1]: np.full_like(loads, 10.0)})
+        pressure = np.asarray(friction.maximum_pressure, dtype=float)
         holds = np.isfinite(pressure) & (pressure <= LARGEST_PRESSURE)
         largest = float(loads[holds][-1]) if np.any(holds) else float(loads[-1])
         following = loads[loads > largest]

@@ -16,8 +16,9 @@ from ballscrew.basis.errors import Fault, raise_if_any
 from ballscrew.basis.quantities import Angle, AngularSpeed, Force, Info, Quantity, Ratio
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
+from ballscrew.exports.export import Option, filled, warning
+from ballscrew.exports.programs.c_source import number
 from ballscrew.exports.subject import HandOver
-from ballscrew.exports.targets import Option
 from ballscrew.physics.moving_balls.friction_states import (
     MOST_ELEMENTS,
     SlipElementsFit,
@@ -56,6 +57,16 @@ This is exact for any turn that does not reverse on its way, and has the sign of
 is ideal_torque and this. Take screw_torque in motion, not that at a speed of zero.
 """
 
+_C_NOTES = """
+ballscrew_presliding.c and ballscrew_presliding.h have the friction after a reversal, with a state that is yours:
+  ballscrew_presliding state;
+  ballscrew_presliding_start(&state, 0.0);
+  ballscrew_evaluate(inputs, outputs);  /* in each step, with the speed of the screw */
+  torque = outputs[BALLSCREW_IDEAL_TORQUE]
+      + ballscrew_presliding_turn(&state, turned, outputs[BALLSCREW_SCREW_TORQUE]);
+In a step without a turn the part that is at once is left out, as is all friction at rest in ballscrew_evaluate.
+"""
+
 
 @dataclasses.dataclass(frozen=True)
 class Element:
@@ -80,13 +91,14 @@ class Presliding:
 
     @property
     def notes(self) -> str:
-        """What the text beside an export says: a hypothesis, from which point, how far off, and the rule."""
+        """The text beside an export: the calls of C, the hypothesis, its point, how far off it is, and the rule."""
         count = len(self.elements)
         rows = [
-            f"  {k}: share {one.share!r}, slip_angle {one.slip_angle!r} rad" for k, one in enumerate(self.elements, 1)
+            f"  {k}: share {element.share!r}, slip_angle {element.slip_angle!r} rad"
+            for k, element in enumerate(self.elements, 1)
         ]
-        return _NOTES.format(
-            elements=f"There {'is one Maxwell-slip element' if count == 1 else f'are {count} Maxwell-slip elements'}",
+        numbers = _NOTES.format(
+            elements="There is one Maxwell-slip element" if count == 1 else f"There are {count} Maxwell-slip elements",
             load=self.axial_load,
             speed=self.screw_speed,
             largest=self.fit.error.largest,
@@ -99,6 +111,7 @@ class Presliding:
             table="\n".join(rows),
             at_once=self.at_once,
         )
+        return f"{_C_NOTES}\n{numbers}"
 
     @property
     def warning(self) -> Record:
@@ -106,28 +119,35 @@ class Presliding:
         load = units.shown(self.axial_load, _LOAD, 3)
         speed = units.shown(self.screw_speed, _SPEED, 3)
         off = units.percent(self.fit.error.largest)
-        message = (
+        text = (
             "friction that comes back over the angle of the screw after a reversal is a hypothesis; it is fitted "
             f"at {load} and {speed} with an error of up to {off} of the steady torque, and of up to "
             f"{units.percent(self.fit.work_error)} of the friction work of short strokes, and carried over to all "
             "else"
         )
-        return Record(
-            text=message,
-            id="hand_over.presliding",
-            subject="screw_torque",
-            severity="warning",
-            value=self.fit.error.largest,
+        return warning("presliding", "screw_torque", text, holds=None, value=self.fit.error.largest)
+
+    @property
+    def files(self) -> dict[str, str]:
+        """The elements as C99: a structure for the state, and a function that turns it."""
+        shares, angles = (
+            ", ".join(number(getattr(element, name)) for element in self.elements) for name in ("share", "slip_angle")
         )
+        return {
+            "ballscrew_presliding.c": filled(
+                "presliding.c", at_once=number(self.at_once), shares=shares, angles=angles
+            ),
+            "ballscrew_presliding.h": filled("presliding.h", count=len(self.elements)),
+        }
 
 
-def presliding(handed: HandOver) -> Presliding | None:
+def presliding(job: HandOver) -> Presliding | None:
     """The elements that an export asks for; None where it asks for none.
 
     Raises :class:`~ballscrew.basis.errors.InputError` for another number of them, without an operating point, and
     where the model has no such curve.
     """
-    count, load, speed = (handed.options[name] for name in OPTIONS)
+    count, load, speed = (job.options[name] for name in OPTIONS)
     if count == 0:
         return None
     faults: list[Fault] = []
@@ -139,18 +159,18 @@ def presliding(handed: HandOver) -> Presliding | None:
         problem = "must not be zero" if speed == 0 else "is needed for the reversal"
         faults.append(Fault("hand_over.presliding_speed", problem, "", 'give a slow one: "6 rpm"'))
     raise_if_any(faults)
-    subject = handed.subject
+    subject = job.subject
     parts = subject.model, subject.screw, subject.lubricant
-    found = reversal(*parts, axial_load=load, screw_speed=speed)
-    curve = WindingUp.of(found, loops(*parts, found, axial_load=load, screw_speed=speed))
+    result = reversal(*parts, axial_load=load, screw_speed=speed)
+    curve = WindingUp.of(result, loops(*parts, result, axial_load=load, screw_speed=speed))
     fit, steady = fit_slip_elements(curve, count), float(curve.steady_torque)
     return Presliding(
-        elements=tuple(Element(float(one.slip_torque) / steady, float(one.slip_angle)) for one in fit.elements),
+        elements=tuple(Element(float(entry.slip_torque) / steady, float(entry.slip_angle)) for entry in fit.elements),
         at_once=float(curve.at_once) / steady,
         axial_load=load,
         screw_speed=speed,
         fit=fit,
-        bristles_over_model=float(found.bristles_over_model),
+        bristles_over_model=float(result.bristles_over_model),
     )
 
 

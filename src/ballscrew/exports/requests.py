@@ -11,10 +11,10 @@ from ballscrew.basis.errors import Fault, InputError, nearest, raise_if_any
 from ballscrew.cases.case_files import provenance
 from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.exports.export import Export
+from ballscrew.exports.export import Export, Option
 from ballscrew.exports.hand_over import hand_over
 from ballscrew.exports.subject import ANY_TEMPERATURE, TEMPERATURE
-from ballscrew.exports.targets import Option, options_of, options_of_case, target_module
+from ballscrew.exports.targets import target
 
 
 class Request(NamedTuple):
@@ -29,7 +29,7 @@ class Request(NamedTuple):
 
 def check_target(name: str) -> None:
     """Raise :class:`~ballscrew.basis.errors.InputError` for an unknown target, with the list of them."""
-    target_module(name)
+    target(name)
 
 
 def of_case(case: Case, to: str, request: Request) -> Export:
@@ -41,7 +41,7 @@ def of_case(case: Case, to: str, request: Request) -> Export:
     if case.efficiency is not None:
         remedy = "take a model of friction: --model reference"
         raise InputError(Fault("model.name", "a constant efficiency has nothing to hand over", "", remedy))
-    found = hand_over(
+    export = hand_over(
         case.model,
         case.screw,
         case.lubricant,
@@ -50,9 +50,9 @@ def of_case(case: Case, to: str, request: Request) -> Export:
         parameters=request.parameters,
         outputs=request.outputs,
         derivatives=request.derivatives,
-        **{**options_of_case(to, case), **_options(to, request.options)},
+        **{**target(to).options_of_case(case), **_options(to, request.options)},
     )
-    return dataclasses.replace(found, provenance={**found.provenance, **provenance.of_case(case)})
+    return dataclasses.replace(export, provenance={**export.provenance, **provenance.of_case(case)})
 
 
 def _split(where: str, texts: Sequence[str], example: str) -> dict[str, str]:
@@ -67,7 +67,7 @@ def _ranges(subject: Configuration, texts: Sequence[str]) -> dict[str, tuple[flo
     # the temperature is an input of every export, also where the oil is given by its numbers
     known = {name: quantity for name, (_, quantity) in subject.inputs.items()}
     known.setdefault(TEMPERATURE, ANY_TEMPERATURE)
-    found, faults = dict[str, tuple[float, float]](), list[Fault]()
+    ranges, faults = dict[str, tuple[float, float]](), list[Fault]()
     for name, text in _split("--range", texts, 'axial_load="-5:5 kN"').items():
         where = f"--range {name}"
         least, colon, greatest = (part.strip().strip("\"'") for part in text.partition(":"))
@@ -81,13 +81,13 @@ def _ranges(subject: Configuration, texts: Sequence[str]) -> dict[str, tuple[flo
         ends = [units.parse(where, end, quantity) for end in (least, greatest)]
         faults += [end for end in ends if isinstance(end, Fault)]
         if not any(isinstance(end, Fault) for end in ends):
-            found[name.removeprefix("nut.")] = (ends[0], ends[1])  # pyright: ignore[reportArgumentType]  (neither is a Fault)
+            ranges[name.removeprefix("nut.")] = (ends[0], ends[1])  # pyright: ignore[reportArgumentType]  (neither is a Fault)
     raise_if_any(faults)
-    return found
+    return ranges
 
 
 def _options(to: str, texts: Sequence[str]) -> dict[str, Any]:
-    known, found, faults = options_of(to), dict[str, Any](), list[Fault]()
+    known, options, faults = target(to).options, dict[str, Any](), list[Fault]()
     for name, text in _split("--option", texts, "name=value").items():
         where = f"--option {name}"
         value = (
@@ -96,9 +96,9 @@ def _options(to: str, texts: Sequence[str]) -> dict[str, Any]:
             else _value(where, text, known[name])
         )
         faults += [value] if isinstance(value, Fault) else []
-        found[name] = value
+        options[name] = value
     raise_if_any(faults)
-    return found
+    return options
 
 
 def _value(where: str, text: str, option: Option) -> Any | Fault:

@@ -80,7 +80,7 @@ class HandOver:
     @property
     def input_names(self) -> tuple[str, ...]:
         """The names of the inputs, in their order."""
-        return tuple(one.name for one in self.inputs)
+        return tuple(entry.name for entry in self.inputs)
 
     @property
     def output_names(self) -> tuple[str, ...]:
@@ -92,31 +92,31 @@ class HandOver:
     @functools.cached_property
     def units(self) -> Mapping[str, str]:
         """The SI unit of each input, output and derivative."""
-        found = {one.name: one.quantity.unit for one in self.inputs}
-        found |= {o.name: "1" if o.dtype is bool else o.quantity.unit for o in self.outputs}
+        result = {entry.name: entry.quantity.unit for entry in self.inputs}
+        result |= {o.name: "1" if o.dtype is bool else o.quantity.unit for o in self.outputs}
         for o in self.outputs:
-            found |= {slope_name(o.name, x): f"({o.quantity.unit})/({found[x]})" for x in self.derivatives}
-        return found
+            result |= {slope_name(o.name, x): f"({o.quantity.unit})/({result[x]})" for x in self.derivatives}
+        return result
 
     @functools.cached_property
     def meanings(self) -> Mapping[str, str]:
         """A few words for each input, output and derivative."""
-        found = {one.name: one.quantity.info.meaning for one in self.inputs}
-        found |= {o.name: o.quantity.info.meaning for o in self.outputs}
-        found["valid"] = "1 where the model holds and no input is beyond its range, else 0"
+        result = {entry.name: entry.quantity.info.meaning for entry in self.inputs}
+        result |= {o.name: o.quantity.info.meaning for o in self.outputs}
+        result["valid"] = "1 where the model holds and no input is beyond its range, else 0"
         for o in self.outputs:
-            found |= {slope_name(o.name, x): f"derivative of {o.name} by {x}" for x in self.derivatives}
-        return found
+            result |= {slope_name(o.name, x): f"derivative of {o.name} by {x}" for x in self.derivatives}
+        return result
 
     @property
     def formula_range(self) -> dict[str, tuple[float, float]]:
         """The range of a target that is the model itself: its bounds, or what was asked for."""
-        return {one.name: one.range if one.name in self.ranges_given else one.bounds for one in self.inputs}
+        return {entry.name: entry.range if entry.name in self.ranges_given else entry.bounds for entry in self.inputs}
 
     @property
     def working_range(self) -> dict[str, tuple[float, float]]:
         """The range of a target that is a table or a fit."""
-        return {one.name: one.range for one in self.inputs}
+        return {entry.name: entry.range for entry in self.inputs}
 
     @property
     def has_effect(self) -> Mapping[str, bool]:
@@ -130,7 +130,7 @@ class HandOver:
         ends: dict[str, Any] = {name: np.max(np.abs(ranges[name])) * some for name, some in _SHARES.items()}
         if self.has_effect[TEMPERATURE]:
             ends[TEMPERATURE] = np.array(ranges[TEMPERATURE])
-        every = (one.reshape(-1) for one in np.meshgrid(*ends.values(), indexing="ij"))
+        every = (entry.reshape(-1) for entry in np.meshgrid(*ends.values(), indexing="ij"))
         return self.subject.starvation(dict(zip(ends, every, strict=True)), _OF_RANGE)
 
     @functools.cached_property
@@ -147,7 +147,7 @@ class HandOver:
         return recording(key, self._recorded).program
 
     def _recorded(self) -> Program:
-        tape = Tape(len(self.inputs), None, [self._is_nonnegative(one.name) for one in self.inputs])
+        tape = Tape(len(self.inputs), None, [self._is_nonnegative(entry.name) for entry in self.inputs])
         points = {n: tape.value(i) for i, n in enumerate(self.input_names) if self.has_effect[n]}
         try:
             with self.subject.recording():
@@ -176,16 +176,16 @@ class HandOver:
         Inputs that are missing have their usual value; arrays broadcast. Beyond the bounds of the model the nearest
         value counts, and ``valid`` is False.
         """
-        given = {one.name: np.asarray(points.get(one.name, one.value), dtype=float) for one in self.inputs}
+        given = {entry.name: np.asarray(points.get(entry.name, entry.value), dtype=float) for entry in self.inputs}
         limits = self.formula_range
         inside = functools.reduce(
             np.logical_and, [(limits[n][0] <= values) & (values <= limits[n][1]) for n, values in given.items()]
         )
         clamped = {n: np.clip(values, *limits[n]) for n, values in given.items()}
-        found = self._by_program(clamped, inside.shape) if self.is_recordable else self._by_solver(clamped)
-        found = {n: np.array(np.broadcast_to(values, inside.shape)) for n, values in found.items()}
-        found["valid"] = found["valid"].astype(bool) & inside
-        return found
+        result = self._by_program(clamped, inside.shape) if self.is_recordable else self._by_solver(clamped)
+        result = {n: np.array(np.broadcast_to(values, inside.shape)) for n, values in result.items()}
+        result["valid"] = result["valid"].astype(bool) & inside
+        return result
 
     @functools.cached_property
     def _made(self) -> dict[str, Any]:
@@ -214,13 +214,13 @@ class HandOver:
         program = self.program
         arrays = [np.ascontiguousarray(np.broadcast_to(values, shape)).ravel() for values in given.values()]
         masks = {i for i, step in program.steps if step.is_mask}
-        found = {
+        result = {
             n: np.empty(arrays[0].size, dtype=bool if program.outputs.get(n) in masks else float)
             for n in self.output_names
         }
         with np.errstate(all="ignore"):
-            self._interpreter.run(arrays, found)
-        return {name: values.reshape(shape) for name, values in found.items()}
+            self._interpreter.run(arrays, result)
+        return {name: values.reshape(shape) for name, values in result.items()}
 
     @functools.cached_property
     def _interpreter(self) -> Interpreter:
@@ -252,20 +252,20 @@ class HandOver:
         zero. The first points are the corners of load and speed at the middle of all else.
         """
         random = np.random.default_rng(seed)
-        found: dict[str, NDArray[np.float64]] = {}
-        for one in self.inputs:
-            least, greatest = one.range
+        result: dict[str, NDArray[np.float64]] = {}
+        for entry in self.inputs:
+            least, greatest = entry.range
             values = random.uniform(least, greatest, count)
-            if one.name in OPERATION:
+            if entry.name in OPERATION:
                 small = values * 10.0 ** random.uniform(-4, 0, count)
                 values = np.where(random.random(count) < 0.5, np.clip(small, least, greatest), values)
                 values = np.where((random.random(count) < 0.01) & (least <= 0 <= greatest), 0.0, values)
             values[:4] = 0.5 * (least + greatest)
-            found[one.name] = values
-        ends = [one.range for one in self.inputs[:2]]
-        found[OPERATION[0]][:4] = np.repeat(ends[0], 2)[:count]
-        found[OPERATION[1]][:4] = np.tile(ends[1], 2)[:count]
-        return found
+            result[entry.name] = values
+        ends = [entry.range for entry in self.inputs[:2]]
+        result[OPERATION[0]][:4] = np.repeat(ends[0], 2)[:count]
+        result[OPERATION[1]][:4] = np.tile(ends[1], 2)[:count]
+        return result
 
     @functools.cached_property
     def provenance(self) -> dict[str, Any]:
@@ -287,7 +287,7 @@ def usual_range(quantity: Quantity) -> tuple[float, float]:
     info = quantity.info
     usual = info.usual or (-np.inf, np.inf)
     ends = (info.above, info.at_least, usual[0]), (info.below, info.at_most, usual[1])
-    least, greatest = (next(float(end) for end in found if end is not None) for found in ends)
+    least, greatest = (next(float(end) for end in result if end is not None) for result in ends)
     return least, greatest
 
 

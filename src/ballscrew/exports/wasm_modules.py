@@ -147,8 +147,8 @@ class KeptModule(NamedTuple):
 
 def kept_module(name: str) -> KeptModule | None:
     """A module from the disk by the name of its structure; None where there is none."""
-    found = kernel.kept(name)
-    return None if found is None else KeptModule(json.loads(found[0]), found[1])
+    result = kernel.kept(name)
+    return None if result is None else KeptModule(json.loads(result[0]), result[1])
 
 
 def described(function: Function) -> dict[str, Any]:
@@ -166,7 +166,7 @@ def _parted(parts: ByBall | None) -> dict[str, Any]:
     if parts is None:
         return {}
     ball = parts.ball
-    found = {
+    result = {
         "halves": parts.halves,
         "four_contacts": parts.four_contacts,
         "swells": parts.swells,
@@ -181,7 +181,7 @@ def _parted(parts: ByBall | None) -> dict[str, Any]:
         "tile": TILE,
         "solver": [*ElasticNutNumbers._fields, *OF_POINT],
     }
-    return {"by_ball": found}
+    return {"by_ball": result}
 
 
 def outputs_of(nut: Nut, outputs: Collection[str] = OUTPUTS) -> Mapping[str, Output]:
@@ -225,7 +225,7 @@ def _by_ball(subject: Configuration, names: tuple[str, ...], program: Program) -
     nut, bodies = subject.nut, subject.nut.bodies
     assert bodies is not None, "elastic bodies"
     of_ball = OfBall("ball", tables, tuple(cut.points.outputs), tuple(stages.sums))
-    reductions = tuple((_REDUCTIONS[one.function], one.values, one.place) for one in stages.reductions)
+    reductions = tuple((_REDUCTIONS[entry.function], entry.values, entry.place) for entry in stages.reductions)
     four = nut.contacts_per_ball == 4
     parted = ByBall(nut.halves, four, bodies.swelling, functions[0], functions[1], of_ball, reductions, functions[2])
     return Module(wasm.module_of([*parts, wasm.Part("ball", text)]), (functions[2],), parted)
@@ -248,8 +248,8 @@ def _numbers(subject: Configuration, names: tuple[str, ...]) -> tuple[tuple[str,
     solved = elastic_nut_numbers(screw, nut, dataclasses.replace(usual, nut_outer_diameter=outer))
     load, preload = settled(points[OPERATION[0]]), preload_of_rigid_bodies(screw, nut)
     of_point = dict(zip(OF_POINT, (load, preload), strict=True))
-    found = {**solved._asdict(), **of_point, "balls": screw.carrying_balls}
-    program = merged_program(tape, found)
+    result = {**solved._asdict(), **of_point, "balls": screw.carrying_balls}
+    program = merged_program(tape, result)
     return every, program
 
 

@@ -14,6 +14,6 @@ def handed_over():
 
     def handed(model, nut, oil=OIL, to="c", **asked):
         screw = bs.catalogue()["rexroth-16x5x3-4-double"].screw(nut=nut)
-        return frame.handed(model, screw, oil, to, **asked)
+        return frame.export_job(model, screw, oil, to, **asked)
 
     return handed

@@ -16,9 +16,8 @@ import pytest
 import ballscrew as bs
 from ballscrew.cases.case_files import case_file
 from ballscrew.exports import requests
-from ballscrew.exports.tables import beckhoff, drive, linuxcnc
-from ballscrew.exports.tables.friction_curve import friction_curve
-from ballscrew.exports.targets import options_of_case
+from ballscrew.exports.tables.curves import beckhoff, drive, friction_curve, linuxcnc
+from ballscrew.exports.targets import target
 from ballscrew.questions.hand_over import text as text_of_export
 
 RANGES = {"axial_load": (-3000.0, 3000.0), "screw_speed": (-100.0, 100.0)}
@@ -88,7 +87,7 @@ def test_where_directions_differ_the_greater_friction_is_the_curve(handed):
 
 def test_the_list_has_the_form_of_the_example_of_the_manual(handed):
     subject = handed("beckhoff")
-    text = beckhoff.export(subject).files["friction_comp.lis"].decode()
+    text = beckhoff(subject).files["friction_comp.lis"].decode()
     found, example = ([LINE.fullmatch(line).groups() for line in one.splitlines()] for one in (text, MANUAL))
     assert [name for name, _ in found[:10]] == [name for name, _ in example[:10]]
     values = dict(found)
@@ -107,7 +106,7 @@ def test_the_list_has_the_form_of_the_example_of_the_manual(handed):
 def test_the_curve_of_a_drive_counts_with_the_ratio_of_the_motor(handed):
     plain, geared = (
         np.array(list(csv.reader(io.StringIO(found.files["friction_curve.csv"].decode())))[1:], dtype=float)
-        for found in (drive.export(handed("drive")), drive.export(handed("drive", ratio=2.0)))
+        for found in (drive(handed("drive")), drive(handed("drive", ratio=2.0)))
     )
     assert geared[:, 0] == pytest.approx(2 * plain[:, 0], rel=1e-8)
     assert geared[:, 2] == pytest.approx(plain[:, 2] / 2, rel=1e-8)
@@ -120,7 +119,7 @@ def test_the_curve_of_a_drive_counts_with_the_ratio_of_the_motor(handed):
 def test_the_points_of_linuxcnc_are_the_friction_with_its_sign(handed, options, metres, newton_metres):
     """From the fastest backwards to the fastest forwards, as the component interpolates them."""
     subject = handed("linuxcnc", **options)
-    text = linuxcnc.export(subject).files["ballscrew.hal"].decode()
+    text = linuxcnc(subject).files["ballscrew.hal"].decode()
     x, y = (np.array(re.findall(rf"\.{axis}-val-\d\d (\S+)", text), dtype=float) for axis in "xy")
     assert np.all(np.diff(x) > 0)
     assert x == pytest.approx(-x[::-1], rel=1e-12)
@@ -135,7 +134,7 @@ def test_linuxcnc_gives_the_curve(handed):
     if halrun is None:
         pytest.skip("halrun of LinuxCNC is not installed")
     subject = handed("linuxcnc")
-    lines = linuxcnc.export(subject).files["ballscrew.hal"].decode().splitlines()
+    lines = linuxcnc(subject).files["ballscrew.hal"].decode().splitlines()
     place = next(k for k, line in enumerate(lines) if line.startswith("addf"))
     lines.insert(place, "loadrt threads name1=servo-thread period1=1000000 fp1=1")
     speeds = [-40.0, -3.0, 0.0, 0.5, 25.0, 1000.0]  # mm/s
@@ -158,23 +157,23 @@ def test_linuxcnc_gives_the_curve(handed):
 
 
 @pytest.mark.parametrize(
-    ("module", "options", "expected"),
+    ("to", "options", "expected"),
     [
-        (linuxcnc, {"length": "cm"}, "hand_over.length: must be mm or inch"),
-        (beckhoff, {"units_per_newton_metre": 0.0}, "hand_over.units_per_newton_metre: must be positive"),
-        (drive, {"points": 1}, "hand_over.points: must be two at least"),
+        ("linuxcnc", {"length": "cm"}, "hand_over.length: must be mm or inch"),
+        ("beckhoff", {"units_per_newton_metre": 0.0}, "hand_over.units_per_newton_metre: must be positive"),
+        ("drive", {"points": 1}, "hand_over.points: must be two at least"),
     ],
 )
-def test_faults_name_field_and_remedy(handed, module, options, expected):
+def test_faults_name_field_and_remedy(handed, to, options, expected):
     with pytest.raises(bs.InputError) as fault:
-        module.export(handed(module.__name__.rpartition(".")[2], **options))
+        target(to).export(handed(to, **options))
     assert str(fault.value).startswith(expected)
 
 
 def test_friction_that_no_speed_changes_takes_two_points(handed_over):
     """Without load the printed equations leave the force between the balls, which does not depend on speed."""
     subject = handed_over(bs.FrictionModel.olaru2005(), bs.SingleNut(), to="linuxcnc", ranges=RANGES)
-    text = linuxcnc.export(subject).files["ballscrew.hal"].decode()
+    text = linuxcnc(subject).files["ballscrew.hal"].decode()
     torques = [float(line.split()[-1]) for line in text.splitlines() if ".y-val-" in line]
     assert "personality=4\n" in text
     assert np.abs(torques) == pytest.approx(torques[-1])
@@ -183,12 +182,12 @@ def test_friction_that_no_speed_changes_takes_two_points(handed_over):
 def test_a_load_beyond_the_range_is_refused(handed_over):
     subject = handed_over(bs.FrictionModel.olaru2005(), bs.SingleNut(), to="drive", ranges=RANGES, load=4000.0)
     with pytest.raises(bs.InputError, match=r"hand_over\.load: is beyond the range"):
-        drive.export(subject)
+        drive(subject)
 
 
 def test_the_load_is_that_of_the_case(example):
     case = case_file.load(example, ["operation.axial_load=800 N"])
-    assert [options_of_case(to, case) for to in ("drive", "beckhoff", "linuxcnc")] == [{"load": 800.0}] * 3
+    assert [target(to).options_of_case(case) for to in ("drive", "beckhoff", "linuxcnc")] == [{"load": 800.0}] * 3
     export = requests.of_case(case, "drive", requests.Request(ranges=["axial_load=-1:1 kN"]))
     assert export.valid_range["axial_load"] == (800.0, 800.0)
 
@@ -198,7 +197,7 @@ def test_a_curve_of_one_direction_is_that_of_both_and_says_so(handed_over):
     found = []
     for least in (-100.0, 0.0):
         ranges = {**RANGES, "screw_speed": (least, 100.0)}
-        found.append(drive.export(handed_over(model, nut, to="drive", ranges=ranges, load=500.0)))
+        found.append(drive(handed_over(model, nut, to="drive", ranges=ranges, load=500.0)))
     both, one = found
     assert one.files == both.files
     assert one.valid_range["screw_speed"] == (-100.0, 100.0)

@@ -10,8 +10,7 @@ from scipy.optimize import brentq
 
 import ballscrew as bs
 from ballscrew.exports.tables.friction_table import FrictionTable, friction_table
-from ballscrew.exports.tables.lossy_gear import loss_table
-from ballscrew.exports.tables.modelica import component, export
+from ballscrew.exports.tables.modelica import component, export, loss_table
 
 RANGES = {"axial_load": (-3000.0, 5000.0)}
 #: Stands in for the Modelica Standard Library, so that the test needs the compiler only.

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ballscrew.exports.tables.nodes import best_nodes, chord_errors, nodes_within
+from ballscrew.exports.tables.friction_table import best_nodes, chord_errors, nodes_within
 
 POSITIONS = np.linspace(0.0, 1.0, 101)
 ONES = np.ones_like(POSITIONS)

@@ -1,6 +1,6 @@
 """A sweep on disk: a Zarr store that is filled block by block, and goes on where it was stopped.
 
-Files are written here and, by Zarr, in :mod:`~ballscrew.engine.sweeps.store_layout`, and only inside the store::
+Files are written here and, by Zarr, in :mod:`~ballscrew.engine.sweeps.store_zarr`, and only inside the store::
 
     map.zarr/zarr.json              last of all, by a rename: a store without it is not finished
     map.zarr/screw_torque/c/0/1     a chunk: the results of one block, one output
@@ -44,10 +44,8 @@ from ballscrew.basis.errors import (
 from ballscrew.engine.evaluation.evaluation import Engine, Evaluation
 from ballscrew.engine.evaluation.plan import Plan
 from ballscrew.engine.sweeps.store_check import LAYOUT, ROOT, Contents, Damage, file_in_place_of_a_folder, stored_plan
-from ballscrew.engine.sweeps.store_entries import refuse_unsafe
-from ballscrew.engine.sweeps.store_layout import lay_out
+from ballscrew.engine.sweeps.store_files import OTHER, WHERE, Content, refuse_unsafe, row
 from ballscrew.engine.sweeps.store_plan import Blocks, description_of, differences, sealed
-from ballscrew.engine.sweeps.store_rows import OTHER, WHERE, Content, row
 
 #: Suffixes that mean a file, not the folder of a store.
 _FILES = (".csv", ".xlsx", ".nc", ".json", ".toml")
@@ -197,6 +195,8 @@ class Store:
 
     def _lay_out(self) -> None:
         """All metadata and coordinates, in place; the root's aside, until the store is complete."""
+        from ballscrew.engine.sweeps.store_zarr import lay_out
+
         new = self.own / "temporary" / "new"
         shutil.rmtree(new, ignore_errors=True)
         layout = lay_out(new, self.plan, self.blocks, self.variables, self.description["attributes"], self.digest)
@@ -247,21 +247,15 @@ class Store:
 
     def write(self, number: int, name: str, values: np.ndarray) -> Content:
         """Write the results of a block, one output; size and checksum. Values are those of the flattened block."""
-        import zarr
-        from zarr.storage import MemoryStore
+        from ballscrew.engine.sweeps.store_zarr import chunk_of
 
-        held = {ROOT: self._metadata[name]}  # Zarr makes the chunk in memory; how it gets to the disk is ours
-        region = self.blocks.region(number)
-        array: Any = zarr.open_array(MemoryStore(held), mode="r+")
-        array[region if region else ...] = values.reshape([part.stop - part.start for part in region])
         key = self.contents.key(number, name)
-        chunk = held.get(self.blocks.key(number))
-        if chunk is None:  # of nothing but the fill value
+        chunk = chunk_of(self._metadata[name], self.blocks, number, values)
+        if chunk is None:
             _free(self.path / key).unlink(missing_ok=True)
-            return Content.of(self.digest, key, b"")
-        content = chunk.as_numpy_array()
-        self._put(self.path / key, [content])
-        return Content.of(self.digest, key, content)
+        else:
+            self._put(self.path / key, [chunk])
+        return Content.of(self.digest, key, b"" if chunk is None else chunk)
 
     def commit(self, number: int, results: Mapping[str, np.ndarray], chunks: Mapping[str, Content]) -> None:
         """Mark a block as finished, after all its outputs are written."""
@@ -275,10 +269,9 @@ class Store:
     @functools.cached_property
     def _metadata(self) -> dict[str, Any]:
         """The metadata of each output from which Zarr makes a chunk."""
-        from zarr.core.buffer import default_buffer_prototype
+        from ballscrew.engine.sweeps.store_zarr import metadata_of
 
-        buffer = default_buffer_prototype().buffer
-        return {name: buffer.from_bytes((self.path / name / ROOT).read_bytes()) for name in self.variables}
+        return {name: metadata_of(self.path / name) for name in self.variables}
 
     def _put(self, path: Path, content: Iterable[Any]) -> None:
         """Write a file that is complete and synced to disk before it gets its name."""
@@ -301,9 +294,9 @@ class Store:
 
     def opened(self) -> xr.Dataset:
         """The dataset of a complete store; values are read, and compared with their checksums, when asked for."""
-        from ballscrew.engine.sweeps.store_reading import checked_store
+        from ballscrew.engine.sweeps import store_zarr
 
-        return xr.open_zarr(checked_store(self.path), chunks=None, consolidated=True)[self.variables]
+        return store_zarr.opened(self.path)[self.variables]
 
 
 def _free(path: Path) -> Path:

@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from ballscrew.basis.errors import Fault, InputError
+from ballscrew.engine.sweeps.store_files import BYTES, FALSE, OTHER, OWN, WHERE, Content, cells_of, row, unreadable
 from ballscrew.engine.sweeps.store_plan import FORMAT, Blocks, checksum, is_plan, read_sealed
-from ballscrew.engine.sweeps.store_rows import BYTES, FALSE, OTHER, OWN, WHERE, Content, cells_of, row, unreadable
 
 #: The metadata of the dataset, and of each variable.
 ROOT = "zarr.json"
@@ -72,17 +72,24 @@ def verify(store: str | os.PathLike[str]) -> Verification:
     Raises :class:`~ballscrew.basis.errors.InputError` for a folder that is not the store of a sweep, whose plan is
     damaged, or whose checksums cannot be read.
     """
-    path = Path(store).absolute()
+    contents = contents_of(Path(store).absolute())
+    rows = contents.rows()
+    damaged = (*contents.damaged_layout(checksums=True), *contents.damaged_blocks(rows, checksums=True))
+    return Verification(contents.path, contents.blocks.count, len(rows), damaged, contents.is_complete)
+
+
+def contents_of(path: Path) -> Contents:
+    """The files of the store in a folder, by its plan.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` where there is none, of a damaged plan, and of another version.
+    """
     document = stored_plan(path, foreign=_A_STORE, damaged=_A_COPY)
     if document is None:
         raise InputError(Fault(WHERE, "is not the store of a sweep", str(path), _A_STORE))
     if document["format"] != FORMAT:
         remedy = f"sweep again under another name: a store of format {FORMAT} has checksums bound to its plan"
         raise InputError(Fault(WHERE, "is a store of another version", f"{path}: format {document['format']}", remedy))
-    contents = Contents.of(path, document)
-    rows = contents.rows()
-    damaged = (*contents.damaged_layout(checksums=True), *contents.damaged_blocks(rows, checksums=True))
-    return Verification(path, contents.blocks.count, len(rows), damaged, contents.is_complete)
+    return Contents.of(path, document)
 
 
 def stored_plan(folder: Path, *, foreign: str = "choose another name", damaged: str = OTHER) -> dict[str, Any] | None:
@@ -368,11 +375,8 @@ def _unread(entry: os.DirEntry[str]) -> str:
 
 def count_false(path: Path) -> dict[str, tuple[int, int]]:
     """For each truth value of a complete store that is false somewhere: how often, and the first block with it."""
-    document = stored_plan(path, foreign=_A_STORE, damaged=_A_COPY)
-    if document is None or document["format"] != FORMAT:
-        raise InputError(Fault(WHERE, "is not the store of a sweep", str(path), _A_STORE))
-    contents, found = Contents.of(path, document), dict[str, tuple[int, int]]()
-    rows = contents.rows()
+    contents = contents_of(path)
+    rows, counts = contents.rows(), dict[str, tuple[int, int]]()
     if len(rows) < contents.blocks.count:
         where = str(contents.own / "blocks.csv")
         raise InputError(Fault(WHERE, "has checksums that cannot be read", f"{where}: a damaged row", AGAIN))
@@ -380,6 +384,6 @@ def count_false(path: Path) -> dict[str, tuple[int, int]]:
         cells = contents.cells(rows[number])
         for name in contents.truths:
             if count := int(cells[f"{name}{FALSE}"]):
-                before, first = found.get(name, (0, number))
-                found[name] = before + count, first
-    return found
+                before, first = counts.get(name, (0, number))
+                counts[name] = before + count, first
+    return counts

@@ -17,10 +17,8 @@ from ballscrew.engine.evaluation.engines import Engine
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.plan import Plan
 from ballscrew.engine.sweeps.cluster import check_cluster, fill_on_cluster
-from ballscrew.engine.sweeps.lock import Lock
 from ballscrew.engine.sweeps.store import Store, stopping_cleanly
-from ballscrew.engine.sweeps.store_entries import refuse_unsafe
-from ballscrew.engine.sweeps.store_rows import WHERE, Content
+from ballscrew.engine.sweeps.store_files import WHERE, Content, Lock, refuse_unsafe
 
 #: Outputs of a block that are compressed and written at a time.
 WRITERS = 4

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 
+from ballscrew.basis.displayed import notebook
 from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.engine.evaluation.engines import SweepEngine
 from ballscrew.engine.evaluation.evaluation import Evaluation
 from ballscrew.engine.evaluation.plan import Configuration, Plan
-from ballscrew.engine.sweeps import accessor as accessor
 from ballscrew.engine.sweeps.stream import stream
 from ballscrew.physics.components.materials import Lubricant
 from ballscrew.physics.components.nut import Nut
@@ -118,3 +118,19 @@ def in_memory(
     results = evaluation.empty(plan.total)
     evaluation.fill(results, slice(0, plan.total), block_size=block_size, threads=threads, done=done)
     return plan.dataset(results).assign_attrs(evaluation.attributes)
+
+
+@xr.register_dataset_accessor("ballscrew")
+class SweepAccessor:
+    """Pictures of a sweep: ``ds.ballscrew.plot_map("screw_torque")``."""
+
+    def __init__(self, dataset: xr.Dataset) -> None:
+        self._dataset = dataset
+
+    def plot_map(self, output: str = "screw_torque") -> Any:
+        """Picture of an output over the axes of the sweep: contours over two, a line over one.
+
+        It is hatched or shaded where the model does not hold. A notebook shows the picture; its ``save(path)`` writes
+        .png, .svg or .pdf. Raises :class:`~ballscrew.basis.errors.InputError` for an unknown output, and for more axes.
+        """
+        return notebook("pictures").sweep_map(self._dataset, output)

@@ -7,14 +7,18 @@ has a part of the steps; what a later one needs is in an array, whose places are
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ballscrew.basis.errors import Fault, InputError
 from ballscrew.compiler.tracing.program import Program
+from ballscrew.compiler.tracing.reductions import Reduction
 from ballscrew.compiler.tracing.steps import Operand, Step, choose
+from ballscrew.exports.export import data, refusal
+from ballscrew.exports.programs.two_levels import TwoLevels, two_levels
+from ballscrew.exports.subject import HandOver
 
 #: Steps of a function.
 STEPS_OF_A_FUNCTION = 250
@@ -44,6 +48,11 @@ static double remainder_of(double a, double b)
     return m == 0.0 ? copysign(0.0, b) : (b < 0.0) != (m < 0.0) ? m + b : m;
 }""",
 }
+
+#: Arrays over the balls that the solver finds.
+_ARRAYS = 4
+#: Files of the solver, which become a part of the source.
+_SOLVER = ("ballscrew_loads.h", "ballscrew_loads.c")
 
 
 def number(value: float) -> str:
@@ -106,17 +115,17 @@ def own_functions(texts: Sequence[str]) -> list[str]:
 
 def _last_uses(program: Program, part_of: Mapping[int, int], end: int) -> dict[int, int]:
     """The part that reads each step last; outputs are read at the end."""
-    found: dict[int, int] = {}
+    result: dict[int, int] = {}
     for i, step in program.steps:
-        found |= {int(o): part_of[i] for kind, o in step.operands if kind == "step" and int(o) in part_of}
-    return found | {i: end for i in program.outputs.values() if i in part_of}
+        result |= {int(o): part_of[i] for kind, o in step.operands if kind == "step" and int(o) in part_of}
+    return result | {i: end for i in program.outputs.values() if i in part_of}
 
 
 def _places(
     parts: Sequence[Sequence[tuple[int, Step]]], part_of: Mapping[int, int], last: Mapping[int, int]
 ) -> dict[int, int]:
     """The place in the array of each step that a later function or the caller reads."""
-    found: dict[int, int] = {}
+    result: dict[int, int] = {}
     free: list[int] = []
     ends: dict[int, list[int]] = {}
     for i, k in last.items():
@@ -125,10 +134,10 @@ def _places(
     for k, part in enumerate(parts):
         for i, _ in part:
             if last.get(i, k) > k:
-                found[i] = free.pop() if free else size
-                size = max(size, found[i] + 1)
-        free += [found[i] for i in ends.get(k, []) if part_of[i] < k]
-    return found
+                result[i] = free.pop() if free else size
+                size = max(size, result[i] + 1)
+        free += [result[i] for i in ends.get(k, []) if part_of[i] < k]
+    return result
 
 
 def _lines(
@@ -140,8 +149,8 @@ def _lines(
 ) -> list[str]:
     """The statements of a function: a constant for each step, and a place for those that are read later."""
 
-    def operand(one: tuple[str, Operand]) -> str:
-        kind, o = one
+    def operand(entry: tuple[str, Operand]) -> str:
+        kind, o = entry
         if kind != "step":
             return str(int(o)) if isinstance(o, bool) else number(float(o))
         i = int(o)
@@ -161,7 +170,7 @@ def _lines(
 
 def expression(step: Step, operand: Callable[[tuple[str, Operand]], str]) -> str:
     """A step as an expression of C. Raises :class:`~ballscrew.basis.errors.InputError` for an operation C lacks."""
-    function, values = step.function, [operand(one) for one in step.operands]
+    function, values = step.function, [operand(entry) for entry in step.operands]
     if function is choose:
         return "{} ? {} : {}".format(*values)
     if function in INFIX:
@@ -177,4 +186,71 @@ def expression(step: Step, operand: Callable[[tuple[str, Operand]], str]) -> str
     if function in CALLS:
         return f"{CALLS[function]}({', '.join(values)})"
     remedy = "write the law with functions of the C library, or take a table (--to table)"
-    raise InputError(Fault("hand_over.to", f"C has no {function.__name__}", "", remedy))
+    raise refusal("to", f"C has no {function.__name__}", "", remedy)
+
+
+def body_of(job: HandOver) -> Body:
+    """The evaluation of the model in C.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` as :func:`functions` does.
+    """
+    if job.has_elastic_bodies:
+        return _body_by_ball(two_levels(job))
+    made = functions(job.program)
+    return Body(made.texts, (f"double v[{made.room}];", *made.calls), made.results, made.room)
+
+
+def _body_by_ball(parts: TwoLevels) -> Body:
+    """The evaluation of a nut with elastic bodies: its loads, a loop over the balls, what follows from the sums."""
+    points = functions(parts.points, "point", "z", "a")
+    ball = functions(parts.each_ball, "ball", "y", "b")
+    behind = functions(parts.behind, "behind", "z", "c")
+    fields = ", ".join(number(value) if isinstance(value, float) else str(value) for value in parts.nut)
+    balls, reductions = parts.nut.all_balls, parts.stages.reductions
+    preload = "0.0" if parts.preload is None else f"x[{parts.preload}]"
+    statements = [
+        f"static const ballscrew_nut nut = {{{fields}}};",
+        f"double a[{points.room}], b[{ball.room}], c[{behind.room}], y[{len(parts.tables)}];",
+        f"double z[{parts.behind.inputs}] = {{0.0}}, found[BALLSCREW_LOADS_SIZE({balls})];",
+        f"double room[BALLSCREW_LOADS_ROOM({balls})], r[{len(reductions)}] = {{0.0}};",
+        *(f"z[{k}] = x[{i}];" for k, i in enumerate(parts.inputs)),
+        f"z[{parts.solved}] = ballscrew_loads(&nut, x[0], {preload}, room, found);",
+        *points.calls,
+        *(f"y[{k}] = {points.results[str(what)]};" for k, (by_ball, what) in enumerate(parts.tables) if not by_ball),
+        f"for (i = 0; i < {balls}; i++) {{",
+        *(f"    y[{k}] = found[{what} * {balls} + i];" for k, (by_ball, what) in enumerate(parts.tables) if by_ball),
+        *(f"    {call}" for call in ball.calls),
+        *(f"    {line}" for line in _reduced(reductions, ball.results)),
+        "}",
+        f"for (i = 0; i < {len(reductions)}; i++)",
+        f"    z[{parts.behind.inputs - len(reductions)} + i] = r[i];",
+        *behind.calls,
+    ]
+    assert {*range(_ARRAYS)} >= {what for by_ball, what in parts.tables if by_ball}
+    room = points.room + ball.room + behind.room + len(parts.tables) + parts.behind.inputs + 15 * balls
+    return Body((*_solver(), *points.texts, *ball.texts, *behind.texts), tuple(statements), behind.results, room)
+
+
+def _reduced(reductions: tuple[Reduction, ...], values: Mapping[str, str]) -> list[str]:
+    """The sums, the greatest values, and the values at the ball where one is greatest, as they grow ball by ball."""
+    lines: list[str] = []
+    for k, entry in enumerate(reductions):
+        value = values[entry.values]
+        if entry.function is np.sum:
+            lines.append(f"r[{k}] += {value};")
+        elif entry.function is np.max:
+            lines.append(f"r[{k}] = i == 0 || {value} > r[{k}] || {value} != {value} ? {value} : r[{k}];")
+        elif entry.function is np.argmax:
+            takes = [(j, other) for j, other in enumerate(reductions) if other.place == k]
+            lines.append(f"if (i == 0 || {value} > r[{k}]) {{")
+            lines.append(f"    r[{k}] = {value};")
+            lines += [f"    r[{j}] = {values[other.values]};" for j, other in takes]
+            lines.append("}")
+    return lines
+
+
+def _solver() -> list[str]:
+    """The solver as a part of the source: what it offers is static."""
+    texts = [data(name).decode() for name in _SOLVER]
+    plain = re.sub(r'^#(include "ballscrew_loads\.h"|include <math\.h>)\n', "", "\n".join(texts), flags=re.MULTILINE)
+    return [re.sub(r"^double ballscrew_loads\(", "static double ballscrew_loads(", plain, flags=re.MULTILINE)]

@@ -20,16 +20,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, InputError
-from ballscrew.basis.records import Record
 from ballscrew.engine.evaluation.outputs import OPERATION
-from ballscrew.exports.export import Export
+from ballscrew.exports.export import Export, Option, Target, Values, WorstError, data, refusal, warning, worst_errors
 from ballscrew.exports.programs import interpreter
 from ballscrew.exports.programs.program_file import program_file
 from ballscrew.exports.readme import readme
 from ballscrew.exports.subject import TEMPERATURE, HandOver
-from ballscrew.exports.targets import Option
-from ballscrew.exports.worst_error import Values, WorstError, worst_errors
 
 #: The speed over which friction goes through zero, rad/s, as in ``data/exports/fmi_model.c``.
 REGULARISATION_SPEED = 0.01
@@ -37,7 +33,6 @@ REGULARISATION_SPEED = 0.01
 _MOVING = 20.0
 #: The name of the model in an FMU, of its library and of its file.
 IDENTIFIER = "ballscrew"
-OPTIONS: Mapping[str, Option] = {"version": Option(2, "version of the standard, 2 or 3")}
 _SOURCES = (*interpreter.SOURCES, "fmi_model.c")
 _HEADERS = (*interpreter.HEADERS, "fmi_model.h")
 #: The exponents of the base units, as FMI writes units.
@@ -79,55 +74,48 @@ class Variable(NamedTuple):
     greatest: float | None = None
 
 
-def export(handed: HandOver) -> Export:
-    """The model as an FMU of version 2.0 or 3.0. Raises :class:`~ballscrew.basis.errors.InputError` for another
-    version.
+def export(job: HandOver) -> Export:
+    """The model as an FMU of version 2.0 or 3.0.
+
+    Raises :class:`~ballscrew.basis.errors.InputError` for another version, and for derivatives.
     """
-    version = handed.options["version"]
+    version = job.options["version"]
     if version not in (2, 3):
-        raise InputError(Fault("hand_over.version", "must be 2 or 3", str(version), "2 is read by most tools"))
-    if handed.derivatives:
-        remedy = "leave them out, or take the source (--to c)"
-        raise InputError(Fault("hand_over.derivatives", "an FMU has none here", "", remedy))
-    program = program_file(handed)
-    listed = variables(handed)
+        raise refusal("version", "must be 2 or 3", str(version), "2 is read by most tools")
+    if job.derivatives:
+        raise refusal("derivatives", "an FMU has none here", "", "leave them out, or take the source (--to c)")
+    program = program_file(job)
+    listed = variables(job)
     token = uuid.UUID(hashlib.sha256(program + repr(listed).encode()).hexdigest()[:32])
-    describe, source = (_fmi2, "fmi2.c") if version == 2 else (_fmi3, "fmi3.c")
-    text = readme(handed, f"FMU {version}.0", _NOTES)
+    text = readme(job, f"FMU {version}.0", _NOTES)
+    page = f"<!DOCTYPE html>\n<title>ballscrew</title>\n<pre>\n{_escaped(text)}</pre>\n"
+    documentation = {"README.txt": text} if version == 2 else {"index.html": page}
+    sources = (*_SOURCES, *_HEADERS, f"fmi{version}.c")
     content = {
-        "modelDescription.xml": _document(describe(handed, listed, str(token))),
+        "modelDescription.xml": _document(_description(job, listed, f"{{{token}}}", version)),
         **_libraries(version),
         "resources/program.bin": program,
-        **{f"sources/{name}": interpreter.data(name) for name in (*_SOURCES, *_HEADERS, source)},
-        f"documentation/{'README.txt' if version == 2 else 'index.html'}": (
-            text if version == 2 else f"<!DOCTYPE html>\n<title>ballscrew</title>\n<pre>\n{_escaped(text)}</pre>\n"
-        ).encode(),
+        **{f"sources/{name}": data(name) for name in sources},
+        **{f"documentation/{name}": written.encode() for name, written in documentation.items()},
     }
     if version == 3:
         content["sources/buildDescription.xml"] = _document(_build_description())
     slow, moving = (
         units.in_unit(speed, "rad/s", 6) for speed in (REGULARISATION_SPEED, _MOVING * REGULARISATION_SPEED)
     )
-    warning = Record(
-        text=f"friction passes through zero over {slow} (parameter regularisation_speed), so that below {moving} "
+    rest = (
+        f"friction passes through zero over {slow} (parameter regularisation_speed), so that below {moving} "
         "drive_torque lacks a part of it, next to rest all, and a load at rest creeps: where holding matters, "
-        "brake where holding_torque says so",
-        id="hand_over.rest",
-        subject="regularisation_speed",
-        severity="warning",
-        holds=False,
+        "brake where holding_torque says so"
     )
-    return Export.of(
-        handed,
-        "fmu",
-        {f"{IDENTIFIER}.fmu": _archive(content)},
-        valid_range=handed.formula_range,
-        worst_error=errors_of_fmu(handed),
-        warnings=[warning],
-    )
+    warnings = [warning("rest", "regularisation_speed", rest)]
+    return Export.of(job, "fmu", {f"{IDENTIFIER}.fmu": _archive(content)}, errors_of_fmu(job), warnings=warnings)
 
 
-def errors_of_fmu(handed: HandOver) -> tuple[WorstError, ...]:
+FMU = Target(export, {"version": Option(2, "version of the standard, 2 or 3")})
+
+
+def errors_of_fmu(job: HandOver) -> tuple[WorstError, ...]:
     """The worst error of the FMU; empty where no prebuilt library runs on this machine.
 
     ``drive_torque`` has the friction that goes through zero, and once more its error in motion, from twenty times the
@@ -135,21 +123,21 @@ def errors_of_fmu(handed: HandOver) -> tuple[WorstError, ...]:
     """
     if not interpreter.runs_here():
         return ()
-    points, found = interpreter.program_at_points(handed)
-    exact = handed.evaluate(points)
-    continuous = {**found, _DRIVE: with_regularisation(points[OPERATION[1]], found)}
-    errors = worst_errors(handed, lambda _: continuous, points=points, exact=exact)
+    points, outputs = interpreter.program_at_points(job)
+    exact = job.evaluate(points)
+    continuous = {**outputs, _DRIVE: with_regularisation(points[OPERATION[1]], outputs)}
+    errors = worst_errors(job, lambda _: continuous, points=points, exact=exact)
     moving = np.abs(points[OPERATION[1]]) >= _MOVING * REGULARISATION_SPEED
     if not np.any(moving):
         return errors
-    there, at, true = ({n: v[moving] for n, v in one.items()} for one in (continuous, points, exact))
-    (in_motion,) = worst_errors(handed, lambda _: there, points=at, exact=true, outputs=[_DRIVE])
+    there, at, true = ({n: v[moving] for n, v in values.items()} for values in (continuous, points, exact))
+    (in_motion,) = worst_errors(job, lambda _: there, points=at, exact=true, outputs=[_DRIVE])
     return *errors, dataclasses.replace(in_motion, output=f"{_DRIVE}_in_motion")
 
 
-def with_regularisation(speed: NDArray[np.float64], found: Values) -> NDArray[np.float64]:
+def with_regularisation(speed: NDArray[np.float64], outputs: Values) -> NDArray[np.float64]:
     """The drive torque that the FMU makes of the outputs of the program, at the usual speed of regularisation."""
-    return found["ideal_torque"] + np.tanh(speed / REGULARISATION_SPEED) * found["screw_torque"]
+    return outputs["ideal_torque"] + np.tanh(speed / REGULARISATION_SPEED) * outputs["screw_torque"]
 
 
 _NOTES = """\
@@ -167,76 +155,85 @@ one thread for each instance.
 
 def _libraries(version: int) -> dict[str, bytes]:
     """The prebuilt libraries at their places in an FMU of a version of the standard."""
-    found: dict[str, bytes] = {}
-    for path, platforms in interpreter.LIBRARIES.items():
-        if platform := platforms[version - 2]:
-            found[f"binaries/{platform}/{path.rpartition('/')[2]}"] = interpreter.data(path)
-    return found
+    return {
+        f"binaries/{platforms[version - 2]}/{path.rpartition('/')[2]}": data(path)
+        for path, platforms in interpreter.LIBRARIES.items()
+        if platforms[version - 2]
+    }
 
 
-def variables(handed: HandOver) -> tuple[Variable, ...]:
+def variables(job: HandOver) -> tuple[Variable, ...]:
     """The variables in the order of their value references: inputs, regularisation speed, outputs, friction torque."""
-    limits, found = handed.formula_range, list[Variable]()
-    for one in handed.inputs:
-        is_input = one.name in (*OPERATION, TEMPERATURE)
+    limits, listed = job.formula_range, list[Variable]()
+    for entry in job.inputs:
+        is_input = entry.name in (*OPERATION, TEMPERATURE)
         kind = ("input", "continuous") if is_input else ("parameter", "tunable")
-        ends = [end if np.isfinite(end) else None for end in limits[one.name]]
-        found.append(Variable(one.name, *kind, one.quantity.unit, handed.meanings[one.name], one.value, *ends))
-    found.append(
+        ends = [end if np.isfinite(end) else None for end in limits[entry.name]]
+        listed.append(Variable(entry.name, *kind, entry.quantity.unit, job.meanings[entry.name], entry.value, *ends))
+    listed.append(
         Variable("regularisation_speed", "parameter", "tunable", "rad/s", _REGULARISATION, REGULARISATION_SPEED, 0.0)
     )
-    for name in handed.output_names:
-        found.append(Variable(name, "output", "continuous", handed.units[name], handed.meanings[name]))
-    found.append(Variable("friction_torque", "output", "continuous", "N m", _FRICTION_TORQUE))
-    return tuple(found)
+    for name in job.output_names:
+        listed.append(Variable(name, "output", "continuous", job.units[name], job.meanings[name]))
+    listed.append(Variable("friction_torque", "output", "continuous", "N m", _FRICTION_TORQUE))
+    return tuple(listed)
 
 
-def _fmi2(handed: HandOver, listed: tuple[Variable, ...], token: str) -> xml.Element:
-    """The description of version 2.0."""
-    root = xml.Element("fmiModelDescription", {"fmiVersion": "2.0", "guid": f"{{{token}}}", **_heading(handed)})
-    root.set("numberOfEventIndicators", "0")
-    for kind in ("ModelExchange", "CoSimulation"):
-        flags = {"modelIdentifier": IDENTIFIER, "canGetAndSetFMUstate": "true"}
-        flags |= {"canHandleVariableCommunicationStepSize": "true"} if kind == "CoSimulation" else {}
-        files = xml.SubElement(xml.SubElement(root, kind, flags), "SourceFiles")
-        for name in ("fmi2.c", *_SOURCES):
-            xml.SubElement(files, "File", {"name": name})
-    _units(root, listed)
-    _experiment(root)
-    parent = xml.SubElement(root, "ModelVariables")
-    for reference, variable in enumerate(listed):
-        scalar = xml.SubElement(parent, "ScalarVariable", _attributes(variable, reference))
-        xml.SubElement(scalar, "Real", _of_type(variable))
-    structure = xml.SubElement(root, "ModelStructure")
-    for kind in ("Outputs", "InitialUnknowns"):
-        unknowns = xml.SubElement(structure, kind)
-        for place, variable in enumerate(listed, start=1):
-            if variable.causality == "output":
-                xml.SubElement(unknowns, "Unknown", {"index": str(place)})
-    return root
-
-
-def _fmi3(handed: HandOver, listed: tuple[Variable, ...], token: str) -> xml.Element:
-    """The description of version 3.0."""
-    heading = {"fmiVersion": "3.0", "instantiationToken": f"{{{token}}}", **_heading(handed)}
+def _description(job: HandOver, listed: tuple[Variable, ...], token: str, version: int) -> xml.Element:
+    """The description of version 2.0 or 3.0: what differs is the token's name, sources, types, and how variables are
+    referred to.
+    """
+    is_2 = version == 2
+    heading = {
+        "fmiVersion": f"{version}.0",
+        "guid" if is_2 else "instantiationToken": token,
+        "modelName": IDENTIFIER,
+        "description": f"Friction of a ball screw, model {job.subject.model.label}",
+        "generationTool": f"ballscrew {job.provenance['version']}",
+        "variableNamingConvention": "flat",
+        **({"numberOfEventIndicators": "0"} if is_2 else {}),
+    }
     root = xml.Element("fmiModelDescription", heading)
     for kind in ("ModelExchange", "CoSimulation"):
-        flags = {"modelIdentifier": IDENTIFIER, "canGetAndSetFMUState": "true"}
+        flags = {"modelIdentifier": IDENTIFIER, f"canGetAndSetFMU{'state' if is_2 else 'State'}": "true"}
         flags |= {"canHandleVariableCommunicationStepSize": "true"} if kind == "CoSimulation" else {}
-        xml.SubElement(root, kind, flags)
+        interface = xml.SubElement(root, kind, flags)
+        if is_2:
+            _files(xml.SubElement(interface, "SourceFiles"), "File", "fmi2.c")
     _units(root, listed)
-    _experiment(root)
+    xml.SubElement(root, "DefaultExperiment", {"startTime": "0", "stopTime": "1", "stepSize": "0.001"})
     parent = xml.SubElement(root, "ModelVariables")
-    time = {"name": "time", "valueReference": str(len(listed)), "causality": "independent", "variability": "continuous"}
-    xml.SubElement(parent, "Float64", time)
+    if not is_2:
+        time = {"name": "time", "valueReference": str(len(listed)), "causality": "independent"}
+        xml.SubElement(parent, "Float64", {**time, "variability": "continuous"})
     for reference, variable in enumerate(listed):
-        xml.SubElement(parent, "Float64", {**_attributes(variable, reference), **_of_type(variable)})
+        attributes = {
+            "name": variable.name,
+            "valueReference": str(reference),
+            "description": variable.description,
+            "causality": variable.causality,
+            "variability": variable.variability,
+        }
+        if is_2:
+            xml.SubElement(xml.SubElement(parent, "ScalarVariable", attributes), "Real", _of_type(variable))
+        else:
+            xml.SubElement(parent, "Float64", attributes | _of_type(variable))
     structure = xml.SubElement(root, "ModelStructure")
+    outputs = [reference for reference, variable in enumerate(listed) if variable.causality == "output"]
     for kind in ("Output", "InitialUnknown"):
-        for reference, variable in enumerate(listed):
-            if variable.causality == "output":
-                xml.SubElement(structure, kind, {"valueReference": str(reference)})
+        unknowns = xml.SubElement(structure, f"{kind}s") if is_2 else structure
+        for reference in outputs:
+            if is_2:
+                xml.SubElement(unknowns, "Unknown", {"index": str(reference + 1)})
+            else:
+                xml.SubElement(unknowns, kind, {"valueReference": str(reference)})
     return root
+
+
+def _files(parent: xml.Element, tag: str, main: str) -> None:
+    """The sources that make the library."""
+    for name in (main, *_SOURCES):
+        xml.SubElement(parent, tag, {"name": name})
 
 
 def _build_description() -> xml.Element:
@@ -244,18 +241,8 @@ def _build_description() -> xml.Element:
     root = xml.Element("fmiBuildDescription", {"fmiVersion": "3.0"})
     configuration = xml.SubElement(root, "BuildConfiguration", {"modelIdentifier": IDENTIFIER})
     files = xml.SubElement(configuration, "SourceFileSet", {"language": "C99"})
-    for name in ("fmi3.c", *_SOURCES):
-        xml.SubElement(files, "SourceFile", {"name": name})
+    _files(files, "SourceFile", "fmi3.c")
     return root
-
-
-def _heading(handed: HandOver) -> dict[str, str]:
-    return {
-        "modelName": IDENTIFIER,
-        "description": f"Friction of a ball screw, model {handed.subject.model.label}",
-        "generationTool": f"ballscrew {handed.provenance['version']}",
-        "variableNamingConvention": "flat",
-    }
 
 
 def _units(root: xml.Element, listed: tuple[Variable, ...]) -> None:
@@ -265,24 +252,10 @@ def _units(root: xml.Element, listed: tuple[Variable, ...]) -> None:
         xml.SubElement(xml.SubElement(definitions, "Unit", {"name": unit}), "BaseUnit", exponents)
 
 
-def _experiment(root: xml.Element) -> None:
-    xml.SubElement(root, "DefaultExperiment", {"startTime": "0", "stopTime": "1", "stepSize": "0.001"})
-
-
-def _attributes(variable: Variable, reference: int) -> dict[str, str]:
-    return {
-        "name": variable.name,
-        "valueReference": str(reference),
-        "description": variable.description,
-        "causality": variable.causality,
-        "variability": variable.variability,
-    }
-
-
 def _of_type(variable: Variable) -> dict[str, str]:
-    found = {"unit": variable.unit} if variable.unit in _BASE_UNITS else {}
+    unit = {"unit": variable.unit} if variable.unit in _BASE_UNITS else {}
     numbers = {"min": variable.least, "max": variable.greatest, "start": variable.start}
-    return found | {name: repr(float(value)) for name, value in numbers.items() if value is not None}
+    return unit | {name: repr(float(value)) for name, value in numbers.items() if value is not None}
 
 
 def _document(root: xml.Element) -> bytes:
@@ -296,10 +269,10 @@ def _escaped(text: str) -> str:
 
 def _archive(content: Mapping[str, bytes]) -> bytes:
     """Files as a ZIP archive, the same bytes each time."""
-    made = io.BytesIO()
-    with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as archive:
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, held in content.items():
             entry = zipfile.ZipInfo(name, (1980, 1, 1, 0, 0, 0))
             entry.compress_type, entry.external_attr = zipfile.ZIP_DEFLATED, 0o644 << 16
             archive.writestr(entry, held)
-    return made.getvalue()
+    return stream.getvalue()

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 import math
-import re
 from collections.abc import Mapping
-from importlib import resources
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,15 +13,14 @@ from numpy.typing import NDArray
 from scipy.optimize import linprog
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, InputError, raise_if_any
+from ballscrew.basis.errors import Fault, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
 from ballscrew.engine.evaluation.outputs import OPERATION
+from ballscrew.exports.export import Export, Option, Values, WorstError, refusal, warning, worst_errors
 from ballscrew.exports.programs import c99
 from ballscrew.exports.subject import HandOver
-from ballscrew.exports.targets import Option
-from ballscrew.exports.worst_error import Values, WorstError, worst_errors
 from ballscrew.physics.components.materials import GRAVITY
 
 LOAD = Quantity("load", "N", Info("F", "load of the fit", "kN", hint="4 kN", usual=(-1e7, 1e7)))
@@ -157,85 +155,80 @@ class JointFriction:
 
     def warnings(self, *, balances: bool) -> list[Record]:
         """A sentence where the mass is none of the case, and where a file does not have what balances the weight."""
-        found = list[Record]()
+        records = list[Record]()
         if math.isnan(self.given_mass):
             use = "whose weight is the load of the fit" if self.load else "of no meaning, as there is no load either"
-            message = (
+            text = (
                 "no mass is given ([axis] mass): the axis of the files is vertical and has "
                 f"{units.in_unit(self.mass, 'kg')}, {use}"
             )
-            found.append(_assumed("hand_over.mass", "mass", message))
+            records.append(warning("mass", "mass", text))
         if self.counterforce and not balances:
             force = units.in_unit(self.counterforce, "N")
-            message = (
+            text = (
                 f"a force of {force} along positive motion balances the weight, and the files have no place for "
                 "it: add it in the simulation"
             )
-            found.append(_assumed("hand_over.counterforce", "counterforce", message))
-        return found
+            records.append(warning("counterforce", "counterforce", text))
+        return records
 
     def at_points(self, points: Values) -> dict[str, NDArray[np.float64]]:
         """What the joint says at points of the model."""
         return {"screw_torque": self.torque(points[OPERATION[1]])}
 
 
-def _assumed(name: str, subject: str, message: str) -> Record:
-    return Record(text=message, id=name, subject=subject, severity="warning", holds=False)
-
-
-def joint_friction(handed: HandOver, degree: int) -> JointFriction:
+def joint_friction(job: HandOver, degree: int) -> JointFriction:
     """The joint of a model, with damping up to a power of the speed.
 
     Raises :class:`~ballscrew.basis.errors.InputError` without a load, and where the model has no friction at it.
     """
-    load, lowest = handed.options["load"], handed.options["lowest_speed"]
-    highest = max(map(abs, handed.working_range[OPERATION[1]]))
+    load, lowest = job.options["load"], job.options["lowest_speed"]
+    highest = max(map(abs, job.working_range[OPERATION[1]]))
     if math.isnan(load):
-        raise InputError(Fault("hand_over.load", "missing", "", 'a joint is fitted at one load: give load="4 kN"'))
-    least, greatest = handed.formula_range[OPERATION[0]]
+        raise refusal("load", "missing", "", 'a joint is fitted at one load: give load="4 kN"')
+    least, greatest = job.formula_range[OPERATION[0]]
     if not least <= load <= greatest:
-        raise InputError(Fault("hand_over.load", "is beyond the bounds of the model", units.shown(load, LOAD)))
-    if not handed.options["inertia"] >= 0:
-        raise InputError(Fault("hand_over.inertia", "must be 0 or more", str(handed.options["inertia"]), "in kg m^2"))
-    raise_if_any(_faults_of_axis(handed))
+        raise refusal("load", "is beyond the bounds of the model", units.shown(load, LOAD))
+    if not job.options["inertia"] >= 0:
+        raise refusal("inertia", "must be 0 or more", str(job.options["inertia"]), "in kg m^2")
+    raise_if_any(_faults_of_axis(job))
     if not 0 < lowest < highest:
         shown = units.shown(lowest, LOWEST_SPEED)
-        raise InputError(
-            Fault("hand_over.lowest_speed", "must be above 0 and below the highest speed of the range", shown)
-        )
-    both = _both_ways(handed, np.geomspace(lowest, highest, SPEEDS))
-    found = handed.evaluate({OPERATION[0]: np.append(np.full(both.size, load), load), OPERATION[1]: np.append(both, 0)})
-    torque = found["screw_torque"]
+        raise refusal("lowest_speed", "must be above 0 and below the highest speed of the range", shown)
+    both = _both_ways(job, np.geomspace(lowest, highest, SPEEDS))
+    loads, speeds = np.append(np.full(both.size, load), load), np.append(both, 0)
+    outputs = job.evaluate({OPERATION[0]: loads, OPERATION[1]: speeds})
+    torque = outputs["screw_torque"]
     if not np.all(torque > 0):
         shown = units.shown(load, LOAD)
-        raise InputError(Fault("hand_over.load", "the model has no friction at this load", shown, "take another load"))
+        raise refusal("load", "the model has no friction at this load", shown, "take another load")
     fitted = least_largest_error(np.abs(both) / highest, torque[:-1], degree)
     coefficients = tuple(float(c) / highest**power for power, c in enumerate(fitted))
     return JointFriction(
-        lead=handed.subject.screw.lead,
-        inertia=handed.options["inertia"],
+        lead=job.subject.screw.lead,
+        inertia=job.options["inertia"],
         load=load,
-        given_mass=handed.options["mass"],
-        inclination=handed.options["inclination"],
-        counterforce=handed.options["counterforce"],
+        given_mass=job.options["mass"],
+        inclination=job.options["inclination"],
+        counterforce=job.options["counterforce"],
         speeds=(lowest, highest),
         coefficients=coefficients,
         at_rest=float(torque[-1]),
-        share_valid=float(np.mean(found["valid"])),
+        share_valid=float(np.mean(outputs["valid"])),
     )
 
 
-def _faults_of_axis(handed: HandOver) -> list[Fault]:
+def _faults_of_axis(job: HandOver) -> list[Fault]:
     """Faults of a mass that is none, and of an angle beyond the vertical."""
-    mass, angle, found = handed.options["mass"], handed.options["inclination"], list[Fault]()
+    mass, angle, faults = job.options["mass"], job.options["inclination"], list[Fault]()
     if mass <= 0:
-        found.append(
+        faults.append(
             Fault("hand_over.mass", "must be above 0", units.shown(mass, MASS), "leave it out, or give it in kg")
         )
     if abs(angle) > math.pi / 2:
         remedy = "90 deg for a vertical axis, 0 deg for a horizontal one"
-        found.append(Fault("hand_over.inclination", "is beyond the vertical", units.shown(angle, INCLINATION), remedy))
-    return found
+        faults.append(Fault("hand_over.inclination", "is beyond the vertical", units.shown(angle, INCLINATION), remedy))
+    return faults
 
 
 def least_largest_error(speed: NDArray[np.float64], torque: NDArray[np.float64], degree: int) -> NDArray[np.float64]:
@@ -255,21 +248,21 @@ def least_largest_error(speed: NDArray[np.float64], torque: NDArray[np.float64],
         b_ub=np.concatenate([ones[:, 0], -ones[:, 0], np.zeros(len(beyond))]),
         bounds=[(0, None), *[(None, None)] * (degree - 1), (0, None), (0, None)],
     )
-    found = solved.x[:-1]
+    coefficients = solved.x[:-1]
     if degree == 3:  # between the points of the constraint: a x + b x² + c x³ rises from rest if b² <= 4 a c
-        found[2] = max(found[2], -2 * math.sqrt(max(found[1], 0.0) * found[3]))
-    return found
+        coefficients[2] = max(coefficients[2], -2 * math.sqrt(max(coefficients[1], 0.0) * coefficients[3]))
+    return coefficients
 
 
-def joint_range(handed: HandOver) -> dict[str, tuple[float, float]]:
+def joint_range(job: HandOver) -> dict[str, tuple[float, float]]:
     """Where a joint holds: its loads and speeds, and all else as in the case."""
-    at_case = {one.name: (one.value, one.value) for one in handed.inputs}
-    return {**at_case, **{name: handed.working_range[name] for name in OPERATION}}
+    at_case = {entry.name: (entry.value, entry.value) for entry in job.inputs}
+    return {**at_case, **{name: job.working_range[name] for name in OPERATION}}
 
 
-def _both_ways(handed: HandOver, speeds: NDArray[np.float64]) -> NDArray[np.float64]:
+def _both_ways(job: HandOver, speeds: NDArray[np.float64]) -> NDArray[np.float64]:
     """Speeds in each direction that the range has."""
-    least, greatest = handed.working_range[OPERATION[1]]
+    least, greatest = job.working_range[OPERATION[1]]
     both = np.concatenate([speeds, -speeds])
     return both[(least <= both) & (both <= greatest)]
 
@@ -288,7 +281,7 @@ class JointErrors(NamedTuple):
 
     def document(self) -> dict[str, Any]:
         """The errors as they stand in JSON."""
-        by_load = [one.document() for one in self.by_load]
+        by_load = [entry.document() for entry in self.by_load]
         rest = None if self.at_rest is None else self.at_rest.document()
         over_loads = self.over_loads.document()
         return {"joint_errors": by_load, "joint_error_over_loads": over_loads, "joint_error_at_rest": rest}
@@ -303,8 +296,8 @@ class JointErrors(NamedTuple):
     @property
     def text(self) -> str:
         """The errors in words."""
-        load, half, twice = (units.shown(one.at[OPERATION[0]], LOAD) for one in (self.at_load, *self.by_load[1::3]))
-        near = max(one.relative for one in self.by_load[1:])
+        load, half, twice = (units.shown(entry.at[OPERATION[0]], LOAD) for entry in (self.at_load, *self.by_load[1::3]))
+        near = max(entry.relative for entry in self.by_load[1:])
         around = f", {_percent(near)} % from {half} to {twice}" if half != twice else ""
         at_load = units.shown(self.over_loads.at[OPERATION[0]], LOAD)
         at_speed = units.shown(self.over_loads.at[OPERATION[1]], LOWEST_SPEED)
@@ -319,57 +312,39 @@ class JointErrors(NamedTuple):
 
     def warnings(self, joint: JointFriction) -> list[Record]:
         """The errors as a warning, and one where the model itself does not hold at all speeds of the fit."""
-        found = [
-            Record(
-                text=f"{self.text}; beyond its range, and below the lowest speed of the fit, it goes on as fitted",
-                id="hand_over.no_load",
-                subject="screw_torque",
-                severity="warning",
-                holds=False,
-                value=self.over_loads.value,
-                unit=self.over_loads.unit,
-            )
-        ]
+        text = f"{self.text}; beyond its range, and below the lowest speed of the fit, it goes on as fitted"
+        error = self.over_loads
+        records = [warning("no_load", "screw_torque", text, value=error.value, unit=error.unit)]
         if joint.share_valid < 1:
             percent = units.fixed(100 * joint.share_valid)
-            message = (
+            text = (
                 f"at {units.shown(joint.load, LOAD)} the model itself holds at {percent} % of the speeds of the "
                 "fit; ballscrew run says why"
             )
-            found.append(
-                Record(
-                    text=message,
-                    id="hand_over.fit_validity",
-                    subject="screw_speed",
-                    severity="warning",
-                    holds=False,
-                    value=joint.share_valid,
-                    limit=1.0,
-                )
-            )
-        return found
+            records.append(warning("fit_validity", "screw_speed", text, value=joint.share_valid, limit=1.0))
+        return records
 
 
 def _percent(share: float) -> str:
     return units.to_significant(100 * share, 2) if share < 1 else units.fixed(100 * share)
 
 
-def joint_errors(handed: HandOver, joint: JointFriction) -> JointErrors:
+def joint_errors(job: HandOver, joint: JointFriction) -> JointErrors:
     """The errors of a joint that knows no load, all else as in the case."""
-    quick = handed.is_recordable
-    points = handed.sample() if quick else handed.sample(FEWER_LOADS)
-    least, greatest = handed.working_range[OPERATION[1]]
-    still = _error(handed, joint, np.array([joint.load]), np.zeros(1)) if least <= 0 <= greatest else None
-    both = _both_ways(handed, np.geomspace(*joint.speeds, MEASURED if quick else FEWER))
-    by_load = tuple(_error(handed, joint, np.full(both.size, share * joint.load), both) for share in SHARES)
-    over_loads = _error(handed, joint, *(points[name] for name in OPERATION[:2]))
+    quick = job.is_recordable
+    points = job.sample() if quick else job.sample(FEWER_LOADS)
+    least, greatest = job.working_range[OPERATION[1]]
+    still = _error(job, joint, np.array([joint.load]), np.zeros(1)) if least <= 0 <= greatest else None
+    both = _both_ways(job, np.geomspace(*joint.speeds, MEASURED if quick else FEWER))
+    by_load = tuple(_error(job, joint, np.full(both.size, share * joint.load), both) for share in SHARES)
+    over_loads = _error(job, joint, *(points[name] for name in OPERATION[:2]))
     return JointErrors(by_load[SHARES.index(1.0)], over_loads, by_load, still)
 
 
-def _error(handed: HandOver, joint: JointFriction, load: NDArray[np.float64], speed: NDArray[np.float64]) -> WorstError:
-    usual = {one.name: np.full(speed.size, one.value) for one in handed.inputs}
+def _error(job: HandOver, joint: JointFriction, load: NDArray[np.float64], speed: NDArray[np.float64]) -> WorstError:
+    usual = {entry.name: np.full(speed.size, entry.value) for entry in job.inputs}
     points = {**usual, OPERATION[0]: load, OPERATION[1]: speed}
-    return worst_errors(handed, joint.at_points, points=points, outputs=["screw_torque"])[0]
+    return worst_errors(job, joint.at_points, points=points, outputs=["screw_torque"])[0]
 
 
 def options_of_case(case: Case) -> dict[str, float]:
@@ -377,25 +352,46 @@ def options_of_case(case: Case) -> dict[str, float]:
 
     A counterweight moves, too; its weight, and a force that balances, is the counterforce.
     """
-    found, axis = {"load": float(case.operation.axial_load)}, case.turning_axis
+    options, axis = {"load": float(case.operation.axial_load)}, case.turning_axis
     if axis is None:
-        return found
-    found["inertia"] = float(axis.turning_inertia * axis.transmission_ratio**2)
+        return options
+    options["inertia"] = float(axis.turning_inertia * axis.transmission_ratio**2)
     mass = float(axis.mass + axis.counterweight)
     if mass > 0:
         gravity = mass * GRAVITY * math.sin(axis.inclination)
         balanced = axis.counterweight or axis.counterforce
         counterforce = float(gravity - axis.gravity_force) if balanced else 0.0
-        found |= {"mass": mass, "inclination": float(axis.inclination), "counterforce": counterforce}
-    return found
+        options |= {"mass": mass, "inclination": float(axis.inclination), "counterforce": counterforce}
+    return options
 
 
-def filled(name: str, values: Mapping[str, str]) -> str:
-    """A file of this package with values in place of ``@NAME@``."""
-    text = resources.files("ballscrew").joinpath(f"data/exports/{name}").read_text(encoding="utf-8")
-    return re.sub(r"@([A-Z]+)@", lambda found: values[found[1]], text)
+def joint_export(
+    job: HandOver,
+    target: str,
+    joint: JointFriction,
+    errors: JointErrors,
+    files: Mapping[str, str],
+    *,
+    balances: bool,
+    valid_range: Mapping[str, tuple[float, float]] | None = None,
+) -> Export:
+    """The export of a target that has a joint, with its numbers as ``axis.json``.
+
+    ``balances`` is true where the files have the force that balances the weight, ``valid_range`` where another than
+    that of the model holds.
+    """
+    document = {"made_by": provenance_line(job), **joint.document(), **errors.document()}
+    return Export.of(
+        job,
+        target,
+        {**files, "axis.json": json.dumps(document, indent=2) + "\n"},
+        errors.of_export,
+        valid_range=valid_range,
+        measured_range=joint_range(job),
+        warnings=[*errors.warnings(joint), *joint.warnings(balances=balances)],
+    )
 
 
-def provenance_line(handed: HandOver) -> str:
+def provenance_line(job: HandOver) -> str:
     """What made a file, and of which model."""
-    return f"Made by ballscrew {handed.provenance['version']}. {c99.title(handed)}."
+    return f"Made by ballscrew {job.provenance['version']}. {c99.title(job)}."

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from ballscrew.basis.errors import Fault, InputError
 from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.steps import choose
+from ballscrew.exports.export import refusal
 from ballscrew.exports.programs.two_levels import TwoLevels, two_levels
 from ballscrew.exports.subject import HandOver
 
@@ -30,16 +30,16 @@ _REDUCTIONS: Mapping[Any, int] = {np.sum: 0, np.max: 1, np.argmax: 2, np.take_al
 _MOST_PLACES = 2**16
 
 
-def program_file(handed: HandOver) -> bytes:
+def program_file(job: HandOver) -> bytes:
     """The recorded model as the bytes of a file.
 
     Raises :class:`~ballscrew.basis.errors.InputError` for a model that cannot be recorded, for an operation that the
     interpreter lacks, and for a program that is too large.
     """
-    limits = handed.formula_range
-    inputs = {one.name: (one.value, *limits[one.name]) for one in handed.inputs}
-    model = two_levels(handed) if handed.has_elastic_bodies else handed.program
-    return file_of(model, inputs, handed.output_names)
+    limits = job.formula_range
+    inputs = {entry.name: (entry.value, *limits[entry.name]) for entry in job.inputs}
+    model = two_levels(job) if job.has_elastic_bodies else job.program
+    return file_of(model, inputs, job.output_names)
 
 
 def file_of(
@@ -60,7 +60,8 @@ def _of_two_levels(parts: TwoLevels, outputs: Sequence[str]) -> bytes:
     of_ball += list(parts.each_ball.constants)
     tables = [(int(by_ball), what if by_ball else at_points.index(str(what))) for by_ball, what in parts.tables]
     reductions = [
-        (_REDUCTIONS[one.function], of_ball.index(one.values), one.place or 0) for one in parts.stages.reductions
+        (_REDUCTIONS[entry.function], of_ball.index(entry.values), entry.place or 0)
+        for entry in parts.stages.reductions
     ]
     whole, numbers = parts.nut[:4], parts.nut[4:]
     return b"".join(
@@ -68,7 +69,7 @@ def _of_two_levels(parts: TwoLevels, outputs: Sequence[str]) -> bytes:
             _counts(len(parts.inputs), *parts.inputs),
             _counts(0 if parts.preload is None else parts.preload + 1, parts.solved),
             _counts(len(tables), *(word for table in tables for word in table)),
-            _counts(len(reductions), *(word for one in reductions for word in one)),
+            _counts(len(reductions), *(word for entry in reductions for word in entry)),
             _counts(*whole),
             np.array(numbers, dtype="<f8").tobytes(),
             _list(parts.points, at_points),
@@ -87,7 +88,7 @@ def _list(program: Program, outputs: Sequence[str]) -> bytes:
     constants, places, code, size = _assembled(program)
     if size > _MOST_PLACES:
         remedy = "ask for fewer outputs and derivatives, or take the source (--to c)"
-        raise InputError(Fault("hand_over.to", "the program is too large for the interpreter", "", remedy))
+        raise refusal("to", "the program is too large for the interpreter", "", remedy)
     words = [*(places[name] for name in outputs), *(word for step in code for word in step)]
     further = size - program.inputs - len(constants)
     counts = _counts(program.inputs, len(outputs), len(constants), further, len(code))
@@ -106,7 +107,7 @@ def _operation(function: Any) -> int:
     if function not in OPERATIONS:
         remedy = "write the law with functions of the C library, or take a table (--to table)"
         problem = f"the interpreter has no {function.__name__}"
-        raise InputError(Fault("hand_over.to", problem, "", remedy))
+        raise refusal("to", problem, "", remedy)
     return OPERATIONS[function]
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import dataclasses
 from typing import NamedTuple
 
-from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.errors import Fault, raise_if_any
 from ballscrew.compiler.tracing.grid import Split
 from ballscrew.compiler.tracing.program import Program
 from ballscrew.compiler.tracing.reductions import Stages
@@ -18,6 +18,7 @@ from ballscrew.compiler.tracing.tape import CannotRecordError
 from ballscrew.engine.evaluation.by_ball import stages_by_ball
 from ballscrew.engine.evaluation.outputs import OF_LOADS, OPERATION
 from ballscrew.engine.evaluation.structures import recorded_structure
+from ballscrew.exports.export import refusal
 from ballscrew.exports.subject import PRELOADS, HandOver
 from ballscrew.physics.solvers.load_distribution import elastic_nut_numbers
 
@@ -88,46 +89,45 @@ class TwoLevels:
         return len(self.inputs) + OF_LOADS.index(SOLVED)
 
 
-def two_levels(handed: HandOver) -> TwoLevels:
+def two_levels(job: HandOver) -> TwoLevels:
     """The recording of a nut whose bodies are elastic.
 
     Raises :class:`~ballscrew.basis.errors.InputError` for balls or a lead that deviate, for an oversize instead of a
     preload, for inputs that change the bodies, for outputs that only Python's solver has, for derivatives, and for
     laws that cannot be recorded.
     """
-    return handed.once("two levels", lambda: _two_levels(handed))
+    return job.once("two levels", lambda: _two_levels(job))
 
 
-def _two_levels(handed: HandOver) -> TwoLevels:
-    subject = handed.subject
-    _check(handed)
-    names = [name for name in handed.input_names if handed.has_effect[name]]
-    wanted = {output.name: output for output in handed.outputs}
+def _two_levels(job: HandOver) -> TwoLevels:
+    subject = job.subject
+    _check(job)
+    names = [name for name in job.input_names if job.has_effect[name]]
+    wanted = {output.name: output for output in job.outputs}
     try:
         program = recorded_structure(subject, wanted, names)
         stages, cut = stages_by_ball(program, names)
     except CannotRecordError as error:
-        problem = f"needs a model that can be recorded: {error}"
-        raise InputError(Fault("hand_over.to", problem, "", _INSTEAD)) from None
-    found = TwoLevels(
-        tuple(handed.input_names.index(name) for name in names),
-        next((handed.input_names.index(name) for name in PRELOADS if name in names), None),
-        elastic_nut(handed),
+        raise refusal("to", f"needs a model that can be recorded: {error}", "", _INSTEAD) from None
+    levels = TwoLevels(
+        tuple(job.input_names.index(name) for name in names),
+        next((job.input_names.index(name) for name in PRELOADS if name in names), None),
+        elastic_nut(job),
         stages,
         cut,
     )
-    others = set(range(len(names), len(names) + len(OF_LOADS))) - {found.solved}
+    others = set(range(len(names), len(names) + len(OF_LOADS))) - {levels.solved}
     read = {
-        int(o) for part in (found.points, found.behind) for _, s in part.steps for k, o in s.operands if k == "step"
+        int(o) for part in (levels.points, levels.behind) for _, s in part.steps for k, o in s.operands if k == "step"
     }
-    if missing := others & (read | {*found.behind.outputs.values()}):
+    if missing := others & (read | {*levels.behind.outputs.values()}):
         what = ", ".join(OF_LOADS[i - len(names)] for i in sorted(missing))
-        raise InputError(Fault("hand_over.outputs", f"need what the solver in C has not: {what}", "", _INSTEAD))
-    return found
+        raise refusal("outputs", f"need what the solver in C has not: {what}", "", _INSTEAD)
+    return levels
 
 
-def _check(handed: HandOver) -> None:
-    nut, faults = handed.subject.nut, list[Fault]()
+def _check(job: HandOver) -> None:
+    nut, faults = job.subject.nut, list[Fault]()
     if nut.deviations is not None or nut.bodies is None:
         problem, remedy = (
             "balls or a lead that deviate are solved in Python only",
@@ -136,22 +136,21 @@ def _check(handed: HandOver) -> None:
         faults.append(Fault("hand_over.to", problem, "", remedy))
     if getattr(nut, "oversize", None) is not None:
         faults.append(Fault("nut.oversize", "is not for elastic bodies here", "", "give the preload that it makes"))
-    if handed.derivatives:
+    if job.derivatives:
         remedy = "leave them out, or leave [bodies] out"
         faults.append(Fault("hand_over.derivatives", "are not for elastic bodies", "", remedy))
-    inputs = handed.subject.inputs
-    for name in handed.input_names:
-        of_bodies = handed.has_effect[name] and inputs[name][0] in ("screw", "nut")
+    inputs = job.subject.inputs
+    for name in job.input_names:
+        of_bodies = job.has_effect[name] and inputs[name][0] in ("screw", "nut")
         if of_bodies and name not in (*OPERATION, *PRELOADS) and not name.startswith("losses."):
             remedy = "export each value by itself, or leave [bodies] out"
             faults.append(Fault("hand_over.parameters", "changes the loads of balls in elastic bodies", name, remedy))
-    if faults:
-        raise InputError(*faults)
+    raise_if_any(faults)
 
 
-def elastic_nut(handed: HandOver) -> ElasticNut:
+def elastic_nut(job: HandOver) -> ElasticNut:
     """The numbers of the nut for the solver in C."""
-    screw, nut = handed.subject.screw, handed.subject.nut
+    screw, nut = job.subject.screw, job.subject.nut
     assert nut.bodies is not None, "elastic bodies, as was checked"
     return ElasticNut(
         halves=nut.halves,

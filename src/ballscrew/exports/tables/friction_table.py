@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
+import itertools
 import logging
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -13,15 +15,13 @@ from numpy.typing import NDArray
 from scipy.interpolate import RegularGridInterpolator
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, InputError
+from ballscrew.basis.errors import InputError
 from ballscrew.basis.records import Record
 from ballscrew.engine.evaluation.evaluator import evaluator
 from ballscrew.engine.evaluation.outputs import OPERATION
-from ballscrew.exports.export import Export
+from ballscrew.exports.export import Export, Option, Values, WorstError, refusal, warning, worst_errors
+from ballscrew.exports.readme import table_lines, table_readme
 from ballscrew.exports.subject import POINTS, HandOver
-from ballscrew.exports.tables.nodes import chord_errors, nodes_within
-from ballscrew.exports.targets import Option
-from ballscrew.exports.worst_error import Values, WorstError, worst_errors
 from ballscrew.physics.friction import directions
 
 Floats = NDArray[np.float64]
@@ -84,53 +84,90 @@ class FrictionTable:
         ends = {name: (float(nodes[0]), float(nodes[-1])) for name, nodes in self.axes.items()}
         return {**ends, **{name: (value, value) for name, value in self.fixed.items()}}
 
+    @property
+    def torque_of_load(self) -> float:
+        """Torque without friction over the load: every law of it is a straight line through zero."""
+        load, ideal = self.axes[OPERATION[0]], self.values[INTERPOLATED[1]][:, 0]
+        end = 0 if abs(load[0]) > abs(load[-1]) else -1
+        return float(ideal[end] / load[end])
+
     def at(self, points: Values) -> dict[str, NDArray[Any]]:
         """What a program computes with the table at points: the friction, and the torques made of it.
 
         Beyond the axes the nearest value counts. A point is valid where all nodes around it are.
         """
         where = np.column_stack([np.clip(points[name], nodes[0], nodes[-1]) for name, nodes in self.axes.items()])
-        found = {name: interpolated(self.axes, self.values[name], where) for name in self.values if name != DRIVE}
-        friction, ideal = (found[name] for name in INTERPOLATED)
-        found[DRIVE] = ideal + np.sign(points[OPERATION[1]]) * friction
-        found["holding_torque"] = directions.holding_torque(ideal, friction)
+        outputs = {name: interpolated(self.axes, self.values[name], where) for name in self.values if name != DRIVE}
+        friction, ideal = (outputs[name] for name in INTERPOLATED)
+        outputs[DRIVE] = ideal + np.sign(points[OPERATION[1]]) * friction
+        outputs["holding_torque"] = directions.holding_torque(ideal, friction)
         inside = [(nodes[0] <= points[name]) & (points[name] <= nodes[-1]) for name, nodes in self.axes.items()]
         surrounded = interpolated(self.axes, self.valid.astype(float), where) > 1 - 1e-9
-        return {**found, "valid": np.logical_and.reduce([surrounded, *inside])}
+        return {**outputs, "valid": np.logical_and.reduce([surrounded, *inside])}
 
-    def worst_errors(self, handed: HandOver) -> tuple[WorstError, ...]:
+    def worst_errors(self, job: HandOver) -> tuple[WorstError, ...]:
         """The worst error of each output against the model, over points of the range."""
-        count = POINTS if handed.is_recordable else _SLOW_POINTS
-        points = handed.sample(count)
+        count = POINTS if job.is_recordable else _SLOW_POINTS
+        points = job.sample(count)
         points |= {name: np.full(count, value) for name, value in self.fixed.items()}
-        names = [name for name in (*self.values, "holding_torque", "valid") if name in handed.output_names]
-        return worst_errors(handed, self.at, points=points, outputs=names)
+        names = [name for name in (*self.values, "holding_torque", "valid") if name in job.output_names]
+        return worst_errors(job, self.at, points=points, outputs=names)
 
-    def warnings(self, handed: HandOver) -> list[Record]:
+    def warnings(self, job: HandOver) -> list[Record]:
         """A warning where the table is coarser than was asked for."""
-        tolerance = handed.options["tolerance"]
+        tolerance = job.options["tolerance"]
         if self.error <= tolerance:
             return []
-        error = units.to_significant(100 * self.error, 2)
-        message = (
-            f"the friction between the nodes is off by up to {error} %, not "
+        text = (
+            f"the friction between the nodes is off by up to {units.to_significant(100 * self.error, 2)} %, not "
             f"{units.to_significant(100 * tolerance, 2)} %; a smaller range makes it finer: --range "
             'axial_load="-5:5 kN"'
         )
-        return [
-            Record(
-                text=message,
-                id="hand_over.tolerance",
-                subject="screw_torque",
-                severity="warning",
-                holds=False,
-                value=self.error,
-                limit=tolerance,
-            )
-        ]
+        return [warning("tolerance", INTERPOLATED[0], text, value=self.error, limit=tolerance)]
 
 
-def friction_table(handed: HandOver) -> FrictionTable:
+@dataclasses.dataclass(frozen=True, eq=False)
+class TableJob:
+    """A job of which a table is made, with the worst error of it."""
+
+    job: HandOver
+    table: FrictionTable
+    errors: tuple[WorstError, ...]
+
+    @classmethod
+    def of(cls, job: HandOver, of_load_and_speed: str = "") -> TableJob:
+        """The table of a job; where a name of what takes it is given, it can only be over load and speed.
+
+        Raises :class:`~ballscrew.basis.errors.InputError` as :func:`friction_table` does, and for another axis there.
+        """
+        table = friction_table(job)
+        others = [name for name in table.axes if name not in OPERATION]
+        if of_load_and_speed and others:
+            remedy = "leave its range out, and the value of the case counts"
+            raise refusal(f"ranges.{others[0]}", f"cannot be an axis of {of_load_and_speed}", "", remedy)
+        return cls(job, table, table.worst_errors(job))
+
+    @functools.cached_property
+    def about(self) -> list[str]:
+        """Lines for the head of a file."""
+        return table_lines(self.job, self.table.valid_range, self.errors)
+
+    def export(
+        self, target: str, files: Mapping[str, str | bytes], of_files: str, warnings: Sequence[Record] = ()
+    ) -> Export:
+        """The export of a target with these files and a README, which begins with what the files are."""
+        return Export.of(
+            self.job,
+            target,
+            {**files, "README.txt": table_readme(self.job, self.about, of_files)},
+            self.errors,
+            valid_range=self.table.valid_range,
+            measured_range=self.table.valid_range,
+            warnings=[*self.table.warnings(self.job), *warnings],
+        )
+
+
+def friction_table(job: HandOver) -> FrictionTable:
     """The friction over a grid that is fine enough for the option ``tolerance``.
 
     Axes are load and speed, and each other input whose range was asked for. Zero load and rest are nodes where the
@@ -140,13 +177,13 @@ def friction_table(handed: HandOver) -> FrictionTable:
 
     Raises :class:`~ballscrew.basis.errors.InputError` where the friction, or an output asked for, is no finite number.
     """
-    tolerance = float(handed.options["tolerance"])
+    tolerance = float(job.options["tolerance"])
     if not 1e-4 <= tolerance < 1:
-        raise InputError(Fault("hand_over.tolerance", "must be from 0.0001 to below 1", f"{tolerance:g}", "give 0.01"))
-    chosen = {n: ends for n, ends in handed.working_range.items() if n in OPERATION or n in handed.ranges_given}
-    ranges = {name: ends for name, ends in chosen.items() if handed.has_effect[name]}
-    fixed = {one.name: one.value for one in handed.inputs if one.name not in ranges}
-    evaluate = model_over(handed, list(ranges), fixed)
+        raise refusal("tolerance", "must be from 0.0001 to below 1", f"{tolerance:g}", "give 0.01")
+    chosen = {n: ends for n, ends in job.working_range.items() if n in OPERATION or n in job.ranges_given}
+    ranges = {name: ends for name, ends in chosen.items() if job.has_effect[name]}
+    fixed = {entry.name: entry.value for entry in job.inputs if entry.name not in ranges}
+    evaluate = model_over(job, list(ranges), fixed)
     candidates = {name: _candidates(name, *ends) for name, ends in ranges.items()}
     chords = {name: chord_errors(values, *_along(evaluate, name, candidates)) for name, values in candidates.items()}
     allowed, best = tolerance / len(ranges), None
@@ -155,7 +192,7 @@ def friction_table(handed: HandOver) -> FrictionTable:
         size = math.prod(len(values) for values in axes.values())
         if size > MOST_NODES:
             if best is None:
-                raise InputError(_too_many(size))
+                raise _too_many(size)
             break
         made = _table_over(axes, evaluate, fixed)
         if best is not None and made.error > _WORTH * best.error:
@@ -170,45 +207,19 @@ def friction_table(handed: HandOver) -> FrictionTable:
 
 def _table_over(axes: Mapping[str, Floats], evaluate: _Evaluate, fixed: Mapping[str, float]) -> FrictionTable:
     """The friction at the nodes of axes, with its error between them."""
-    found = evaluate(*np.meshgrid(*axes.values(), indexing="ij"))
-    valid = found.pop("valid")
-    for name, values in found.items():
-        _check_finite(name, axes, values)
-    error = _measured(evaluate, axes, found[INTERPOLATED[0]])
+    values = evaluate(*np.meshgrid(*axes.values(), indexing="ij"))
+    valid = values.pop("valid")
+    for name, array in values.items():
+        _check_finite(name, axes, array)
+    error = _measured(evaluate, axes, values[INTERPOLATED[0]])
     _log.info("a table of %s nodes is off by up to %.2g of the friction", valid.shape, error)
-    return FrictionTable(axes, found, valid, fixed, error)
+    return FrictionTable(axes, values, valid, fixed, error)
 
 
-def _too_many(size: int) -> Fault:
+def _too_many(size: int) -> InputError:
+    problem = f"needs a table of {units.grouped(size)} nodes, more than {units.grouped(MOST_NODES)}"
     remedy = "give a larger tolerance (--option tolerance=0.05), fewer axes or smaller ranges"
-    return Fault(
-        "hand_over.tolerance",
-        f"needs a table of {units.grouped(size)} nodes, more than {units.grouped(MOST_NODES)}",
-        "",
-        remedy,
-    )
-
-
-def as_export(
-    handed: HandOver,
-    table: FrictionTable,
-    target: str,
-    files: Mapping[str, bytes],
-    errors: Sequence[WorstError],
-    warnings: Sequence[Record] = (),
-) -> Export:
-    """The export of a target that is a table."""
-    warned = [*table.warnings(handed), *warnings]
-    found = Export.of(handed, target, files, valid_range=table.valid_range, worst_error=errors, warnings=warned)
-    return dataclasses.replace(found, measured_range=table.valid_range)
-
-
-def no_more_axes(table: FrictionTable, what: str) -> None:
-    """Raise :class:`~ballscrew.basis.errors.InputError` for an axis besides load and speed."""
-    others = [name for name in table.axes if name not in OPERATION]
-    if others:
-        remedy = "leave its range out, and the value of the case counts"
-        raise InputError(Fault(f"hand_over.ranges.{others[0]}", f"cannot be an axis of {what}", "", remedy))
+    return refusal("tolerance", problem, "", remedy)
 
 
 def interpolated(axes: Mapping[str, Floats], values: Floats, points: Floats) -> Floats:
@@ -219,18 +230,18 @@ def interpolated(axes: Mapping[str, Floats], values: Floats, points: Floats) -> 
 _Evaluate = Callable[..., dict[str, Any]]
 
 
-def model_over(handed: HandOver, axes: Sequence[str], fixed: Mapping[str, float]) -> _Evaluate:
+def model_over(job: HandOver, axes: Sequence[str], fixed: Mapping[str, float]) -> _Evaluate:
     """The model as a function of the axes: as it was recorded, or, with balls solved one by one, compiled."""
-    wanted = [one.name for one in handed.outputs if one.name not in _MADE_OF_OTHERS]
-    if handed.is_recordable:
+    wanted = [entry.name for entry in job.outputs if entry.name not in _MADE_OF_OTHERS]
+    if job.is_recordable:
 
         def evaluate(*values: Any) -> dict[str, Any]:
-            found = handed.evaluate({**fixed, **dict(zip(axes, values, strict=True))})
-            return {name: found[name] for name in wanted}
+            outputs = job.evaluate({**fixed, **dict(zip(axes, values, strict=True))})
+            return {name: outputs[name] for name in wanted}
 
         return evaluate
-    subject = handed.subject
-    held: dict[str, Any] = {name: value for name, value in fixed.items() if handed.has_effect[name]}
+    subject = job.subject
+    held: dict[str, Any] = {name: value for name, value in fixed.items() if job.has_effect[name]}
     return evaluator(subject.model, subject.screw, subject.lubricant, inputs=axes, outputs=wanted, **held)
 
 
@@ -255,11 +266,11 @@ def _along(evaluate: _Evaluate, name: str, candidates: Mapping[str, Floats]) -> 
     """The friction at all candidates of an axis, for a few values of each other axis, and its scale; the axis first."""
     count = _PROBES.get(len(candidates), _FEWEST_PROBES)
     grid = {n: values if n == name else _probes(values, count) for n, values in candidates.items()}
-    found = evaluate(*np.meshgrid(*grid.values(), indexing="ij"))
-    friction = found[INTERPOLATED[0]]
+    outputs = evaluate(*np.meshgrid(*grid.values(), indexing="ij"))
+    friction = outputs[INTERPOLATED[0]]
     _check_finite(INTERPOLATED[0], grid, friction)
     place = list(candidates).index(name)
-    return np.moveaxis(friction, place, 0), np.moveaxis(_scale(friction, found["valid"]), place, 0)
+    return np.moveaxis(friction, place, 0), np.moveaxis(_scale(friction, outputs["valid"]), place, 0)
 
 
 def _scale(friction: Floats, valid: NDArray[np.bool_]) -> Floats:
@@ -285,8 +296,8 @@ def _measured(evaluate: _Evaluate, axes: Mapping[str, Floats], friction: Floats)
         cells = random.integers(0, len(values) - 1, _CHECKED_POINTS)
         columns.append(values[cells] + random.random(_CHECKED_POINTS) * (values[cells + 1] - values[cells]))
     exact = evaluate(*columns)
-    found = interpolated(axes, friction, np.column_stack(columns))
-    return float(np.max(np.abs(found - exact[INTERPOLATED[0]]) / _scale(exact[INTERPOLATED[0]], exact["valid"])))
+    between = interpolated(axes, friction, np.column_stack(columns))
+    return float(np.max(np.abs(between - exact[INTERPOLATED[0]]) / _scale(exact[INTERPOLATED[0]], exact["valid"])))
 
 
 def _check_finite(output: str, axes: Mapping[str, Floats], values: Floats) -> None:
@@ -296,4 +307,61 @@ def _check_finite(output: str, axes: Mapping[str, Floats], values: Floats) -> No
         where = ", ".join(f"{name} = {axes[name][i]:.4g}" for name, i in zip(axes, bad[0], strict=True))
         problem = f"{output} is no finite number at {len(bad)} nodes, the first {where} (SI)"
         remedy = 'leave this output out, or give a smaller range: --range axial_load="1:5 kN"'
-        raise InputError(Fault("hand_over.to", problem, "", remedy))
+        raise refusal("to", problem, "", remedy)
+
+
+def chord_errors(positions: Floats, values: Floats, scale: Floats) -> Floats:
+    """The worst error of a straight line from each position to each later one; 0 between neighbours.
+
+    ``values`` has the axis first; the worst of its columns counts. Errors are shares of the ``scale`` of each value.
+    """
+    columns, scales = values.reshape(len(positions), -1), scale.reshape(len(positions), -1)
+    errors = np.zeros((len(positions), len(positions)))
+    for first, last in itertools.combinations(range(len(positions)), 2):
+        if last - first > 1:
+            between = slice(first + 1, last)
+            share = (positions[between] - positions[first]) / (positions[last] - positions[first])
+            line = columns[first] + share[:, None] * (columns[last] - columns[first])
+            errors[first, last] = (np.abs(line - columns[between]) / scales[between]).max()
+    return errors
+
+
+def nodes_within(chords: Floats, tolerance: float, kept: Sequence[int] = ()) -> list[int]:
+    """Indices of the fewest nodes between which straight lines stay within a tolerance of all values.
+
+    The ends are nodes, and so are ``kept``. Nodes are chosen among the positions of the :func:`chord_errors`: lines
+    are as good as these are dense.
+    """
+    return _walk(chords, tolerance, _ends(len(chords), kept))
+
+
+def best_nodes(chords: Floats, count: int, kept: Sequence[int] = ()) -> list[int]:
+    """Indices of at most ``count`` nodes with the least worst error of straight lines between them.
+
+    The ends are nodes, and so are ``kept``: ``count`` is at least their number.
+    """
+    ends = _ends(len(chords), kept)
+    tolerances = np.unique(chords[np.triu_indices(len(chords), 1)])
+    low, high = 0, len(tolerances) - 1
+    while low < high:  # the least tolerance that is met
+        middle = (low + high) // 2
+        if len(_walk(chords, float(tolerances[middle]), ends)) <= count:
+            high = middle
+        else:
+            low = middle + 1
+    return _walk(chords, float(tolerances[low]), ends)
+
+
+def _ends(size: int, kept: Sequence[int]) -> list[int]:
+    return sorted({0, size - 1, *kept})
+
+
+def _walk(chords: Floats, tolerance: float, ends: Sequence[int]) -> list[int]:
+    """From each node to the farthest one that a straight line reaches within the tolerance."""
+    nodes = [ends[0]]
+    for end in ends[1:]:
+        while nodes[-1] < end:
+            here = nodes[-1]
+            reached = np.nonzero(chords[here, here + 1 : end + 1] <= tolerance)[0]
+            nodes.append(here + 1 + int(reached[-1]))
+    return nodes

@@ -10,9 +10,8 @@ from typing import Any
 
 from ballscrew.basis import units
 from ballscrew.cases.case_files.case import Case
-from ballscrew.exports.export import Export
-from ballscrew.exports.targets import TARGETS, Option, options_of
-from ballscrew.exports.worst_error import WorstError
+from ballscrew.exports.export import Export, Option, WorstError
+from ballscrew.exports.targets import TARGETS, options_of
 from ballscrew.questions.shared.declared import from_attributes, parts_like
 from ballscrew.questions.shared.envelope import envelope
 

@@ -7,8 +7,7 @@ from pathlib import Path
 
 from ballscrew.basis import units
 from ballscrew.basis.output.wrapping import wrapped
-from ballscrew.exports.export import Export
-from ballscrew.exports.worst_error import WorstError
+from ballscrew.exports.export import Export, WorstError
 
 
 def text(export: Export, written: Sequence[Path]) -> str:

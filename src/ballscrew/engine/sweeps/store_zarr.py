@@ -1,7 +1,12 @@
-"""Metadata and coordinates of a store, made by Zarr."""
+"""Zarr's part of a store: metadata and coordinates, chunks, and reading, where each file is compared before it is used.
+
+Each chunk ends with the checksum of Zarr's own codec, which whatever reads it compares; for Zarr alone a chunk that is
+missing, or an intact one of another sweep, is in order.
+"""
 
 from __future__ import annotations
 
+import functools
 import json
 import warnings
 from collections.abc import Mapping, Sequence
@@ -10,12 +15,16 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+import zarr
+from zarr.codecs import BloscCodec, Crc32cCodec
+from zarr.core.buffer import default_buffer_prototype
+from zarr.storage import LocalStore, MemoryStore, WrapperStore
 
 from ballscrew.engine.evaluation.outputs import attributes_of
 from ballscrew.engine.evaluation.plan import Plan
-from ballscrew.engine.sweeps.store_check import ROOT
+from ballscrew.engine.sweeps.store_check import ROOT, Noted, contents_of
+from ballscrew.engine.sweeps.store_files import Content
 from ballscrew.engine.sweeps.store_plan import Blocks
-from ballscrew.engine.sweeps.store_rows import Content
 
 #: LZ4 with the bytes of equal weight side by side: a map of seven outputs takes 0.72 of its bytes, and
 #: a disk slower than a processor compresses has the less to do. Zstandard saves 0.02 more at most and
@@ -33,9 +42,6 @@ def lay_out(
 
     Each chunk ends with a checksum of its bytes, which whatever reads it compares.
     """
-    import zarr
-    from zarr.codecs import BloscCodec, Crc32cCodec
-
     with warnings.catch_warnings():
         # labels that are text have no settled type in Zarr 3 yet; they are read back by the same library
         warnings.filterwarnings("ignore", message=".*does not have a Zarr V3 specification")
@@ -67,3 +73,44 @@ def lay_out(
     (folder / ROOT).write_bytes(json.dumps(root, indent=2, ensure_ascii=False, sort_keys=True).encode())
     files = {path.relative_to(folder).as_posix(): path for path in sorted(folder.rglob("*")) if path.is_file()}
     return {key: Content.of(digest, key, path.read_bytes()) for key, path in files.items()}
+
+
+def chunk_of(metadata: Any, blocks: Blocks, number: int, values: np.ndarray) -> np.ndarray | None:
+    """The bytes of a block of an output as Zarr makes them, in memory; None of nothing but the fill value.
+
+    ``metadata`` is the buffer of :func:`metadata_of`, ``values`` are those of the flattened block.
+    """
+    held = {ROOT: metadata}
+    region = blocks.region(number)
+    array: Any = zarr.open_array(MemoryStore(held), mode="r+")
+    array[region if region else ...] = values.reshape([part.stop - part.start for part in region])
+    chunk = held.get(blocks.key(number))
+    return None if chunk is None else chunk.as_numpy_array()
+
+
+def metadata_of(folder: Path) -> Any:
+    """The metadata of an output in its folder, as a buffer of Zarr."""
+    return default_buffer_prototype().buffer.from_bytes((folder / ROOT).read_bytes())
+
+
+def opened(path: Path) -> xr.Dataset:
+    """The dataset of a complete store; values are read, and compared with their checksums, when asked for."""
+    return xr.open_zarr(CheckedStore(LocalStore(path, read_only=True)), chunks=None, consolidated=True)
+
+
+class CheckedStore(WrapperStore[LocalStore]):
+    """The folder of a complete store, read only.
+
+    Reading raises :class:`~ballscrew.basis.errors.InputError` for a file that is damaged, missing, or of another sweep.
+    """
+
+    async def get(self, key: str, prototype: Any, byte_range: Any = None) -> Any:
+        """The content of a file, as it was written."""
+        content = await super().get(key, prototype, byte_range)
+        if byte_range is None:  # Zarr reads chunks whole
+            self._noted.check(key, None if content is None else content.as_numpy_array())
+        return content
+
+    @functools.cached_property
+    def _noted(self) -> Noted:
+        return contents_of(Path(self._store.root)).noted()
