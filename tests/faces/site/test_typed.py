@@ -11,7 +11,7 @@ from ballscrew.basis.errors import Fault
 from ballscrew.basis.quantities import fields_of
 from ballscrew.faces.web.vocabulary import vocabulary
 from ballscrew.physics.components.operating_state import OperatingState
-from ballscrew.physics.sizing.catalogue import catalogue
+from ballscrew.physics.sizing.catalogue import catalogue, printed_rows
 from support.modules_in_node import PAGE
 from support.node import node
 
@@ -51,7 +51,7 @@ def answers():
             "source": row.source, "kind": row.nut,
             "sizes": [float(f"{1e3 * size:.12g}") for size in (row.nominal_diameter, row.lead, row.ball_diameter)],
         }
-        for name, row in catalogue().items()
+        for name, row in ((row.name, row) for row in printed_rows())
     }  # fmt: skip
     force = {"unit": "N", "factor": 1.0, "offset": 0.0}
     asked = {"forces": FORCES, "quantity": force, "units": vocabulary()["units"], "searches": [*SEARCHES]}

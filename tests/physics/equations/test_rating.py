@@ -1,6 +1,7 @@
 """Truth: the load ratings of a catalogue, and the laws of dents and of lives behind the formulas."""
 
 import csv
+import dataclasses
 import math
 from pathlib import Path
 
@@ -62,7 +63,9 @@ def test_two_rows_are_rated_with_one_ball_less(model, within):
 
 @pytest.mark.parametrize("conformity", [0.515, 0.53, 0.54])
 def test_another_conformity_does_not_meet_the_catalogue(conformity):
-    dynamic, static = against_print("40-20K4", ratings_of(row("40-20K4"), conformity))
+    dynamic, static = against_print(
+        "40-20K4", ratings_of(dataclasses.replace(row("40-20K4"), rating_conformity=conformity))
+    )
     assert abs(dynamic - 1) > 0.03
     assert abs(static - 1) > 0.05
 

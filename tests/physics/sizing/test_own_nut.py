@@ -13,13 +13,13 @@ from ballscrew.evidence.validation.rows import screw_of
 from ballscrew.evidence.validation.sets import SETS
 from ballscrew.files.tables.column_names import YES
 from ballscrew.physics.sizing import own_nut as own
-from ballscrew.physics.sizing.catalogue import catalogue
+from ballscrew.physics.sizing.catalogue import catalogue, printed_rows
 from ballscrew.physics.sizing.ratings import ratings_of
 from ballscrew.physics.solvers.rated_ball import ball_of_rating
 from ballscrew.questions.validate.compute import shipped_rows
 from support.rules import for_each
 
-ROWS = tuple(catalogue().values())
+ROWS = tuple(printed_rows())
 #: Rows of HIWIN's stock list whose ratings do not go with their geometry, as the head of the file has it.
 MISPRINTS = ("R25-4B2-FSW", "R32-8B1-OFSW")
 KEPT = ("name", "nominal_diameter", "lead", "turns", "starts", "ball_diameter", "pitch_circle_diameter",
@@ -134,9 +134,9 @@ def test_the_conformity_follows_from_the_root_and_not_from_the_rating(row):
     assert by_root == pytest.approx(0.56 if row.ball_diameter == 3.175e-3 else 0.54, abs=5e-4)
     assert estimate(without(row), "conformity").source == own.BY_ROOT
     assert estimate(without(row, "root_diameter"), "conformity").source == own.BY_DEFAULT
-    rated = ratings_of(row, 0.52).dynamic / row.dynamic_load_rating
+    rated = ratings_of(row).dynamic / row.dynamic_load_rating
     assert rated == pytest.approx(1, abs=0.06)
-    assert ratings_of(row, by_root).dynamic / row.dynamic_load_rating < 0.82
+    assert ratings_of(dataclasses.replace(row, rating_conformity=by_root)).dynamic / row.dynamic_load_rating < 0.82
 
 
 @for_each(row={f"{place}: {row.name}": row for place, row in enumerate(ALL) if row.pitch_circle_diameter})

@@ -7,9 +7,8 @@ import jsonschema_rs
 import numpy as np
 import pytest
 
-import ballscrew as bs
 from ballscrew.basis.errors import InputError
-from ballscrew.physics.sizing.catalogue import CatalogueRow
+from ballscrew.physics.sizing.catalogue import CatalogueRow, printed_rows
 from ballscrew.physics.sizing.checks import Check
 from ballscrew.physics.sizing.installation import Ends, Installation, Limits
 from ballscrew.physics.sizing.ratings import ratings_of
@@ -256,7 +255,7 @@ def test_the_tables_of_a_design():
 
 
 def test_bounds_are_those_of_the_need_or_of_the_catalogue():
-    rows = bs.catalogue().values()
+    rows = printed_rows()
     assert makeable_bounds()["lead"] == (min(row.lead for row in rows), max(row.lead for row in rows))
     bounds = {"lead": "10 mm", "loaded_turns": [2, 5], "preload": ["2 %", 8], "ball_diameter": ["3 mm", "6 mm"]}
     found = design_space(need_of({**POINT, "optimise": {"bounds": bounds}})).bounds

@@ -31,7 +31,7 @@ from ballscrew.physics.friction.model import FrictionModel
 from ballscrew.physics.friction.plausibility import IMPLAUSIBLE, implausible, named_parts
 from ballscrew.physics.laws.friction import FRESH_BOUNDARY_FRICTION
 from ballscrew.physics.laws.traits import traits_of
-from ballscrew.physics.sizing.catalogue import CatalogueRow
+from ballscrew.physics.sizing.catalogue import CatalogueRow, is_shipped
 from ballscrew.physics.sizing.installation import Installation, Limits
 from ballscrew.physics.sizing.own_nut import RATED, odd_ratings, odd_root, odd_seals
 from ballscrew.physics.sizing.ratings import rated_geometry_of, ratings_of
@@ -204,6 +204,8 @@ class Case(Displayed):
         screw, listed = self.screw, self.listed
         if unusual("screw", screw) or _too_many_balls(screw, self.row):
             return []
+        if self.row is not None and is_shipped(self.row):  # what its own catalogue prints is no slip
+            listed = {name: value for name, value in listed.items() if value != getattr(self.row, name)}
         ratings = odd_ratings(listed, ratings_of(rated_geometry_of(screw))) if {*RATED} & {*listed} else []
         values = [*ratings, *odd_root(listed.get("root_diameter"), screw), *odd_seals(screw)]
         return [*values, *_light(self.axis, screw)]

@@ -287,7 +287,10 @@ def _screw(
     except InputError as error:
         known = fields_of(BallScrew)
         for fault in error.faults:
-            quantity = known[fault.where.rpartition(".")[2]]
+            quantity = known.get(fault.where.rpartition(".")[2])
+            if quantity is None:  # of the nut, whatever its numbers
+                faults.append(dataclasses.replace(fault, where="screw.catalogue", given=row.name if row else ""))
+                continue
             written = table.get(quantity.name)
             if written is None and row is not None:
                 written = units.shown(getattr(row, quantity.name), quantity)

@@ -28,7 +28,8 @@ from ballscrew.physics.sizing.catalogue import (
     is_shipped,
 )
 from ballscrew.physics.sizing.listed_nut import lists_preload
-from ballscrew.physics.sizing.own_nut import Estimate, completed
+from ballscrew.physics.sizing.own_nut import RATED, Estimate, completed
+from ballscrew.physics.sizing.ratings import ratings_of
 
 #: Quantities of a row that are listed, and that follow from it.
 FIELDS = fields_of(CatalogueRow)
@@ -70,6 +71,8 @@ _ORDER_CODE = re.compile(
     r"(?<!\d)(?!(?<=R)\d{4}(?!\d))([1-9]\d{1,2})(?:x|(?=\d{2}(?!\d)))0?([1-9]\d?)(?!\d)", re.IGNORECASE
 )
 _SIZES = re.compile(r"(?=.*\d)(\d+(?:\.\d+)?)?[x×](\d+(?:\.\d+)?)?(?:[x×](\d+(?:\.\d+)?))?")
+#: Load ratings as listed and by the geometry agree within this share, or the row says so.
+RATINGS_AGREE = 0.05
 #: Preloads of the kinds of nut, as catalogues have them.
 EXAMPLE_PRELOADS: Mapping[str, str] = {"double": "7 %", "offset-lead": "7 %", "oversize-balls": "5 %"}
 
@@ -208,6 +211,19 @@ def chosen(rows: Mapping[str, CatalogueRow], words: str, file: Path | None = Non
     return found
 
 
+def computable(rows: Sequence[CatalogueRow]) -> tuple[list[CatalogueRow], list[str]]:
+    """The rows of which a torque is computed, and a note on the others; a fault where all are others."""
+    kept = [row for row in rows if not row.refusal]
+    if not kept:
+        rows[0].screw()
+    reasons: dict[str, dict[str, None]] = {}
+    for row in rows:
+        if row.refusal:
+            reasons.setdefault(row.refusal, {})[row.family] = None
+    notes = [f"no torque is computed of {', '.join(families)}: {reason}" for reason, families in reasons.items()]
+    return kept, notes
+
+
 def _has(row: CatalogueRow, word: str) -> bool:
     """Test whether a row has a word: as its sizes where it is one of sizes, else in its texts."""
     sizes = _SIZES.fullmatch(word)
@@ -228,9 +244,15 @@ def _is(asked: float | None, value: float) -> bool:
 
 def named(rows: Mapping[str, CatalogueRow], name: str, where: str = "", file: str | Path | None = None) -> CatalogueRow:
     """The row of that name, whatever its capitals; a fault is one of ``where`` the name was given, or of the file."""
-    found = {known.casefold(): row for known, row in rows.items()}.get(name.casefold())
-    if found is not None:
-        return rows.get(name, found)
+    if name in rows:
+        return rows[name]
+    asked = name.casefold()
+    for known in rows:
+        if asked == known.casefold():
+            return rows[known]
+        # the part number of a general catalogue is the name without the maker
+        if asked == known.partition("-")[2].casefold() and rows[known].family:
+            return rows[known]
     code = _ORDER_CODE.search(name)
     sizes = None if code is None else (float(code[1]), float(code[2]))
     containing = [f'"{known}"' for known in rows if name and name.casefold() in known.casefold()][:3]
@@ -239,7 +261,9 @@ def named(rows: Mapping[str, CatalogueRow], name: str, where: str = "", file: st
     elif (alike := closest(name, rows)) and (sizes is None or _distance(rows[alike], *sizes) < SAME_SIZE):
         remedy = nearest(name, rows)
     elif sizes is not None and rows:
-        names = ", ".join(f'"{row.name}"' for row in _nearest_in_size(rows.values(), *sizes))
+        names = ", ".join(
+            f'"{row.name}"' for row in _nearest_in_size((row for row in rows.values() if not row.refusal), *sizes)
+        )
         remedy = f'nearest in size: {names}; "ballscrew catalogue own" makes a nut of its catalogue numbers'
     else:
         words = "" if file is None else f" --rows {file}"
@@ -272,12 +296,26 @@ def assumed(row: CatalogueRow) -> dict[str, str]:
     found = {name: text for name, text in words.items() if getattr(row, name) == _DEFAULTS[name]}
     if row.pitch_circle_diameter is None:
         found["pitch_circle_diameter"] = (
-            "pitch circle as large as the nominal diameter; those that a catalogue lists are 1.5 to 5 % larger"
+            "pitch circle as large as the nominal diameter; those that catalogues list are mostly 1.5 to 5 % larger"
         )
-    if row.ball_diameter_source:
+    if row.ball_diameter_source == column_names.ESTIMATED:
+        found["ball_diameter"] = "ball diameter: an estimate, by the depth of the groove and the load ratings"
+    elif row.ball_diameter_source:
         found["ball_diameter"] = f"ball diameter: {row.ball_diameter_source}"
-    found["loaded_turns"] = f"{TURNS_WITHOUT_LOAD:g} turns without load where the balls leave and enter (ISO 3408-5)"
+    found["loaded_turns"] = f"{row.turns_without_load:g} turns without load where the balls leave and enter" + (
+        " (ISO 3408-5)" if row.turns_without_load == TURNS_WITHOUT_LOAD else ""
+    )
     return found
+
+
+def notes(row: CatalogueRow) -> list[str]:
+    """Ratings that are listed but far from those by the geometry, and why no torque is computed, in words."""
+    words = []
+    for name, computed in zip(RATED, ratings_of(row), strict=True):
+        listed = getattr(row, name)
+        if listed is not None and not abs(ratio := listed / float(computed) - 1) <= RATINGS_AGREE:
+            words.append(f"{name.replace('_', ' ')}: listed {ratio + 1:.2f} times that by the geometry")
+    return [*words, *([f"no torque is computed: {row.refusal}"] if row.refusal else [])]
 
 
 def assumed_fields(row: CatalogueRow) -> frozenset[str]:
@@ -429,12 +467,15 @@ def _document(row: CatalogueRow) -> dict[str, Any]:
         "source": row.source,
         "seal_torque_source": row.seal_torque_source or None,
         "ball_diameter_source": row.ball_diameter_source or None,
+        "family": row.family or None,
+        "computed": dict(zip(RATED, map(float, ratings_of(row)), strict=True)),
+        "notes": notes(row),
         "row": {name: getattr(row, name) for name in FIELDS},
         "derived": {name: getattr(row, name) for name in DERIVED},
     }
 
 
 def _with_units(document: dict[str, Any]) -> dict[str, Any]:
-    parts = {"row": FIELDS, "derived": DERIVED}
+    parts = {"row": FIELDS, "derived": DERIVED, "computed": {name: FIELDS[name] for name in RATED}}
     found = {part: {name: quantity.unit for name, quantity in names.items()} for part, names in parts.items()}
     return document | {"units": found, "provenance": {"version": __version__}}

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -347,6 +348,74 @@ def rigidity_by_catalogue(model: FrictionModel, values: Values, conditions: Cond
             band=Band(listed),
             descriptors=_descriptors(row),
             definitions={name: value / listed for name, value in definitions.items()},
+        )
+    ]
+
+
+#: Columns of THK's rows whose headings have no unit that a table knows: balls in mm, and rigidity in N/um.
+INFERRED_BALL, LISTED_RIGIDITY = "ball_mm_inferred", "K_N_um"
+#: The conformity that THK's ratings and rigidities follow from, by its catalogue's rows with grooves of known depth.
+_CONFORMITY_OF_THK = 0.535
+#: Balls from this size on: their ratings and rigidities are those of closer grooves.
+_LARGE_BALL = 9.5e-3
+#: Families whose turns or hardness are not those of the others: rolled ones, deflectors, balls in a cage.
+_OTHER_MAKES = re.compile("rolled|^(DI|DK|MDK|JPF|SB|HBN|MTF|BTK|WTF|CNF)")
+#: Families of two halves or two nuts that brace each other; THK prints half of their rigidity for the one nut alone.
+_BRACED_FAMILIES = ("BNFN", "BIF", "BLW")
+
+
+def _of_thk(values: Values) -> CatalogueRow | None:
+    """The row of a line of THK's tables: all listed turns carry; None without a ball, and of other makes of nuts."""
+    if _OTHER_MAKES.search(values["family"]) or not (values.get(INFERRED_BALL) or values.get("ball_diameter")):
+        return None
+    ball = values.get("ball_diameter") or 1e-3 * values[INFERRED_BALL]
+    turns = values["turns"] * (values.get("rows") or 1)
+    row = screw_of({**values, "ball_diameter": ball, "turns": turns})
+    return dataclasses.replace(
+        row,
+        turns_without_load=0.0,
+        rating_conformity=_CONFORMITY_OF_THK,
+        conformity=_CONFORMITY_OF_THK,
+        family=values["family"] + (", balls of 9.5 mm and more" if ball > _LARGE_BALL else ""),
+    )
+
+
+def ratings_of_thk(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
+    """Dynamic load rating of a row of THK by geometry, the static one beside it."""
+    if (row := _of_thk(values)) is None:
+        return []
+    computed, static = ratings_of(row), float(values["static_load_rating"])
+    return [
+        Point(
+            name=row.name,
+            value=computed.dynamic,
+            band=Band(float(values["dynamic_load_rating"])),
+            descriptors=_descriptors(row),
+            definitions={"static": computed.static / static},
+            group=row.family,
+        )
+    ]
+
+
+def rigidity_of_thk(model: FrictionModel, values: Values, conditions: Conditions) -> list[Point]:
+    """Secant 2 F/delta of braced nuts at a tenth of the rating, of one nut F/delta; that at 0.3 C_a beside it."""
+    if not values.get(LISTED_RIGIDITY) or (row := _of_thk(values)) is None:
+        return []
+    screw, listed = row.screw(), 1e6 * values[LISTED_RIGIDITY]
+    halves = 2 if values["family"] in _BRACED_FAMILIES else 1
+
+    def secant(share: float) -> float:
+        load = share * float(values["dynamic_load_rating"])
+        return halves * load / float(ball_loads(screw, SingleNut(), load).deflection)
+
+    return [
+        Point(
+            name=row.name,
+            value=secant(USUAL_PRELOAD),
+            band=Band(listed),
+            descriptors=_descriptors(row),
+            definitions={"at_30": secant(RIGIDITY_LOAD) / listed},
+            group=row.family,
         )
     ]
 

@@ -30,6 +30,7 @@ def _band_columns(name: str, words: str, shown_in: str = "N m") -> dict[str, Qua
 
 _REXROTH = "Bosch Rexroth R310RU 3301 (2006.02)"
 _HIWIN = "HIWIN S99TE20-1610"
+_THK = "THK General Catalog"
 _OF_DOUBLE_NUTS = {
     **_band_columns("no_load_torque_7pct", "no-load torque at a preload of 7 %"),
     **_band_columns("no_load_torque_10pct", "no-load torque at a preload of 10 %"),
@@ -68,6 +69,17 @@ _DRAG_LOW, _DRAG_HIGH = (
     for end in ("low", "high")
 )
 _OF_STOCK = _quantities(_DRAG_LOW, _DRAG_HIGH)
+_OF_THK: dict[str, Quantity | None] = {
+    "family": None,
+    **_quantities(
+        Quantity("rows", "1", Info("i", "circuits of a nut body")),
+        Quantity("turns", "1", Info("i", "turns of a circuit", at_least=0, hint="nuts have 1 to 4")),
+        _positive("ball_diameter", "m", "ball diameter", "mm"),
+        Quantity(rows.INFERRED_BALL, "1", Info("D_w", "ball diameter in mm, which is not printed")),
+        Quantity(rows.LISTED_RIGIDITY, "1", Info("K", "rigidity in N/um")),
+    ),
+}
+_ALIASES_OF_THK = {"pitch_circle_diameter": ("ball_pcd",)}
 _OF_SUPPORT_BEARINGS: dict[str, Quantity | None] = {
     "maker": None,
     "bearing": None,
@@ -287,6 +299,42 @@ SETS: Mapping[str, ValidationSet] = {
             evaluate=rows.rigidity_of_double_nuts,
             axes=("size", "steepness"),
             used_for=("factor for accuracy, one of the three of ISO 3408-4 by the mean of these rows",),
+        ),
+        ValidationSet(
+            name="thk-ratings",
+            title="dynamic load rating by geometry",
+            details="conformity 0.535, all turns listed carry, the ball is inferred; without rolled, caged and "
+            "deflector nuts",
+            reference="against the catalogue; the static one beside it",
+            maker="THK",
+            source=_THK,
+            file="thk.csv",
+            quantity=Quantity("rating", "N", Info("C_a", "dynamic load rating", "kN")),
+            columns=_OF_THK,
+            aliases=_ALIASES_OF_THK,
+            required=("family", "turns", "dynamic_load_rating", "static_load_rating"),
+            evaluate=rows.ratings_of_thk,
+            axes=("size", "lead"),
+            ratio_names={"static": "static_ratio"},
+            used_for=("ball of each groove",),
+        ),
+        ValidationSet(
+            name="thk-rigidity",
+            title="rigidity K of nuts at a tenth of the dynamic load rating, rigid bodies",
+            details="2 F/delta of braced nuts and F/delta of one: what is printed for one nut is half of that for two, "
+            "though it is said to be at 0.3 C_a",
+            reference="against the catalogue",
+            maker="THK",
+            source=_THK,
+            file="thk.csv",
+            quantity=_RIGIDITY,
+            columns=_OF_THK,
+            aliases=_ALIASES_OF_THK,
+            required=("family", "turns", "dynamic_load_rating"),
+            evaluate=rows.rigidity_of_thk,
+            axes=("size", "lead"),
+            ratio_names={"at_30": "ratio_at_30_percent"},
+            used_for=("ball of each groove",),
         ),
         ValidationSet(
             name="support-bearings",

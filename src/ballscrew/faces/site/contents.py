@@ -62,6 +62,12 @@ def contents(
         "units": words["units"],
         "usual_temperature": USUAL_TEMPERATURE,
         "starts": {name: _start(name) for name in kinds.start_tables()},
+        # what is found by its part number, and computed by the program alone
+        "rows": {
+            row["name"]: {"source": row["source"], "kind": row["nut"], "sizes": row["sizes"]}
+            for row in words["rows"]
+            if row["name"] not in kinds.start_tables()
+        },
     }
 
 

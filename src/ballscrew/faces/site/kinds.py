@@ -17,7 +17,7 @@ from ballscrew.cases.screw_tables.catalogue import EXAMPLE_PRELOADS, case_text
 from ballscrew.engine.evaluation.plan import Configuration
 from ballscrew.engine.evaluation.structures import numbers_alone
 from ballscrew.faces.web.starts import starts
-from ballscrew.physics.sizing.catalogue import catalogue
+from ballscrew.physics.sizing.catalogue import catalogue, printed_rows
 
 #: The models of which modules are made, the one to begin with first.
 MODELS = ("reference", "olaru2005", "corrected")
@@ -70,7 +70,7 @@ def _go_together(model: str, kind: str) -> bool:
 def _start_cases() -> Mapping[str, Mapping[str, Any]]:
     """The whole cases to start from, by name: a row as ``ballscrew catalogue show --case`` writes it."""
     paper = {section: table for section, table in starts()[PAPER]["case"].items() if section != "model"}
-    rows = {name: {**tomllib.loads(case_text(row)), "screw": {"catalogue": name}} for name, row in catalogue().items()}
+    rows = {row.name: {**tomllib.loads(case_text(row)), "screw": {"catalogue": row.name}} for row in printed_rows()}
     return {PAPER: paper, **rows}
 
 

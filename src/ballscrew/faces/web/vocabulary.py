@@ -122,8 +122,12 @@ class StartRow(_Table):
     name: str
     source: str
     nut: str
+    #: What the row stands under in a list: its source, or its maker and family.
+    group: str
     #: Nominal diameter, lead and ball, mm.
     sizes: list[float]
+    #: Why no torque is computed of it; empty where one is.
+    refusal: str
 
 
 class Vocabulary(_Table):
@@ -170,7 +174,14 @@ def vocabulary() -> dict[str, Any]:
         "options": {question: vocabulary_of(options) for question, options in OPTIONS.items()},
         "starts": starts(),
         "rows": [
-            {"name": row.name, "source": row.source, "nut": row.nut or "single", "sizes": sizes_of(row)}
+            {
+                "name": row.name,
+                "source": row.source,
+                "nut": row.nut or "single",
+                "group": f"{row.make} {row.family}" if row.family else row.source,
+                "sizes": sizes_of(row),
+                "refusal": row.refusal,
+            }
             for row in catalogue().values()
         ],
     }

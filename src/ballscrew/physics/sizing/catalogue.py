@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import csv
 import dataclasses
 import functools
 import math
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from importlib import resources
 from typing import Annotated, Any
 
 from ballscrew.basis.arrays import ByValue
 from ballscrew.basis.errors import Fault, InputError, faults_of, nearest, raise_if_any, shown
 from ballscrew.basis.quantities import Angle, Count, DiameterSpeed, Force, Info, Length, Ratio, Stiffness, Torque, Unit
+from ballscrew.physics.components.ratings import RATING_CONFORMITY
 from ballscrew.physics.components.screw import BallScrew
 from ballscrew.physics.equations import geometry
 from ballscrew.physics.sizing.listed_nut import faults_of_nut, nut_of
@@ -48,7 +50,7 @@ class CatalogueRow(ByValue):
 
     Defaults: a conformity of 0.54, which most root diameters of a catalogue imply (HIWIN's grooves for balls of
     3.175 mm have 0.56) and measured grooves (0.542, 0.544) confirm, good to about ±0.01; a contact angle of 45°; one
-    thread start; a pitch circle as large as the nominal diameter (those listed are 1.5 to 5 % larger).
+    thread start; a pitch circle as large as the nominal diameter (those listed are mostly 1.5 to 5 % larger).
     Raises :class:`~ballscrew.basis.errors.InputError` for values out of bounds.
     """
 
@@ -160,6 +162,13 @@ class CatalogueRow(ByValue):
     ] = None
     #: Whether every second ball is a spacer; None where the row does not say.
     spacer_balls: bool | None = None
+    #: The series of the maker that the row is of.
+    family: str = ""
+    #: Turns of those listed that carry no load, and the conformity that the maker's ratings follow from.
+    turns_without_load: float = TURNS_WITHOUT_LOAD
+    rating_conformity: float = RATING_CONFORMITY
+    #: Why no torque is computed of such a nut; empty where one is.
+    refusal: str = ""
 
     def __post_init__(self) -> None:
         where = self.name or "row"
@@ -199,7 +208,7 @@ class CatalogueRow(ByValue):
     @property
     def loaded_turns(self) -> Annotated[Ratio, Info("i_l", "turns that carry load")]:
         """Turns that carry load."""
-        return self.turns - TURNS_WITHOUT_LOAD
+        return self.turns - self.turns_without_load
 
     @property
     def loaded_balls(self) -> Annotated[int, Unit("1"), Info("z", "balls of one nut body that carry load")]:
@@ -217,8 +226,12 @@ class CatalogueRow(ByValue):
         """The screw of the row, with the loaded balls of one nut body; ``changes`` are fields of ``BallScrew``.
 
         Where the row lists a preload, its nut has that, with its seals, and with elastic bodies where it lists the
-        outer diameter of the nut. Elsewhere the balls are those of one nut body without preload.
+        outer diameter of the nut. Elsewhere the balls are those of one nut body without preload. Raises
+        :class:`~ballscrew.basis.errors.InputError` for a nut whose torque no model here computes.
         """
+        if self.refusal:
+            remedy = f"{self.refusal}; take a row of another family than {self.family}"
+            raise InputError(Fault(f"{self.name}.screw", "no torque is computed of this nut", "", remedy))
         fields: dict[str, Any] = {
             "pitch_circle_diameter": self.ball_circle,
             "lead": self.lead,
@@ -241,36 +254,94 @@ class UnknownRowError(InputError, KeyError):
     __str__ = ValueError.__str__
 
 
-class _Rows(dict[str, CatalogueRow]):
-    """Rows by name."""
+class _Rows(Mapping[str, CatalogueRow]):
+    """Rows by name, each made when somebody looks at it."""
 
-    def __missing__(self, name: str) -> CatalogueRow:
-        raise UnknownRowError(Fault("catalogue", "unknown row", str(name), nearest(str(name), self, most=5)))
+    def __init__(self, fields: Mapping[str, Mapping[str, Any]]) -> None:
+        self._fields = fields
+        self._rows: dict[str, CatalogueRow] = {}
+
+    def __getitem__(self, name: str) -> CatalogueRow:
+        if name not in self._rows:
+            if name not in self._fields:
+                raise UnknownRowError(Fault("catalogue", "unknown row", str(name), nearest(str(name), self, most=5)))
+            self._rows[name] = CatalogueRow(name=name, **self._fields[name])
+        return self._rows[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._fields)
+
+    def __len__(self) -> int:
+        return len(self._fields)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._fields
 
 
 @functools.cache
 def catalogue() -> Mapping[str, CatalogueRow]:
-    """The rows shipped, each a :class:`CatalogueRow`, by name (``data/screws.toml``).
+    """The rows shipped, each a :class:`CatalogueRow`, by name (``data/screws.toml``, and the tables that it names).
 
     A name that it does not have raises an :class:`UnknownRowError` with the nearest one.
     """
-    text = resources.files("ballscrew").joinpath("data/screws.toml").read_text(encoding="utf-8")
-    rows = {
-        name: CatalogueRow(
-            name=name,
-            nut=table["nut"],
-            source=table["source"],
-            make=table.get("make", ""),
-            recirculation=table.get("recirculation", ""),
-            nut_outer_diameter_source=table.get("nut_outer_diameter_source", "")
-            if "nut_outer_diameter" in fields
-            else "",
-            **fields,
-        )
-        for table in tomllib.loads(text)["catalogue"]
-        for name, fields in table["rows"].items()
-    }
+    rows: dict[str, Mapping[str, Any]] = {}
+    for table in tomllib.loads(_text("screws.toml"))["catalogue"]:
+        shared = {name: value for name, value in table.items() if not isinstance(value, dict)}
+        if "file" in table:
+            rows |= _fields_of_file(shared, table["families"])
+            continue
+        outer = shared.pop("nut_outer_diameter_source", "")
+        for name, fields in table["rows"].items():
+            source = {"nut_outer_diameter_source": outer} if "nut_outer_diameter" in fields else {}
+            rows[name] = {**shared, **source, **fields}
     return _Rows(rows)
+
+
+def _text(file: str) -> str:
+    return resources.files("ballscrew").joinpath("data", file).read_text(encoding="utf-8")
+
+
+#: Columns of a file of rows: fields and their units in SI. Circuits and the turns of each are apart.
+_OF_FILE: Mapping[str, tuple[str, float]] = {
+    "d0_mm": ("nominal_diameter", 1e-3),
+    "lead_mm": ("lead", 1e-3),
+    "ball_pcd_mm": ("pitch_circle_diameter", 1e-3),
+    "root_mm": ("root_diameter", 1e-3),
+    "Ca_kN": ("dynamic_load_rating", 1e3),
+    "C0a_kN": ("static_load_rating", 1e3),
+    "K_N_um": ("rigidity", 1e6),
+    "ball_mm_inferred": ("ball_diameter", 1e-3),
+}
+
+
+def _fields_of_file(
+    shared: Mapping[str, Any], families: Mapping[str, Mapping[str, Any]]
+) -> dict[str, Mapping[str, Any]]:
+    """The rows of a file of a maker by name, as fields, with what the families of the maker are."""
+    common = {name: value for name, value in shared.items() if name not in ("file", "source")}
+    lines = [line for line in _text(shared["file"]).splitlines() if not line.startswith("#")]
+    rows: dict[str, Mapping[str, Any]] = {}
+    for row in csv.DictReader(lines):
+        # to twelve digits: 39.7 mm are 0.0397 m
+        listed = {name: float(f"{float(row[of]) * unit:.12g}") for of, (name, unit) in _OF_FILE.items() if row[of]}
+        circuits, family = float(row["rows"]), dict(families[row["family"]])
+        return_turns = circuits * family.pop("turns_of_a_return", 0.0)
+        rolled = "-rolled" if row["family"].endswith("rolled") else ""
+        rows[f"{shared['make']}-{row['model']}{rolled}".lower()] = {
+            "source": f"{shared['source']}, PDF page {row['pdf_page']}, line {row['line']}",
+            "family": row["family"],
+            "turns": float(f"{circuits * float(row['turns']):.12g}"),
+            "turns_without_load": return_turns,
+            **listed,
+            **common,
+            **family,
+        }
+    return rows
+
+
+def printed_rows() -> list[CatalogueRow]:
+    """The rows shipped whose catalogue prints all sizes: of the others the ball is an estimate."""
+    return [row for row in catalogue().values() if not row.ball_diameter_source]
 
 
 def is_shipped(row: CatalogueRow) -> bool:

@@ -71,7 +71,7 @@ BY_RULE = (
     "from lead and diameter alone, a rule of 44 rows of catalogues: each is within -31 and +66 % of the rule of "
     "the others; give the ball diameter or the dynamic load rating"
 )
-BY_NOMINAL = "as large as the nominal diameter; those that a catalogue lists are 1.5 to 5 % larger"
+BY_NOMINAL = "as large as the nominal diameter; those that catalogues list are mostly 1.5 to 5 % larger"
 BY_ROOT = "from the diameter at the bottom of the groove, good to about 0.01"
 BY_DEFAULT = "most root diameters of a catalogue imply 0.54, some 0.56; good to about 0.01"
 BY_HABIT = "the usual value; no catalogue consulted prints it"

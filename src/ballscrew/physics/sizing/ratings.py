@@ -38,6 +38,8 @@ class Rated(Protocol):
     def loaded_turns(self) -> Any: ...
     @property
     def spacer_balls(self) -> Any: ...
+    @property
+    def rating_conformity(self) -> Any: ...
 
 
 class RatedGeometry(NamedTuple):
@@ -51,6 +53,7 @@ class RatedGeometry(NamedTuple):
     balls_per_turn: Count
     loaded_turns: Ratio
     spacer_balls: bool = False
+    rating_conformity: Ratio = RATING_CONFORMITY
 
 
 def rated_geometry_of(screw: BallScrew) -> RatedGeometry:
@@ -62,14 +65,14 @@ def rated_geometry_of(screw: BallScrew) -> RatedGeometry:
     return RatedGeometry(d_m, d_w, screw.contact_angle, phi, in_a_turn, turns, screw.nut.spacer_balls)
 
 
-def ratings_of(row: Rated, rating_conformity: Ratio = RATING_CONFORMITY) -> Ratings:
+def ratings_of(row: Rated) -> Ratings:
     """Dynamic and static axial load rating of a row by its geometry; those printed in its catalogue play no part.
 
     Of a turn with spacer balls half of the balls carry. Elementwise: numbers, arrays, and values that are recorded.
     """
     balls = row.balls_per_turn / 2 if row.spacer_balls else row.balls_per_turn
     d_m, d_w, alpha = row.ball_circle, row.ball_diameter, row.contact_angle
-    phi, f = row.lead_angle, rating_conformity
+    phi, f = row.lead_angle, row.rating_conformity
     # the standard leaves the lead out of the curvature
     k_0 = rating.static_load_factor(geometry.curvature_ratio(d_w, d_m, alpha, lead_angle=0.0), f)
     return Ratings(

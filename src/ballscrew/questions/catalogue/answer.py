@@ -6,6 +6,7 @@ from pydantic import Field
 
 from ballscrew.basis.quantities import fields_of, quantities_of
 from ballscrew.physics.sizing.catalogue import CatalogueRow
+from ballscrew.physics.sizing.own_nut import RATED
 from ballscrew.questions.shared.answer_parts import Closed, Record, Tables
 from ballscrew.questions.shared.declared import table_of, with_answers
 
@@ -20,7 +21,11 @@ class DerivedRow(table_of({name: q for name, q in _ALL_OF_ROW.items() if name no
     """Numbers that follow from the listed ones."""
 
 
-class CatalogueEntry(with_answers(row=ListedRow, derived=DerivedRow)):
+class ComputedRatings(table_of({name: _LISTED[name] for name in RATED})):
+    """Load ratings by the geometry."""
+
+
+class CatalogueEntry(with_answers(row=ListedRow, derived=DerivedRow, computed=ComputedRatings)):
     """A row of the catalogue."""
 
     name: str
@@ -28,6 +33,8 @@ class CatalogueEntry(with_answers(row=ListedRow, derived=DerivedRow)):
     source: str
     seal_torque_source: str | None = Field(description="of whose seals the torque is, where it is not the row's own")
     ball_diameter_source: str | None = Field(description="where the ball diameter is from, if not from the row")
+    family: str | None = Field(description="series of the maker")
+    notes: list[str] = Field(description="ratings far from those by the geometry, and why no torque is computed")
 
 
 class RowUnits(Closed):
@@ -35,6 +42,7 @@ class RowUnits(Closed):
 
     row: dict[str, str]
     derived: dict[str, str]
+    computed: dict[str, str]
 
 
 class Version(Closed):

@@ -9,12 +9,14 @@ from typing import Any
 from ballscrew.basis import units
 from ballscrew.basis.output.wrapping import aligned
 from ballscrew.basis.quantities import Quantity, quantities_of
-from ballscrew.cases.screw_tables.catalogue import DERIVED, FIELDS, assumed
+from ballscrew.cases.screw_tables.catalogue import DERIVED, FIELDS, assumed, notes
 from ballscrew.physics.sizing.catalogue import CONFORMITY_DOUBT, CatalogueRow
+from ballscrew.physics.sizing.own_nut import RATED
+from ballscrew.physics.sizing.ratings import ratings_of
 
 #: Columns of the list: a row of the catalogue in the units people think in.
-_LIST = ("name", "d0 x lead [mm]", "ball [mm]", "turns", "balls/turn", "loaded", "C_a [kN]", "C_0a [kN]", "source")
-_TEXTS = (0, len(_LIST) - 1)
+_LIST = ("name", "d0 x lead [mm]", "ball [mm]", "turns", "balls/turn", "loaded", "C_a [kN]", "C_0a [kN]", "source", "")
+_TEXTS = (0, len(_LIST) - 2, len(_LIST) - 1)
 
 
 def list_text(rows: Sequence[CatalogueRow]) -> str:
@@ -35,7 +37,14 @@ def _cells(row: CatalogueRow) -> list[str]:
             "static_load_rating",
         )
     ]
-    return [row.name, size, *numbers, row.source]
+    return [row.name, size, *numbers, row.source, _mark(row)]
+
+
+def _mark(row: CatalogueRow) -> str:
+    """What the row of a list says of its ratings and its torque, in few words."""
+    texts = notes(row)
+    differs = any(note.startswith(("dynamic", "static")) for note in texts)
+    return ", ".join(filter(None, ["ratings differ" * differs, "no torque" * bool(row.refusal)]))
 
 
 def _number(row: CatalogueRow, name: str) -> str:
@@ -58,7 +67,9 @@ def show_text(row: CatalogueRow) -> str:
         _line(q, getattr(row, n)) + (_root_doubt(row) if n == "groove_root_diameter" else "")
         for n, q in DERIVED.items()
     ]
-    lines += ["", "Assumed", *(f"  {words}" for words in unlisted.values())]
+    ratings = ratings_of(row)
+    lines += [_line(FIELDS[n], value, " by the geometry") for n, value in zip(RATED, ratings, strict=True)]
+    lines += ["", "Assumed", *(f"  {words}" for words in (*unlisted.values(), *notes(row)))]
     return "\n".join(lines)
 
 
@@ -68,8 +79,8 @@ def _source(row: CatalogueRow, name: str) -> str:
     return f" ({source})" if source else ""
 
 
-def _line(quantity: Quantity, value: Any) -> str:
-    return f"  {quantity.info.meaning:<58} {units.shown(value, quantity, digits=5)}"
+def _line(quantity: Quantity, value: Any, by: str = "") -> str:
+    return f"  {quantity.info.meaning + by:<58} {units.shown(value, quantity, digits=5)}"
 
 
 def _root_doubt(row: CatalogueRow) -> str:

@@ -160,13 +160,14 @@ def every_row(
         chosen = [catalogue.named(rows, row, file=path)]
     else:
         chosen = catalogue.chosen(rows, "" if case is not None else name or "", path)
+    chosen, refused = catalogue.computable(chosen)
     tables = None if case is None else case_file.read(case)
 
     def work(row: CatalogueRow) -> Checked:
         return _of_row(row, options, (tables, case, path) if tables and case and path else None)
 
     found = each({place_of(row): row for row in chosen}, work, keep_going=keep_going, done=done)
-    return dataclasses.replace(found, notes=[*notes, *found.notes])
+    return dataclasses.replace(found, notes=[*notes, *refused, *found.notes])
 
 
 def is_case(name: str) -> bool:

@@ -17,7 +17,7 @@ from ballscrew.basis.quantities import Count, Info, Quantity, Ratio, fields_of
 from ballscrew.cases.schema.case_schema import read_table
 from ballscrew.cases.schema.fields import section_of
 from ballscrew.physics.components.screw import BallScrew
-from ballscrew.physics.sizing.catalogue import CatalogueRow, catalogue
+from ballscrew.physics.sizing.catalogue import CatalogueRow, printed_rows
 from ballscrew.physics.sizing.listed_nut import NUTS, PRELOADED
 from ballscrew.questions.select.need import Need
 from ballscrew.questions.select.objectives import objectives_named
@@ -118,20 +118,20 @@ class DesignSpace:
 
 @functools.cache
 def makeable_bounds() -> Mapping[str, Span]:
-    """Sizes between the least and the greatest of the rows shipped (``data/screws.toml``): such screws are made."""
+    """Sizes between the least and the greatest of the rows that print all sizes: such screws are made."""
     read: Mapping[str, Callable[[CatalogueRow], Any]] = {
         "pitch_circle_diameter": lambda row: row.ball_circle,
         "lead": lambda row: row.lead,
         "ball_diameter": lambda row: row.ball_diameter,
         "loaded_turns": lambda row: row.loaded_turns,
     }
-    return {name: _span([float(of(row)) for row in catalogue().values()]) for name, of in read.items()}
+    return {name: _span([float(of(row)) for row in printed_rows()]) for name, of in read.items()}
 
 
 @functools.cache
 def makeable_ratios() -> Mapping[str, Span]:
     """Ratios of sizes between the least and the greatest of the rows shipped."""
-    rows = [row.screw() for row in catalogue().values()]
+    rows = [row.screw() for row in printed_rows()]
     return {
         name: _span([getattr(screw, one) / getattr(screw, other) for screw in rows])
         for name, (one, other) in RATIOS.items()

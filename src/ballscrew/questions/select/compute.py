@@ -18,6 +18,7 @@ from ballscrew.cases.case_files.case import Case
 from ballscrew.cases.screw_tables import catalogue
 from ballscrew.compiler.kernels import kernel as kernels
 from ballscrew.physics.sizing.listed_nut import NUTS
+from ballscrew.questions.duty import compute as duties
 from ballscrew.questions.select.candidates import (
     LENGTH_OF_STROKE,
     USUAL_LIFE,
@@ -36,6 +37,8 @@ from ballscrew.questions.select.pareto import front
 from ballscrew.questions.shared.declared import FINITE
 from ballscrew.questions.shared.every_row import Done, each
 
+#: Candidates of the catalogue whose friction is computed unless the list is to be complete: more take minutes.
+MOST_JUDGED = 150
 #: Variants at most: more take hours.
 MOST_VARIANTS = 20_000
 #: Candidates with a motion of one kind of nut from which on their friction is recorded and compiled, which takes some
@@ -161,11 +164,20 @@ def select(
         asked = asked.with_note(note)
     recorded = _worth_recording(asked, every)
 
-    def work(variant: Variant) -> Candidate:
+    def without_friction(variant: Variant) -> Candidate:
         case: Case = case_of(asked, variant, model=model, calibration=calibration, allow_code=allow_code)
-        by_its_loads = by_loads(asked, variant, case)
-        rest = by_its_loads.cannot_hold and not complete
-        candidate = by_its_loads if rest else judged(asked, variant, case, recorded=variant.nut in recorded)
+        return by_loads(asked, variant, case)
+
+    known: dict[str, Candidate] = {}
+    if ready.table is None and not complete and len(every) > MOST_JUDGED:
+        known = dict(each({one.label: one for one in every}, without_friction, keep_going=True, done=done).found)
+        every, note = _most_likely(every, known, moves=asked.moves)
+        asked = asked.with_note(note) if note else asked
+
+    def work(variant: Variant) -> Candidate:
+        candidate = known.get(variant.label) or without_friction(variant)
+        if complete or not candidate.cannot_hold:
+            candidate = judged(asked, variant, candidate.case, recorded=variant.nut in recorded)
         if found_one is not None:
             found_one(candidate)
         return candidate
@@ -183,6 +195,28 @@ def select(
         found.interrupted,
         model,
     )
+
+
+def _most_likely(every: Sequence[Variant], known: Mapping[str, Candidate], *, moves: bool) -> tuple[list[Variant], str]:
+    """The variants whose friction is computed where their loads allow more than :data:`MOST_JUDGED`, and a note.
+
+    Friction at a given speed of the nut grows about with load and preload, and with diameter over lead.
+    """
+
+    def friction(variant: Variant) -> float:
+        case, preload = known[variant.label].case, known[variant.label].preload
+        load = duties.planned(case).largest_load if moves else float(case.operation.axial_load)
+        return (abs(load) + preload) * float(case.screw.pitch_circle_diameter / case.screw.lead)
+
+    able = [variant for variant in every if variant.label in known and not known[variant.label].cannot_hold]
+    if len(able) <= MOST_JUDGED:
+        return list(every), ""
+    kept = {variant.label for variant in sorted(able, key=friction)[:MOST_JUDGED]}
+    note = (
+        f"of {len(able)} candidates that can hold by their loads, the {MOST_JUDGED} with the least load times diameter "
+        "over lead are judged: name rows, or --complete for all"
+    )
+    return [one for one in every if one.label in kept or (one.label in known and known[one.label].cannot_hold)], note
 
 
 def plan(
@@ -238,7 +272,7 @@ def _prepared(
     names = asked.objectives if objectives is None else objectives_named(objectives, "objectives")
     table = None if rows is None else Path(rows)
     listed, notes = catalogue.load(table, keep_going)
-    chosen = catalogue.chosen(listed, asked.rows if words is None else words, table)
+    chosen, refused = catalogue.computable(catalogue.chosen(listed, asked.rows if words is None else words, table))
     if objectives is None and names == USUAL_OBJECTIVES and any(row.price_index is not None for row in chosen):
         names = (*names, "price_index")
     unknown = [name for name in asked.price_index if name not in listed]
@@ -253,7 +287,7 @@ def _prepared(
     if len(every) > MOST_VARIANTS:
         remedy = f"name fewer; {MOST_VARIANTS} at most"
         raise InputError(Fault("need", "has too many combinations", str(len(every)), remedy))
-    return _Prepared(asked, names, every, table, notes)
+    return _Prepared(asked, names, every, table, [*notes, *refused])
 
 
 def _worth_recording(need: Need, every: Sequence[Variant]) -> frozenset[str]:

@@ -49,6 +49,7 @@ WORDS: Mapping[str, str] = {
     "at_5_percent": "at a preload of 5 % of the rating",
     "at_6_percent": "at a preload of 6 % of the rating",
     "at_8_percent": "at a preload of 8 % of the rating",
+    "at_30": "at 0.3 C_a, as THK defines it for one nut",
     "torque": "torque",
     "growth": "growth with speed over that of the whole",
     "torque_at_10_rpm": "torque at 10 rpm, as if it were that of a start",

@@ -30,7 +30,7 @@
  *   oils: { file: string, grades: Record<string, any> },
  *   fields: Record<string, Field>, results: Record<string, Result>,
  *   mechanisms: Record<string, { words: string, colour: string }>, reasons: Record<string, string>,
- *   judging: any, bands: import("./bands.js").Bands, usual_temperature: string, units: Record<string, { unit: string, factor: number, offset: number }[]>, symbols: Record<string, string>, starts: Record<string, Start>,
+ *   judging: any, bands: import("./bands.js").Bands, usual_temperature: string, units: Record<string, { unit: string, factor: number, offset: number }[]>, symbols: Record<string, string>, starts: Record<string, Start>, rows: Record<string, { source: string, kind: string, sizes: number[] }>,
  * }} Contents
  */
 /**

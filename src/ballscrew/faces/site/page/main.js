@@ -348,8 +348,9 @@ function beginAt(name) {
 /** Take the start that some words are about, or offer those that they may be about. @param {string} text */
 function search(text) {
   if (!text.trim()) return;
-  const { names, isCode } = screwsFor(text, contents.starts);
-  if (names.length === 1 && !isCode) {
+  const { names, isCode } = screwsFor(text, { ...contents.starts, ...contents.rows });
+  const isStart = (/** @type {string} */ name) => Object.hasOwn(contents.starts, name);
+  if (names.length === 1 && !isCode && isStart(names[0])) {
     beginAt(names[0]);
     return;
   }
@@ -358,6 +359,7 @@ function search(text) {
     : `${text} may be:`;
   const words = names.length ? found : `${text} is not in the list: write a size such as 40x10, or a part of a name.`;
   const buttons = names.map((name) => {
+    if (!isStart(name)) return element("span", {}, `${name} (ballscrew check ${name})`);
     const button = element("button", { type: "button" }, name);
     button.addEventListener("click", () => beginAt(name));
     return button;

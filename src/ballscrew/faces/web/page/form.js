@@ -147,7 +147,9 @@ function startField({ onChange }) {
   const { starts, rows } = vocabulary;
   /** @type {Map<string, Vocabulary["rows"]>} */
   const groups = new Map();
-  for (const row of rows) groups.set(row.source, [...(groups.get(row.source) ?? []), row]);
+  for (const row of rows.filter(({ refusal }) => !refusal)) {
+    groups.set(row.group, [...(groups.get(row.group) ?? []), row]);
+  }
   /**
    * @param {string} name
    * @param {string} words
@@ -161,8 +163,8 @@ function startField({ onChange }) {
     { id: "start", onchange: () => onChange({ start: select.value }) },
     element("optgroup", { label: "Papers" }, ...known.filter(([, { moves }]) => !moves).map(startOption)),
     element("optgroup", { label: "Examples of axes" }, ...known.filter(([, { moves }]) => moves).map(startOption)),
-    ...[...groups].map(([source, members]) =>
-      element("optgroup", { label: source }, ...members.map((row) => option(row.name, rowLabel(row)))),
+    ...[...groups].map(([label, members]) =>
+      element("optgroup", { label }, ...members.map((row) => option(row.name, rowLabel(row)))),
     ),
   );
   const reset = element(

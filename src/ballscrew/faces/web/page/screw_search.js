@@ -26,7 +26,7 @@ export function setUp() {
     oninput: show,
   });
   input.addEventListener("keydown", (event) => {
-    const [first] = matching().names;
+    const first = matching().names.find((name) => !rows.get(name)?.refusal);
     if (event.key !== "Enter" || !first) return;
     event.preventDefault();
     take(first);
@@ -48,7 +48,9 @@ export function setUp() {
   function item(name) {
     const row = rows.get(name);
     if (!row) return null;
-    const choose = element("button", { type: "button", "data-row": name, onclick: () => take(name) }, rowLabel(row));
+    const choose = row.refusal
+      ? element("span", {}, `${rowLabel(row)}: no torque is computed of it; ${row.refusal}`)
+      : element("button", { type: "button", "data-row": name, onclick: () => take(name) }, rowLabel(row));
     return element("li", {}, choose, element("span", { class: "small" }, row.source));
   }
 
