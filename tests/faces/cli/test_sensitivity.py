@@ -12,7 +12,6 @@ from ballscrew.basis.output.json_text import as_json
 from ballscrew.basis.output.sheet import Bars, Lines, Table
 from ballscrew.cases.case_files import case_file, uncertain_inputs
 from ballscrew.engine.evaluation.plan import Configuration
-from ballscrew.questions.sensitivity import answer as documents
 from ballscrew.questions.sensitivity import compute
 from ballscrew.questions.sensitivity.sheet import LAWS_STAY, sheet
 from support.pictures import words_of
@@ -94,7 +93,7 @@ def test_the_table(ballscrew, example, case):
 def test_what_to_find_out_in_words(case):
     sobol = of_method(case, "sobol")
     halved = sobol.result.to_halve
-    first, second = (verdict.text for verdict in documents.verdicts(sobol))
+    first, second = (verdict.text for verdict in compute.verdicts(sobol))
     names = ", ".join(sobol.describe(name) for name in halved.inputs)
     assert first == (
         f"to halve the band of the friction torque on the screw, find out: {names} (leaves {halved.remaining:.0%})"
@@ -103,14 +102,12 @@ def test_what_to_find_out_in_words(case):
         second == f"{sobol.describe(halved.inputs[0])} alone leaves {sobol.result.explained_variance[0].remaining:.0%}"
     )
     only = case_file.load(EXAMPLES / "olaru2005.toml", GIVEN[:1], "corrected")
-    assert documents.verdicts(of_method(only, "sobol", only_given=True))[0].text.endswith(
-        "screw conformity (leaves 0%)"
-    )
-    assert [one.text for one in documents.verdicts(of_method(case, "morris"))] == [
+    assert compute.verdicts(of_method(only, "sobol", only_given=True))[0].text.endswith("screw conformity (leaves 0%)")
+    assert [one.text for one in compute.verdicts(of_method(case, "morris"))] == [
         "screening ranks the inputs; what to find out next: --method sobol"
     ]
     constant = of_method(only, "local", only_given=True, output="ideal_torque")
-    assert documents.verdicts(constant)[0].text.endswith("does not depend on any of these inputs")
+    assert compute.verdicts(constant)[0].text.endswith("does not depend on any of these inputs")
 
 
 def lines_of(case, report):
@@ -134,8 +131,8 @@ def test_a_calibration_is_said_to_be_correlated(case):
 
     calibrated = case_file.load(EXAMPLES / "olaru2005.toml", ["model.calibration=rexroth-2006"], "reference")
     found = of_method(calibrated, "morris", samples=4)
-    assert documents.CORRELATED in lines_of(calibrated, found)
-    assert documents.CORRELATED not in lines_of(dataclasses.replace(calibrated, calibration=None), found)
+    assert compute.CORRELATED in lines_of(calibrated, found)
+    assert compute.CORRELATED not in lines_of(dataclasses.replace(calibrated, calibration=None), found)
 
 
 # -- programs -------------------------------------------------------------------------------------
@@ -165,7 +162,7 @@ def test_json(ballscrew, example, case):
 
 
 def test_json_of_what_has_no_number(case):
-    document = json.loads(as_json(documents.document(case, of_method(case, "morris", samples=4))))["sensitivity"]
+    document = json.loads(as_json(compute.document(case, of_method(case, "morris", samples=4))))["sensitivity"]
     assert document["standard_deviation"] is None
     assert document["to_halve"] is None
     assert document["knowing"] == []

@@ -7,9 +7,8 @@ from ballscrew.basis.quantities import quantities_of
 from ballscrew.cases.case_files import case_file
 from ballscrew.faces.sheets import terminal
 from ballscrew.physics.friction.result import FrictionResult
-from ballscrew.questions.compare import answer as documents
-from ballscrew.questions.compare.answer import ByRules, Compared, ComparedLaw, ComparedModel
-from ballscrew.questions.compare.compute import comparison
+from ballscrew.questions.compare import compute as documents
+from ballscrew.questions.compare.compute import ByRules, Compared, ComparedLaw, ComparedModel, comparison
 from ballscrew.questions.compare.response import Compare
 from ballscrew.questions.compare.sheet import sheet
 from ballscrew.questions.shared import declared

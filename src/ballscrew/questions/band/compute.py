@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import contextlib
 import dataclasses
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ballscrew.basis.errors import InputError
 from ballscrew.basis.overflow import overflow_as_input_error
 from ballscrew.cases.case_files import uncertain_inputs
 from ballscrew.cases.case_files.case_file import Case
@@ -29,7 +27,7 @@ from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.solvers.load_distribution import preload_of
 from ballscrew.questions.band.options import BandOptions
 from ballscrew.questions.compare import compute as comparison
-from ballscrew.questions.shared.options import options_of
+from ballscrew.questions.shared.option_values import faults_named, flags_of
 
 if TYPE_CHECKING:  # its solvers are slow to import
     from ballscrew.questions.band.heat_samples import HeatSamples
@@ -43,7 +41,7 @@ PRESSING = frozenset({"ball_force", "ball_chain", "ball_to_ball_force"})
 #: Share of the samples in a band by default.
 LEVEL = 0.95
 #: Flags of the command line by the fields in which the analysis finds faults.
-_FLAGS = {f"band.{name}": option.flag for name, option in options_of(BandOptions).items()}
+FLAGS = flags_of("band", BandOptions)
 Done = Callable[[int, int], None]
 
 
@@ -141,7 +139,7 @@ def band(case: Case, options: BandOptions, done: Done | None = None, heat: HeatS
     if heat is not None:
         # a temperature that varies has the viscosity with it
         inputs = {**{name: one for name, one in inputs.items() if name != "viscosity"}, **heat.inputs}
-    with options_named():
+    with faults_named(FLAGS):
         found = bands.band(
             **_arguments(case, inputs, options, heat),
             screw_speed=case.operation.screw_speed,
@@ -152,16 +150,6 @@ def band(case: Case, options: BandOptions, done: Done | None = None, heat: HeatS
         )
     assert isinstance(found, Band), "an operating point is no axis"
     return BandReport(found, inputs, *_full_bath_and_losses(case))
-
-
-@contextlib.contextmanager
-def options_named() -> Generator[None]:
-    """Let faults of an analysis name the options of the command line."""
-    try:
-        yield
-    except InputError as error:
-        faults = (dataclasses.replace(f, where=_FLAGS.get(f.where, f.where)) for f in error.faults)
-        raise InputError(*faults) from None
 
 
 def _full_bath_and_losses(case: Case) -> tuple[float | None, float]:

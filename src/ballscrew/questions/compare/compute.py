@@ -4,17 +4,26 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import Annotated, Any, TypeVar
 
+from ballscrew.basis import units
 from ballscrew.basis.overflow import overflow_as_input_error
+from ballscrew.basis.quantities import Info, Ratio, Torque, Unit, quantities_of
+from ballscrew.basis.records import Record, documents
 from ballscrew.cases.case_files import case_file
 from ballscrew.cases.case_files.makers_rules import subject_of
+from ballscrew.cases.case_files.provenance import of_case
 from ballscrew.cases.schema.case_schema import LAWS, MODELS, coefficients_of, name_of_law
 from ballscrew.engine.evaluation.comparison import Candidate, ComparedRule, Comparison, OfBalls, Row, compare, same_law
+from ballscrew.engine.evaluation.comparison import Spread as TwoRows
+from ballscrew.physics.friction.result import FrictionResult
+from ballscrew.physics.friction.validity import NUT_REASONS
 from ballscrew.physics.laws.traits import traits_of
 from ballscrew.physics.sizing.rules import RULES, Estimate
 from ballscrew.physics.solvers.load_distribution import preload_of
+from ballscrew.questions.shared import declared
+from ballscrew.questions.shared.declared import LEFT_OUT, OneOf, from_attributes
 
 
 def candidates(case: case_file.Case) -> tuple[list[Candidate], list[Candidate]]:
@@ -118,3 +127,214 @@ def models_without_nut(case: case_file.Case) -> list[str]:
     """Names of the models that cannot compute the nut of the case, and are left out."""
     models, _ = candidates(case)
     return [c.name for c in models if not c.model.knows(case.screw.nut)]
+
+
+T = TypeVar("T")
+_KNOWN = quantities_of(FrictionResult)
+_SLOTS = OneOf(tuple(LAWS))
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class ComparedModel:
+    """The case with one model."""
+
+    #: Of the model, or of the law.
+    name: str
+    screw_torque: Annotated[Torque, _KNOWN["screw_torque"].info]
+    #: Friction torque over that of the case, less one.
+    change: Ratio
+    #: Parts of the friction torque.
+    contributions: Annotated[Mapping[str, float], Unit("N m")]
+    efficiency: Annotated[Ratio, _KNOWN["efficiency"].info]
+    back_driving_efficiency: Annotated[Ratio, _KNOWN["back_driving_efficiency"].info]
+    holding_torque: Annotated[Torque, _KNOWN["holding_torque"].info]
+    self_locking: Annotated[bool, _KNOWN["self_locking"].info]
+    #: True where all conditions of the model hold.
+    valid: bool
+    #: The conditions that fail.
+    not_valid_because: Sequence[str]
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class ComparedLaw(ComparedModel):
+    """The case with another law in one slot."""
+
+    #: The slot of the law.
+    slot: Annotated[str, _SLOTS]
+    #: False for a printed form that breaks a balance: it is in no spread.
+    counts: bool
+
+
+@dataclasses.dataclass(frozen=True)
+class SpreadEnd:
+    """The least or the greatest torque of some models or laws."""
+
+    #: The slot of the law; null of a model.
+    slot: Annotated[str | None, _SLOTS]
+    #: Of the model, or of the law.
+    name: str
+    screw_torque: Annotated[Torque, _KNOWN["screw_torque"].info]
+
+
+@dataclasses.dataclass(frozen=True)
+class Ends:
+    """Least and greatest torque."""
+
+    #: The least.
+    least: SpreadEnd
+    #: The greatest.
+    greatest: SpreadEnd
+
+
+@dataclasses.dataclass(frozen=True)
+class Spread:
+    """Spread of the torque over models and over laws."""
+
+    #: Over all models; null where none has a torque.
+    models: Ends | None
+    #: Over the laws that count and are valid here; null where none is.
+    valid_laws: Ends | None
+    #: Changes of the torque by the laws of each slot: the ends.
+    change_by_slot: Annotated[Mapping[str, Sequence[float]], Unit("1")]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Compared:
+    """All models and all laws side by side."""
+
+    #: The case with its own model.
+    case: ComparedModel
+    #: The case with each model.
+    models: Sequence[ComparedModel]
+    #: The model of the case with another law in one slot.
+    laws: Sequence[ComparedLaw]
+    #: How far models and laws are apart.
+    spread: Spread
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ByRules:
+    """The torque by rules of one line, and what they are held against."""
+
+    #: What people use in place of a model; in no spread.
+    rules: Sequence[ComparedRule]
+    drag_torque: Annotated[
+        Torque, Info("M_d", "drag torque of the preloaded nut of the case, seals and other losses included")
+    ]
+    #: The case without its seals and other losses: what the rules are held against.
+    of_balls: Annotated[OfBalls | None, LEFT_OUT]
+
+
+def compared(found: Comparison) -> Compared:
+    """A comparison as it is answered."""
+    return Compared(
+        case=_row(ComparedModel, found.case),
+        models=[_row(ComparedModel, row) for row in found.models],
+        laws=[_row(ComparedLaw, row, slot=row.candidate.slot, counts=row.candidate.counts) for row in found.laws],
+        spread=Spread(_ends(found.spread_of_models), _ends(found.spread_of_laws), found.spans),
+    )
+
+
+def by_rules(found: Comparison) -> ByRules:
+    """The rules of a comparison as they are answered."""
+    return ByRules(found.rules, found.drag_torque, found.of_balls)
+
+
+def _row(cls: type[T], row: Row, **of_law: Any) -> T:
+    known = {"name": row.candidate.name, "change": row.change, "valid": not row.outside}
+    return from_attributes(cls, row.result, **known, not_valid_because=row.outside, **of_law)
+
+
+def _ends(spread: TwoRows | None) -> Ends | None:
+    if spread is None:
+        return None
+    return Ends(*(SpreadEnd(row.candidate.slot or None, row.candidate.name, row.torque) for row in spread))
+
+
+_TORQUE = "screw_torque"
+#: The units of the numbers by their names, which are the same in all rows.
+_UNITS = {name: unit for cls in (ComparedLaw, ComparedRule, OfBalls) for name, unit in declared.units_of(cls).items()}
+#: Components named in the verdict on what changes the torque most, and the least change that is shown.
+_MOST_SHOWN, LEAST_SHOWN = 3, 0.005
+
+
+def document(case: case_file.Case, found: Comparison) -> dict[str, Any]:
+    """Inputs, all rows in SI, the spread, provenance."""
+    failing = {reason for row in found.rows for reason in row.outside}
+    return {
+        "inputs": case_file.inputs(case),
+        **declared.document(compared(found)),
+        "units": dict(_UNITS),
+        "reasons": {reason: text for reason, text in NUT_REASONS.items() if reason in failing},
+        "verdicts": documents(verdicts(found)),
+        "checks": [],
+        "warnings": documents(warnings(case, found)),
+        "provenance": of_case(case),
+        **declared.document(by_rules(found)),
+    }
+
+
+def warnings(case: case_file.Case, found: Comparison) -> list[Record]:
+    """The warnings of the case itself."""
+    return [*found.case.result.warning_records, *case.doubts]
+
+
+def verdicts(found: Comparison) -> list[Record]:
+    """The spread over models, the spread over valid laws, and the components that change the torque most."""
+    records: list[Record] = []
+    if found.spread_of_models is not None:
+        outside = [row.candidate.name for row in found.models if row.outside]
+        text = _spread(found.spread_of_models, found.models)
+        if outside:
+            text = f"{text}; not valid here: {', '.join(outside)}"
+        records.append(_spread_record("compare.models", text, found.spread_of_models))
+    if found.spread_of_laws is None:
+        records.append(Record(text="none is valid here", id="compare.laws", subject=_TORQUE, holds=False))
+    else:
+        valid = [row for row in (found.case, *found.laws) if row.candidate.counts and not row.outside]
+        text = _spread(found.spread_of_laws, valid)
+        records.append(_spread_record("compare.laws", text, found.spread_of_laws, holds=True))
+    spans = {slot: span for slot, span in found.spans.items() if max(map(abs, span)) >= LEAST_SHOWN}
+    if spans:
+        most = list(spans.items())[:_MOST_SHOWN]
+        effects = ", ".join(f"{_words(slot)} ({_span(span)})" for slot, span in most)
+        slot, span = most[0]
+        records.append(Record(text=effects, id="compare.largest_effect", subject=slot, value=max(span, key=abs)))
+    return records
+
+
+def _spread_record(name: str, text: str, spread: TwoRows, holds: bool | None = None) -> Record:
+    least, greatest = (row.torque for row in spread)
+    return Record(text=text, id=name, subject=_TORQUE, value=greatest - least, unit="N m", holds=holds)
+
+
+def _spread(spread: TwoRows, rows: Sequence[Row]) -> str:
+    """``0.15 N m (one) to 0.23 N m (other); efficiency 0.934 to 0.952``."""
+    low, high = (f"{units.in_unit(row.torque, 'N m')} ({_full_name(row)})" for row in spread)
+    efficiencies = [float(row.result.efficiency) for row in rows if math.isfinite(float(row.result.efficiency))]
+    if not efficiencies:
+        return f"{low} to {high}"
+    return f"{low} to {high}; efficiency {min(efficiencies):.3f} to {max(efficiencies):.3f}"
+
+
+def _full_name(row: Row) -> str:
+    name = row.candidate.name
+    return f"{_words(row.candidate.slot)} {name}" if row.candidate.slot else name
+
+
+def _words(name: str) -> str:
+    """A component of the model in words."""
+    return name.replace("_", " ")
+
+
+def _span(span: tuple[float, float]) -> str:
+    low, *high = [percent(end) for end in span if end]
+    return f"{low} to {high[0]}" if high else low
+
+
+def percent(of: float) -> str:
+    """A change in per cent to a tenth; no sign before zero, a dash for what is not finite."""
+    if not math.isfinite(of):
+        return "–"
+    text = f"{of:+.1%}"
+    return units.percent(0.0, 1) if text in ("+0.0%", "-0.0%") else units.change(of, 1)

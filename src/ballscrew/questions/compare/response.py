@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ballscrew.questions.compare.answer import ByRules, Compared
+from ballscrew.questions.compare.compute import ByRules, Compared
 from ballscrew.questions.shared.answer_parts import Provenance, Record, Shown, Tables, field
 from ballscrew.questions.shared.declared import schema
 

@@ -24,11 +24,12 @@ from ballscrew.questions.condition.options import ConditionOptions
 from ballscrew.questions.service.compute import distributions
 from ballscrew.questions.shared.declared import FINITE, from_attributes, parts_like
 from ballscrew.questions.shared.envelope import envelope
+from ballscrew.questions.shared.option_values import faults_named, flags_of, with_flag
 from ballscrew.questions.shared.options import options_of
 
 #: Flags of the command line by the fields in which a condition finds faults.
 _FLAGS: Mapping[str, str] = {
-    **{f"condition.{name}": option.flag for name, option in options_of(ConditionOptions).items()},
+    **flags_of("condition", ConditionOptions),
     "condition.screw_speed": "--speed",
     "lubricant.temperature": "--at",
 }
@@ -72,7 +73,7 @@ def of_files(
             for path in paths
         ]
         speed = None
-    try:
+    with faults_named(_FLAGS):
         found = condition(
             case.model,
             case.screw,
@@ -88,8 +89,6 @@ def of_files(
             kind=options.kind,
             inertia=options.inertia,
         )
-    except InputError as error:
-        raise InputError(*(_with_option(fault) for fault in error.faults)) from None
     records = (*found.warning_records, *case.implausible())
     return dataclasses.replace(found, warning_records=records)
 
@@ -106,12 +105,7 @@ def _check_temperature(temperature: float | None) -> None:
     if temperature is not None:
         fault = fault_of("lubricant", TEMPERATURE, temperature, units.shown(temperature, TEMPERATURE))
         if fault is not None:
-            raise InputError(_with_option(fault))
-
-
-def _with_option(fault: Fault) -> Fault:
-    """The fault, with the option of the command line that it is in."""
-    return dataclasses.replace(fault, where=_FLAGS.get(fault.where, fault.where))
+            raise InputError(with_flag(fault, _FLAGS))
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

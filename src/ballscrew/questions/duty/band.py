@@ -11,6 +11,7 @@ from ballscrew.basis.errors import InputError
 from ballscrew.cases.case_files.uncertain_inputs import GIVEN, NOTHING_GIVEN, Uncertain, all_of
 from ballscrew.engine.uncertainty.uncertain_value import describe_distribution
 from ballscrew.questions.duty.compute import DutyReport
+from ballscrew.questions.shared.option_values import faults_named
 
 #: Samples where none are asked for.
 SAMPLES = 1024
@@ -41,7 +42,7 @@ def band(
         inputs[name] = Uncertain(distribution, GIVEN, True, words)
     if only_given and not inputs:
         raise InputError(NOTHING_GIVEN)
-    try:
+    with faults_named({"band.": "--"}):
         found = duty_band(
             report.duty,
             distributions=uncertain,
@@ -49,10 +50,4 @@ def band(
             samples=SAMPLES if samples is None else samples,
             done=done,
         )
-    except InputError as error:
-        faults = (
-            dataclasses.replace(f, where=f.where.replace("band.", "--", 1) if f.where.startswith("band.") else f.where)
-            for f in error.faults
-        )
-        raise InputError(*faults) from None
     return DutyBandReport(report, found, inputs)

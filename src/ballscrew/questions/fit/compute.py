@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ballscrew.basis.errors import Fault, InputError, spoken
+from ballscrew.basis.errors import InputError, spoken
 from ballscrew.basis.quantities import Quantity
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
@@ -27,11 +27,10 @@ from ballscrew.evidence.calibration.response import resolve_input
 from ballscrew.files.torque_logs.torque_log import TorqueLog
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.questions.fit.options import DEFAULT_FREE, FitOptions
-from ballscrew.questions.shared.options import options_of
+from ballscrew.questions.shared.option_values import faults_named, flags_of, with_flag
 
 #: Options of the command line by the fields in which the fit finds faults.
-_FLAGS: Mapping[str, str] = {f"fit.{name}": option.flag for name, option in options_of(FitOptions).items()}
-_LIMITS = "fit.limits."
+_FLAGS: Mapping[str, str] = {"fit.limits.": "--limits ", **flags_of("fit", FitOptions)}
 #: Warnings that the log and the model do not belong together.
 _MISFITS = frozenset({"fit.not_converged", "fit.scatter", "fit.outliers", "fit.baseline_better"})
 
@@ -98,10 +97,8 @@ def fit(case: Case, log: TorqueLog, options: FitOptions, done: Callable[[int, in
     again = bool(priors) and log.source is not None and case.fit.get("sha256") == log.source[1]
     if again:  # an estimate from this log is no further evidence beside the log
         priors = {}
-    try:
+    with faults_named(_FLAGS):
         model = refit(options.free)
-    except InputError as error:
-        raise InputError(*(_with_option(fault) for fault in error.faults)) from None
     of_model = model.warning_records
     warnings = [*constant_torque_missed(model, refit), *of_model, *case.doubts]
     if again:
@@ -113,7 +110,7 @@ def fit(case: Case, log: TorqueLog, options: FitOptions, done: Callable[[int, in
     except InputError as error:  # the fit is valid without a next test
         warnings += [
             Record(
-                text=f"no next test: {_with_option(fault)}",
+                text=f"no next test: {with_flag(fault, _FLAGS)}",
                 id="fit.no_next_test",
                 subject="next_test",
                 severity="warning",
@@ -153,14 +150,6 @@ def _limits_of_log(model: CalibratedModel) -> dict[str, tuple[float, float]]:
     if model.lubricant.follows_temperature and log.temperature is not None:
         conditions[TEMPERATURE.name] = log.temperature
     return {name: (float(values.min()), float(values.max())) for name, values in conditions.items()}
-
-
-def _with_option(fault: Fault) -> Fault:
-    """The fault, with the option of the command line that it is in."""
-    where = fault.where
-    if where.startswith(_LIMITS):
-        return dataclasses.replace(fault, where=f"--limits {where.removeprefix(_LIMITS)}")
-    return dataclasses.replace(fault, where=_FLAGS.get(where, where))
 
 
 def _full_name(subject: Configuration, name: str) -> str | None:

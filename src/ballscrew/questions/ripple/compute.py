@@ -33,7 +33,7 @@ from ballscrew.physics.moving_balls.ripple import (
 from ballscrew.questions.ripple.options import RippleOptions
 from ballscrew.questions.shared.declared import from_attributes, parts_like
 from ballscrew.questions.shared.envelope import envelope
-from ballscrew.questions.shared.options import options_of
+from ballscrew.questions.shared.option_values import faults_named, flags_of
 
 #: Faults that "all" stands for; a nut without preload has none to lose.
 ALL = ("missing-ball", "full", "spall=2 mm x 2 um", "preload=0.35", "groove=3")
@@ -45,11 +45,8 @@ SHOWS_MEAN, SHOWS_RANGE = 0.1, 0.5
 #: Quantiles of a band over nuts.
 LOW, HIGH = 0.1, 0.9
 _FLAGS: Mapping[str, str] = {
-    **{
-        f"{part}.{name}": option.flag
-        for part in ("chain", "ripple")
-        for name, option in options_of(RippleOptions).items()
-    },
+    **flags_of("chain", RippleOptions),
+    **flags_of("ripple", RippleOptions),
     "ripple.defect": "--fault",
     "chain.axial_load": "operation.axial_load",
     "chain.screw_speed": "operation.screw_speed",
@@ -145,12 +142,10 @@ def ripple_of(case: Case, options: RippleOptions, done: Callable[[int, int], Non
             done(next(counted), total)
         return found
 
-    try:
+    with faults_named(_FLAGS):
         usual = run()
         faults = {name: run(defect) for name, defect in defects.items()}
         others = [run(seed=options.seed + i) for i in range(1, options.seeds)]
-    except InputError as error:
-        raise InputError(*(dataclasses.replace(f, where=_FLAGS.get(f.where, f.where)) for f in error.faults)) from None
     return RippleReport(case, given, usual, faults, _range([usual, *others]))
 
 

@@ -6,7 +6,6 @@ import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from ballscrew.basis.errors import Fault, InputError
 from ballscrew.basis.quantities import Quantity, quantities_of
 from ballscrew.basis.records import Record
 from ballscrew.cases.case_files.case import Case
@@ -23,15 +22,13 @@ from ballscrew.files.torque_logs.torque_log import TorqueLog
 from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.physics.friction.result import FrictionResult
 from ballscrew.questions.service.options import ReadingOptions, ServiceOptions
-from ballscrew.questions.shared.options import options_of
+from ballscrew.questions.shared.option_values import faults_named, flags_of
 
 TORQUE: Quantity = quantities_of(FrictionResult)["screw_torque"]
 _OF_PRELOAD = "so with the preload found; in a full bath the same torque asks for a smaller one"
 #: Flags of the command line by the fields in which a service finds faults.
 _FLAGS: Mapping[str, str] = {
-    **{
-        f"service.{name}": one.flag for cls in (ServiceOptions, ReadingOptions) for name, one in options_of(cls).items()
-    },
+    **flags_of("service", ServiceOptions, ReadingOptions),
     "service.screw_speed": "--speed",
     "lubricant.temperature": "--temperature",
 }
@@ -93,7 +90,7 @@ def of_logs(
         logs.insert(0, None)
     new, worn = logs
     uncertain = distributions(case)
-    try:
+    with faults_named(_FLAGS):
         change = preload_change(
             case.model,
             case.screw,
@@ -109,15 +106,13 @@ def of_logs(
             dynamic_load_rating=case.listed.get("dynamic_load_rating"),
             done=done,
         )
-    except InputError as error:
-        raise InputError(*(_with_option(fault) for fault in error.faults)) from None
     records = tuple(change.warning_records)
     return ServiceReport(dataclasses.replace(change, warning_records=records), of_case=case.implausible())
 
 
 def of_torque(case: Case, measured: Reading) -> ServiceReport:
     """The preload of a torque without load."""
-    try:
+    with faults_named(_FLAGS):
         found = preload_of_torque(
             case.model,
             case.screw,
@@ -129,8 +124,6 @@ def of_torque(case: Case, measured: Reading) -> ServiceReport:
             distributions=distributions(case),
             joint=joint_of(case, all_of(case)),
         )
-    except InputError as error:
-        raise InputError(*(_with_option(fault) for fault in error.faults)) from None
     return ServiceReport(
         preload=found, reading=measured, of_case=[*_starved(case, found, measured), *case.implausible()]
     )
@@ -152,8 +145,3 @@ def distributions(case: Case) -> dict[str, Distribution]:
         usual = default_distributions(case.model, case.screw, case.lubricant, given=found, exact=exact)
         found |= {name: distribution for name, (distribution, _) in usual.items()}
     return found
-
-
-def _with_option(fault: Fault) -> Fault:
-    """The fault, with the option of the command line that it is in."""
-    return dataclasses.replace(fault, where=_FLAGS.get(fault.where, fault.where))

@@ -5,12 +5,13 @@ Faults name the flags of the command line.
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from typing import Any, TypeVar, cast
 
 from ballscrew.basis import units
-from ballscrew.basis.errors import Fault, either, fault_of, nearest, raise_if_any
+from ballscrew.basis.errors import Fault, InputError, either, fault_of, nearest, raise_if_any
 from ballscrew.basis.quantities import Info, Quantity
 from ballscrew.questions.shared.options import OptionField, Range, options_of
 
@@ -39,6 +40,27 @@ def read(cls: type[T], written: Mapping[str, Any], quantities_of: QuantitiesOf |
             found[name] = _READERS.get(option.kind, _as_it_is)(option, given, faults)
     raise_if_any(faults)
     return cls(**found)
+
+
+def flags_of(section: str, *classes: type) -> dict[str, str]:
+    """The flags of options by the fields, ``section.field``, in which a computation finds their faults."""
+    return {f"{section}.{name}": option.flag for cls in classes for name, option in options_of(cls).items()}
+
+
+@contextlib.contextmanager
+def faults_named(flags: Mapping[str, str]) -> Generator[None]:
+    """Let faults name the flag by which their field was given, see :func:`with_flag`."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError(*(with_flag(fault, flags) for fault in error.faults)) from None
+
+
+def with_flag(fault: Fault, flags: Mapping[str, str]) -> Fault:
+    """A fault with the flag in place of its field; a key ``section.`` is for all fields that begin so."""
+    where = fault.where
+    known = next((key for key in flags if where == key or (key.endswith(".") and where.startswith(key))), "")
+    return dataclasses.replace(fault, where=flags[known] + where.removeprefix(known)) if known else fault
 
 
 def assignments(given: Mapping[str, str] | Sequence[str]) -> list[str]:

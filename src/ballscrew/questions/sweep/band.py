@@ -25,6 +25,7 @@ from ballscrew.physics.components.materials import TEMPERATURE
 from ballscrew.questions.band import compute as bands
 from ballscrew.questions.band.compute import LEVEL
 from ballscrew.questions.band.options import BandOptions
+from ballscrew.questions.shared.option_values import faults_named
 from ballscrew.questions.sweep import compute as sweeps
 from ballscrew.questions.sweep.compute import Plan
 
@@ -69,7 +70,7 @@ def with_band(
     if count is None:
         count = NUT_SAMPLES if case.screw.nut.one_by_one else SAMPLES
     level = LEVEL if options.level is None else options.level
-    with bands.options_named():
+    with faults_named(bands.FLAGS):
         raise_if_any(faults_of_options(outputs, count, _SEED, level, None))
     dims = tuple(plan.axes)
     shape = tuple(len(values) for values in plan.axes.values())

@@ -21,6 +21,7 @@ from ballscrew.cases.case_files.uncertain_inputs import GIVEN, NOTHING_GIVEN, Un
 from ballscrew.engine.uncertainty.default_uncertainties import default_uncertainties
 from ballscrew.engine.uncertainty.uncertain_value import describe_distribution
 from ballscrew.physics.components.materials import TEMPERATURE
+from ballscrew.questions.shared.option_values import faults_named
 from ballscrew.questions.warm_up.compute import HOUR, WarmUpReport, duty_of, length_of
 
 #: Inputs of an operating point that a transient computes, or that its motion has.
@@ -61,7 +62,7 @@ def band(
         raise InputError(NOTHING_GIVEN)
     joint = uncertain_inputs.joint_of(case, inputs)
     together = () if joint is None else joint.names
-    try:
+    with faults_named({"band.": "--"}):
         found = warm_up_band(
             duty,
             surroundings,
@@ -74,13 +75,7 @@ def band(
             level=0.95 if level is None else level,
             done=done,
         )
-    except InputError as error:
-        raise InputError(*(dataclasses.replace(f, where=_option(f.where)) for f in error.faults)) from None
     return WarmUpBandReport(WarmUpReport(case, surroundings, found.warm_up, stroke), found, inputs)
-
-
-def _option(where: str) -> str:
-    return where.replace("band.", "--", 1) if where.startswith("band.") else where
 
 
 def inputs_of(case: Case, network: Network, only_given: bool) -> Mapping[str, Uncertain]:
