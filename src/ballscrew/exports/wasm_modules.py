@@ -49,7 +49,7 @@ OUTPUTS = (
     "lift_off_load", "residual", "valid", "screw_semi_major_axis", "nut_semi_major_axis", "power_imbalance", *BALL,
 )  # fmt: skip
 #: Of these what sweeps do not ask for.
-_BESIDE: Mapping[str, Output] = {
+_FURTHER: Mapping[str, Output] = {
     "power_imbalance": Output(
         "power_imbalance",
         Quantity("power_imbalance", "1", Info("", "power of the torque beyond what is dissipated, as a share of that")),
@@ -99,7 +99,7 @@ class Module(NamedTuple):
 
     @property
     def described(self) -> dict[str, Any]:
-        """What runs it has to know, as a document: its file, and what each function reads and gives."""
+        """The document for who runs it: its file, and what each function reads and gives."""
         by_ball = {} if self.by_ball is None else {"by_ball": self.by_ball}
         return {"file": self.file, **described(self.functions[0]), **by_ball}
 
@@ -112,7 +112,7 @@ class KeptModule(NamedTuple):
 
     @classmethod
     def of(cls, module: Module) -> KeptModule:
-        """That of a module which was made now."""
+        """The kept form of a module which was made now."""
         return cls(json.loads(json.dumps(module.described)), module.code)
 
     @property
@@ -138,9 +138,9 @@ def described(function: Function) -> dict[str, Any]:
 
 
 def outputs_of(nut: Nut, outputs: Collection[str] = OUTPUTS) -> Mapping[str, Output]:
-    """Those of some outputs that the module of such a nut gives, and all parts of the torque, by name."""
-    beside = {n: output for n, output in _BESIDE.items() if not (nut.is_row and n in BALL)}
-    known = {**known_outputs(nut), **beside}
+    """Outputs, of some, that the module of such a nut gives, and all parts of the torque, by name."""
+    further = {n: output for n, output in _FURTHER.items() if not (nut.is_row and n in BALL)}
+    known = {**known_outputs(nut), **further}
     left_out = {"lift_off_load"} if nut.one_by_one else ()  # a search, which no recording holds
     return {n: o for n, o in known.items() if (n in outputs or n.startswith(_PARTS)) and n not in left_out}
 

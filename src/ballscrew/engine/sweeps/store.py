@@ -36,11 +36,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from ballscrew.basis.errors import (
-    Fault,
-    InputError,
-    raise_if_any,
-)
+from ballscrew.basis.errors import Fault, InputError, raise_if_any
 from ballscrew.engine.evaluation.evaluation import Engine, Evaluation
 from ballscrew.engine.evaluation.plan import Plan
 from ballscrew.engine.sweeps.store_check import LAYOUT, ROOT, Contents, Damage, file_in_place_of_a_folder, stored_plan

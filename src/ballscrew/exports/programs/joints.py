@@ -75,7 +75,7 @@ MUJOCO = Target(mujoco, {**JOINT_OPTIONS, "polynomial": _POLYNOMIAL, "plugin": _
 
 
 def _axis_words(joint: JointFriction) -> str:
-    """What moves, in words, with what is assumed of it."""
+    """The axis in words: what moves, and what is assumed of it."""
     angle = math.degrees(joint.inclination)
     balance = f", balanced by {joint.counterforce:.4g} N" if joint.counterforce else ""
     moves = f"The axis moves {joint.mass:.4g} kg at {angle:.4g} deg above the horizontal{balance}."
@@ -93,7 +93,7 @@ def _axis(job: HandOver, joint: JointFriction) -> dict[str, str]:
 
 
 def _is_balanced(joint: JointFriction) -> bool:
-    """Whether the force that balances the weight can be a share of it, as it is in MJCF."""
+    """Return whether the force that balances the weight can be a share of it, as it is in MJCF."""
     return joint.weight != 0
 
 
